@@ -1,0 +1,61 @@
+# Copyright 2026 The Carpus authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Sourced by ./run and ./test: numbered, timed steps that say what they do and what failed.
+step_number=0
+started=$SECONDS
+
+say() { printf '%s\n' "$*"; }
+
+step() {
+  step_number=$((step_number + 1))
+  printf '\n[%d] %s  (%d min %02d s since the start)\n' "$step_number" "$1" \
+    $(((SECONDS - started) / 60)) $(((SECONDS - started) % 60))
+}
+
+fail() {
+  printf 'carpus: %s\n' "$*" >&2
+  exit 1
+}
+
+require_debian_12() {
+  local id="" version=""
+  if [ -r /etc/os-release ]; then
+    id=$(. /etc/os-release && echo "${ID:-}")
+    version=$(. /etc/os-release && echo "${VERSION_ID:-}")
+  fi
+  [ "$id $version" = "debian 12" ] ||
+    say "note: Carpus is built and tested on Debian 12; this is '${id:-unknown} ${version:-}'. Going on."
+}
+
+# build_targets PRESET TARGET...: configures the preset if that was never done, then builds.
+build_targets() {
+  local preset=$1
+  shift
+  if [ ! -f "build/$preset/build.ninja" ]; then
+    mkdir -p build
+    cmake --preset "$preset" >"build/configure-$preset.log" 2>&1 || {
+      tail -n 30 "build/configure-$preset.log" >&2
+      fail "configuring the build failed; the reason is above."
+    }
+  fi
+  cmake --build "build/$preset" --target "$@" || fail "the build failed; the first error is above."
+}
+
+# Runs npm ci only when the lock file changed since it last succeeded.
+install_web_packages() {
+  local stamp=web/node_modules/.carpus-lock
+  if ! cmp -s web/package-lock.json "$stamp"; then
+    (cd web && npm ci --no-audit --no-fund --loglevel=error) ||
+      fail "npm could not install the page's packages (is the npm registry reachable?)."
+    cp web/package-lock.json "$stamp"
+  fi
+}
+
+# Builds web/dist when a source is newer than the last build.
+build_web() {
+  if [ ! -f web/dist/index.html ] ||
+    [ -n "$(find web/src web/public web/index.html web/package-lock.json web/vite.config.* -newer web/dist/index.html -print -quit 2>/dev/null)" ]; then
+    (cd web && npm run --silent build) || fail "building the page failed; the reason is above."
+  fi
+}
