@@ -1,0 +1,238 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Per slab of slices: (1) correlate every needed slice along x, once for each distinct order in x;
+// (2) along y, once for each distinct pair of orders; (3) along z, row by row, for each requested
+// derivative; (4) combine the rows.
+#include "imaging/detail/derivative_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.hpp"
+
+namespace carpus::imaging::detail {
+namespace {
+
+/// A Gaussian is cut off where it has fallen to e^-8.
+constexpr double kKernelReach = 4.0;
+/// Slices of intermediate results held at once; bounds memory on large scans.
+constexpr int kSlabSlices = 32;
+/// Values summed together; a fixed count lets the compiler use vector registers.
+constexpr std::size_t kBlock = 16;
+
+using Kernel = std::vector<float>;
+
+int radius_of(const Kernel& kernel) { return static_cast<int>(kernel.size() / 2); }
+
+/// Index of the sample that stands for `i` when a line of n samples is mirrored at its ends.
+int mirrored(int i, int n) {
+  const int period = 2 * n;
+  i %= period;
+  if (i < 0) i += period;
+  return i < n ? i : period - 1 - i;
+}
+
+/// out[x] = sum over t of kernel[t] * rows[t][x].
+void weighted_sum(std::span<const float* const> rows,
+                  const Kernel& kernel,
+                  float* out,
+                  std::size_t count) {
+  std::size_t x = 0;
+  for (; x + kBlock <= count; x += kBlock) {
+    std::array<float, kBlock> sum{};
+    for (std::size_t t = 0; t < kernel.size(); ++t) {
+      const float weight = kernel[t];
+      const float* row = rows[t] + x;
+      for (std::size_t i = 0; i < kBlock; ++i) sum[i] += weight * row[i];
+    }
+    for (std::size_t i = 0; i < kBlock; ++i) out[x + i] = sum[i];
+  }
+  for (; x < count; ++x) {
+    float sum = 0;
+    for (std::size_t t = 0; t < kernel.size(); ++t) sum += kernel[t] * rows[t][x];
+    out[x] = sum;
+  }
+}
+
+/// Everything that does not change from slab to slab.
+struct Plan {
+  GridGeometry geometry;
+  std::array<std::array<Kernel, 3>, 3> kernels;  ///< [axis][order]
+  std::vector<std::pair<int, int>> xy_pairs;     ///< distinct orders in x and y, sorted
+  std::vector<std::size_t> pair_of_order;        ///< index into xy_pairs per requested derivative
+  std::vector<DerivativeOrder> orders;
+
+  [[nodiscard]] std::size_t nx() const { return static_cast<std::size_t>(geometry.size[0]); }
+  [[nodiscard]] std::size_t ny() const { return static_cast<std::size_t>(geometry.size[1]); }
+  [[nodiscard]] std::size_t plane() const { return nx() * ny(); }
+};
+
+Plan make_plan(const GridGeometry& geometry,
+               double sigma_mm,
+               std::span<const DerivativeOrder> orders) {
+  Plan plan{geometry, {}, {}, {}, {orders.begin(), orders.end()}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double spacing = geometry.spacing[axis];
+    for (const DerivativeOrder& order : orders) {
+      const int n = order[axis];
+      Kernel& kernel = plan.kernels[axis][static_cast<std::size_t>(n)];
+      if (!kernel.empty()) continue;
+      kernel = gaussian_kernel(sigma_mm / spacing, n);
+      for (float& k : kernel) k = static_cast<float>(k / std::pow(spacing, n));
+    }
+  }
+  for (const DerivativeOrder& order : orders) plan.xy_pairs.emplace_back(order[0], order[1]);
+  std::sort(plan.xy_pairs.begin(), plan.xy_pairs.end());
+  plan.xy_pairs.erase(std::unique(plan.xy_pairs.begin(), plan.xy_pairs.end()), plan.xy_pairs.end());
+  for (const DerivativeOrder& order : orders) {
+    const auto found =
+        std::find(plan.xy_pairs.begin(), plan.xy_pairs.end(), std::pair(order[0], order[1]));
+    plan.pair_of_order.push_back(static_cast<std::size_t>(found - plan.xy_pairs.begin()));
+  }
+  return plan;
+}
+
+void correlate_x(const Plan& plan, const float* slice, const Kernel& kernel, float* out) {
+  const int nx = plan.geometry.size[0];
+  const int radius = radius_of(kernel);
+  std::vector<float> padded(plan.nx() + 2 * static_cast<std::size_t>(radius));
+  std::vector<const float*> rows(kernel.size());
+  for (std::size_t t = 0; t < rows.size(); ++t) rows[t] = padded.data() + t;
+  for (std::size_t y = 0; y < plan.ny(); ++y) {
+    const float* row = slice + y * plan.nx();
+    std::copy_n(row, plan.nx(), padded.begin() + radius);
+    for (int i = 0; i < radius; ++i) {
+      padded[static_cast<std::size_t>(i)] = row[mirrored(i - radius, nx)];
+      padded[static_cast<std::size_t>(radius + nx + i)] = row[mirrored(nx + i, nx)];
+    }
+    weighted_sum(rows, kernel, out + y * plan.nx(), plan.nx());
+  }
+}
+
+void correlate_y(const Plan& plan, const float* slice, const Kernel& kernel, float* out) {
+  const int ny = plan.geometry.size[1];
+  const int radius = radius_of(kernel);
+  std::vector<const float*> rows(kernel.size());
+  for (int y = 0; y < ny; ++y) {
+    for (int t = 0; t < static_cast<int>(kernel.size()); ++t) {
+      rows[static_cast<std::size_t>(t)] =
+          slice + static_cast<std::size_t>(mirrored(y + t - radius, ny)) * plan.nx();
+    }
+    weighted_sum(rows, kernel, out + static_cast<std::size_t>(y) * plan.nx(), plan.nx());
+  }
+}
+
+int z_radius_of(const Plan& plan) {
+  int radius = 0;
+  for (const Kernel& kernel : plan.kernels[2]) {
+    if (!kernel.empty()) radius = std::max(radius, radius_of(kernel));
+  }
+  return radius;
+}
+
+/// Planes of one slab and its margins, per pair of orders in x and y.
+std::vector<std::vector<float>> filter_planes(const Plan& plan,
+                                              const GridView<const float>& input,
+                                              int begin,
+                                              int end) {
+  const auto count = static_cast<std::size_t>(end - begin);
+  std::vector<std::vector<float>> planes(plan.xy_pairs.size(),
+                                         std::vector<float>(count * plan.plane()));
+  std::vector<float> along_x(plan.plane());
+  for (int z = begin; z < end; ++z) {
+    const auto source = static_cast<std::size_t>(mirrored(z, plan.geometry.size[2]));
+    int done_order = -1;
+    for (std::size_t p = 0; p < plan.xy_pairs.size(); ++p) {
+      const auto [order_x, order_y] = plan.xy_pairs[p];
+      if (order_x != done_order) {
+        correlate_x(plan, input.values().data() + source * plan.plane(),
+                    plan.kernels[0][static_cast<std::size_t>(order_x)], along_x.data());
+        done_order = order_x;
+      }
+      correlate_y(plan, along_x.data(), plan.kernels[1][static_cast<std::size_t>(order_y)],
+                  planes[p].data() + static_cast<std::size_t>(z - begin) * plan.plane());
+    }
+  }
+  return planes;
+}
+
+void filter_slab(const Plan& plan,
+                 const GridView<const float>& input,
+                 int begin,
+                 int end,
+                 const CombineRows& combine,
+                 std::span<float> output) {
+  const int margin = z_radius_of(plan);
+  const auto planes = filter_planes(plan, input, begin - margin, end + margin);
+  std::vector<std::vector<float>> results(plan.orders.size(), std::vector<float>(plan.nx()));
+  std::vector<const float*> result_rows;
+  for (const auto& row : results) result_rows.push_back(row.data());
+  std::vector<const float*> rows;
+  for (int z = begin; z < end; ++z) {
+    for (std::size_t y = 0; y < plan.ny(); ++y) {
+      for (std::size_t o = 0; o < plan.orders.size(); ++o) {
+        const Kernel& kernel = plan.kernels[2][static_cast<std::size_t>(plan.orders[o][2])];
+        const int first = z - begin + margin - radius_of(kernel);
+        rows.resize(kernel.size());
+        for (std::size_t t = 0; t < rows.size(); ++t) {
+          rows[t] = planes[plan.pair_of_order[o]].data() +
+                    (static_cast<std::size_t>(first) + t) * plan.plane() + y * plan.nx();
+        }
+        weighted_sum(rows, kernel, results[o].data(), plan.nx());
+      }
+      combine(result_rows,
+              output.data() + static_cast<std::size_t>(z) * plan.plane() + y * plan.nx(),
+              plan.nx());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<float> gaussian_kernel(double sigma, int order) {
+  CARPUS_CHECK(sigma >= 0 && order >= 0 && order <= 2);
+  if (sigma == 0 && order == 0) return {1.0F};
+  // A derivative needs neighbours even where sigma is far below the spacing.
+  const double s = std::max(sigma, 0.2);
+  const int radius = std::max(1, static_cast<int>(std::ceil(kKernelReach * s)));
+  std::vector<double> g;
+  double sum = 0;
+  for (int i = -radius; i <= radius; ++i) sum += g.emplace_back(std::exp(-0.5 * i * i / (s * s)));
+  for (double& v : g) v /= sum;
+  const auto at = [&](int i) -> double& { return g[static_cast<std::size_t>(i + radius)]; };
+  if (order == 1) {
+    double slope = 0;
+    for (int i = -radius; i <= radius; ++i) slope += (at(i) *= i) * i;
+    for (double& v : g) v /= slope;
+  } else if (order == 2) {
+    double variance = 0;
+    for (int i = -radius; i <= radius; ++i) variance += at(i) * i * i;
+    double curvature = 0;  // what the kernel answers to i^2 / 2
+    for (int i = -radius; i <= radius; ++i) {
+      curvature += (at(i) *= i * i - variance) * i * i / 2;
+    }
+    for (double& v : g) v /= curvature;
+  }
+  return {g.begin(), g.end()};
+}
+
+void filter_derivatives(const GridView<const float>& input,
+                        double sigma_mm,
+                        std::span<const DerivativeOrder> orders,
+                        const CombineRows& combine,
+                        std::span<float> output) {
+  CARPUS_CHECK(output.size() == input.values().size());
+  if (output.empty()) return;
+  const Plan plan = make_plan(input.geometry(), sigma_mm, orders);
+  const auto slices = static_cast<std::size_t>(plan.geometry.size[2]);
+  parallel_for(slices, kSlabSlices, [&](std::size_t first, std::size_t last) {
+    for (int z = static_cast<int>(first); z < static_cast<int>(last); z += kSlabSlices) {
+      filter_slab(plan, input, z, std::min(z + kSlabSlices, static_cast<int>(last)), combine,
+                  output);
+    }
+  });
+}
+
+}  // namespace carpus::imaging::detail

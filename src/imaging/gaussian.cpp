@@ -1,0 +1,80 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "imaging/gaussian.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "imaging/detail/derivative_engine.hpp"
+
+namespace carpus::imaging {
+
+using detail::DerivativeOrder;
+using Rows = std::span<const float* const>;
+
+Grid<float> as_float(const GridView<const std::int16_t>& image) {
+  Grid<float> result(image.geometry());
+  std::copy(image.values().begin(), image.values().end(), result.values().begin());
+  return result;
+}
+
+Grid<float> gaussian_smooth(const GridView<const float>& image, double sigma_mm) {
+  Grid<float> result(image.geometry());
+  constexpr std::array<DerivativeOrder, 1> kOrders{{{0, 0, 0}}};
+  const auto copy_row = [](Rows rows, float* out, std::size_t count) {
+    std::copy_n(rows[0], count, out);
+  };
+  detail::filter_derivatives(image, sigma_mm, kOrders, copy_row, result.values());
+  return result;
+}
+
+Grid<float> gradient_magnitude(const GridView<const float>& image, double sigma_mm) {
+  Grid<float> result(image.geometry());
+  constexpr std::array<DerivativeOrder, 3> kOrders{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const auto norm = [](Rows rows, float* out, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      out[i] =
+          std::sqrt(rows[0][i] * rows[0][i] + rows[1][i] * rows[1][i] + rows[2][i] * rows[2][i]);
+    }
+  };
+  detail::filter_derivatives(image, sigma_mm, kOrders, norm, result.values());
+  return result;
+}
+
+Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_mm) {
+  Grid<float> result(image.geometry());
+  constexpr std::array<DerivativeOrder, 6> kOrders{
+      {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
+  const double scale = sigma_mm * sigma_mm;
+  const auto positive_eigenvalue = [scale](Rows rows, float* out, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = largest_eigenvalue(rows[0][i], rows[1][i], rows[2][i], rows[3][i],
+                                              rows[4][i], rows[5][i]);
+      out[i] = value > 0 ? static_cast<float>(scale * value) : 0.0F;
+    }
+  };
+  detail::filter_derivatives(image, sigma_mm, kOrders, positive_eigenvalue, result.values());
+  return result;
+}
+
+double largest_eigenvalue(double xx,
+                          double yy,
+                          double zz,
+                          double xy,
+                          double xz,
+                          double yz) noexcept {
+  const double mean = (xx + yy + zz) / 3;
+  const double a = xx - mean;
+  const double b = yy - mean;
+  const double c = zz - mean;
+  const double p = std::sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6);
+  if (!(p > 0)) return mean;
+  const double det = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+  const double r = std::clamp(det / (2 * p * p * p), -1.0, 1.0);
+  return mean + 2 * p * std::cos(std::acos(r) / 3);
+}
+
+}  // namespace carpus::imaging

@@ -1,0 +1,138 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "imaging/gaussian.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rng.hpp"
+#include "imaging/detail/derivative_engine.hpp"
+
+namespace carpus::imaging {
+namespace {
+
+GridGeometry geometry_of(int nx, int ny, int nz, Vec3 spacing) {
+  GridGeometry g;
+  g.size = {nx, ny, nz};
+  g.spacing = spacing;
+  return g;
+}
+
+template <typename F>
+Grid<float> sampled(const GridGeometry& g, const F& f) {
+  Grid<float> grid(g);
+  for (std::size_t i = 0; i < grid.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    grid[i] = static_cast<float>(f(g.patient_from_voxel(
+        {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)})));
+  }
+  return grid;
+}
+
+const GridGeometry kAnisotropic = geometry_of(37, 29, 21, {0.3, 0.4, 0.7});
+const VoxelIndex kCentre{18, 14, 10};
+
+TEST(Gaussian, LeavesAConstantAsItIs) {
+  const Grid<float> image = sampled(kAnisotropic, [](const Vec3&) { return 417.0; });
+  const Grid<float> smooth = gaussian_smooth(image.view(), 0.6);
+  for (const float v : smooth.values()) ASSERT_NEAR(v, 417.0, 1e-3);
+}
+
+TEST(Gaussian, ASigmaOfZeroIsTheIdentity) {
+  Rng rng(1);
+  const Grid<float> image = sampled(kAnisotropic, [&](const Vec3&) { return rng.uniform(); });
+  const Grid<float> smooth = gaussian_smooth(image.view(), 0.0);
+  for (std::size_t i = 0; i < image.values().size(); ++i) ASSERT_EQ(smooth[i], image[i]);
+}
+
+TEST(Gaussian, KeepsTheMassOfAPointAndSpreadsItBySigmaInMillimetresOnEveryAxis) {
+  Grid<float> image(kAnisotropic);
+  image[kCentre] = 1000;
+  constexpr double kSigma = 0.8;
+  const Grid<float> smooth = gaussian_smooth(image.view(), kSigma);
+  double mass = 0;
+  Vec3 variance;
+  for (std::size_t i = 0; i < smooth.values().size(); ++i) {
+    const VoxelIndex v = kAnisotropic.index_of(i);
+    const Vec3 d{(v.x - kCentre.x) * 0.3, (v.y - kCentre.y) * 0.4, (v.z - kCentre.z) * 0.7};
+    mass += static_cast<double>(smooth[i]);
+    variance += Vec3{d.x * d.x, d.y * d.y, d.z * d.z} * static_cast<double>(smooth[i]);
+  }
+  EXPECT_NEAR(mass, 1000, 0.1);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(variance[axis] / mass, kSigma * kSigma, 0.02) << "axis " << axis;
+  }
+}
+
+TEST(Gaussian, IsSeparableSoSmoothingTwiceAddsVariances) {
+  Rng rng(2);
+  const Grid<float> image =
+      sampled(geometry_of(24, 24, 24, {0.3, 0.3, 0.3}), [&](const Vec3&) { return rng.uniform(); });
+  const Grid<float> once = gaussian_smooth(image.view(), 0.75);
+  const Grid<float> first = gaussian_smooth(image.view(), 0.45);
+  const Grid<float> twice = gaussian_smooth(first.view(), 0.6);
+  for (int z = 8; z < 16; ++z) {
+    for (int x = 8; x < 16; ++x) {
+      EXPECT_NEAR((once[VoxelIndex{x, 12, z}]), (twice[VoxelIndex{x, 12, z}]), 2e-3);
+    }
+  }
+}
+
+TEST(Gaussian, CommutesWithFlippingAnAxis) {
+  Rng rng(3);
+  const GridGeometry g = geometry_of(17, 11, 9, {0.3, 0.4, 0.7});
+  const Grid<float> image = sampled(g, [&](const Vec3&) { return rng.uniform(); });
+  Grid<float> flipped(g);
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    flipped[VoxelIndex{16 - v.x, v.y, v.z}] = image[i];
+  }
+  const Grid<float> a = gradient_magnitude(image.view(), 0.5);
+  const Grid<float> b = gradient_magnitude(flipped.view(), 0.5);
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    ASSERT_NEAR(a[i], (b[VoxelIndex{16 - v.x, v.y, v.z}]), 1e-4);
+  }
+}
+
+TEST(GradientMagnitude, OfARampIsItsSlopePerMillimetreWhateverTheVoxels) {
+  const Vec3 slope{3, -4, 12};
+  const Grid<float> image = sampled(kAnisotropic, [&](const Vec3& p) { return dot(slope, p); });
+  for (const double sigma : {0.1, 0.3, 0.6}) {
+    const Grid<float> gradient = gradient_magnitude(image.view(), sigma);
+    EXPECT_NEAR(gradient[kCentre], 13.0, 0.01) << "sigma " << sigma;
+  }
+}
+
+TEST(DarkSheet, AnswersToADarkSheetAndNotToABrightOne) {
+  const auto sheet = [](double sign) {
+    return sampled(geometry_of(40, 40, 40, {0.3, 0.3, 0.3}), [sign](const Vec3& p) {
+      const double t = (p.x - 6.0) / 0.5;
+      return 300 + sign * 200 * std::exp(-0.5 * t * t);
+    });
+  };
+  const VoxelIndex on_sheet{20, 20, 20};
+  const Grid<float> dark = dark_sheet_measure(sheet(-1).view(), 0.5);
+  const Grid<float> bright = dark_sheet_measure(sheet(+1).view(), 0.5);
+  // A Gaussian dip of width 0.5 seen with sigma 0.5: 200 * 0.5^3 / (0.5^2 + 0.5^2)^(3/2) = 70.7.
+  EXPECT_NEAR(dark[on_sheet], 70.7, 2.0);
+  EXPECT_NEAR(bright[on_sheet], 0.0, 0.5);
+}
+
+TEST(LargestEigenvalue, SolvesTheCharacteristicEquationAndBoundsTheQuadraticForm) {
+  Rng rng(4);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double xx = rng.uniform(-5, 5), yy = rng.uniform(-5, 5), zz = rng.uniform(-5, 5);
+    const double xy = rng.uniform(-5, 5), xz = rng.uniform(-5, 5), yz = rng.uniform(-5, 5);
+    const double e = largest_eigenvalue(xx, yy, zz, xy, xz, yz);
+    const Mat3 m{{Vec3{xx - e, xy, xz}, Vec3{xy, yy - e, yz}, Vec3{xz, yz, zz - e}}};
+    ASSERT_NEAR(m.determinant(), 0.0, 1e-9 * 1000);
+    const Vec3 u = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
+    ASSERT_LE(dot(u, m * u), 1e-9);
+  }
+  EXPECT_EQ(largest_eigenvalue(2, 2, 2, 0, 0, 0), 2.0);
+}
+
+}  // namespace
+}  // namespace carpus::imaging

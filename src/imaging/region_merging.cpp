@@ -1,0 +1,194 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "imaging/region_merging.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace carpus::imaging {
+namespace {
+
+using Pair = std::pair<RegionLabel, RegionLabel>;
+
+Pair ordered(RegionLabel a, RegionLabel b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Regions that join and vanish; remembers into which region each label went.
+class Merger {
+ public:
+  explicit Merger(RegionTable table) : table_(std::move(table)), into_(table_.voxels.size()) {
+    for (std::size_t i = 0; i < into_.size(); ++i) into_[i] = static_cast<RegionLabel>(i);
+  }
+
+  [[nodiscard]] std::optional<Pair> widest_neck(double limit) const {
+    std::optional<Pair> best;
+    double best_ratio = limit;
+    for (const auto& [pair, contact] : table_.contacts) {
+      const float peak = std::min(table_.peak[pair.first], table_.peak[pair.second]);
+      const double ratio = peak > 0 ? static_cast<double>(contact.saddle / peak) : 0.0;
+      if (ratio > best_ratio || (!best && ratio >= limit)) {
+        best = pair;
+        best_ratio = ratio;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] RegionLabel smallest_below(double voxels) const {
+    RegionLabel best = 0;
+    for (std::size_t i = 1; i < table_.voxels.size(); ++i) {
+      const std::size_t n = table_.voxels[i];
+      if (n == 0 || static_cast<double>(n) >= voxels) continue;
+      if (best == 0 || n < table_.voxels[best]) best = static_cast<RegionLabel>(i);
+    }
+    return best;
+  }
+
+  [[nodiscard]] RegionLabel most_touched_by(RegionLabel region) const {
+    RegionLabel best = 0;
+    double best_area = 0;
+    for (const auto& [pair, contact] : table_.contacts) {
+      if (pair.first != region && pair.second != region) continue;
+      if (contact.area_mm2 > best_area) {
+        best_area = contact.area_mm2;
+        best = pair.first == region ? pair.second : pair.first;
+      }
+    }
+    return best;
+  }
+
+  /// Joins `from` into `to`; `to` = 0 drops it.
+  void join(RegionLabel to, RegionLabel from) {
+    for (RegionLabel& label : into_) {
+      if (label == from) label = to;
+    }
+    std::map<Pair, Contact> contacts;
+    for (const auto& [pair, contact] : table_.contacts) {
+      const RegionLabel a = pair.first == from ? to : pair.first;
+      const RegionLabel b = pair.second == from ? to : pair.second;
+      if (a == b || a == 0 || b == 0) continue;
+      Contact& joined = contacts[ordered(a, b)];
+      joined.area_mm2 += contact.area_mm2;
+      joined.saddle = std::max(joined.saddle, contact.saddle);
+    }
+    table_.contacts = std::move(contacts);
+    if (to != 0) {
+      table_.voxels[to] += table_.voxels[from];
+      table_.peak[to] = std::max(table_.peak[to], table_.peak[from]);
+    }
+    table_.voxels[from] = 0;
+  }
+
+  /// Labels without holes.
+  [[nodiscard]] std::vector<RegionLabel> renumbered() const {
+    std::vector<RegionLabel> number(into_.size(), 0);
+    RegionLabel next = 0;
+    for (std::size_t i = 1; i < into_.size(); ++i) {
+      if (table_.voxels[i] > 0 && into_[i] == i) number[i] = ++next;
+    }
+    std::vector<RegionLabel> result(into_.size(), 0);
+    for (std::size_t i = 1; i < into_.size(); ++i) result[i] = number[into_[i]];
+    return result;
+  }
+
+ private:
+  RegionTable table_;
+  std::vector<RegionLabel> into_;
+};
+
+}  // namespace
+
+RegionTable measure_regions(const GridView<const RegionLabel>& labels,
+                            const GridView<const float>& height) {
+  const GridGeometry& g = labels.geometry();
+  RegionLabel count = 0;
+  for (const RegionLabel label : labels.values()) count = std::max(count, label);
+  RegionTable table;
+  table.voxels.assign(count + std::size_t{1}, 0);
+  table.peak.assign(count + std::size_t{1}, -std::numeric_limits<float>::infinity());
+  const auto dy = static_cast<std::size_t>(g.size[0]);
+  const std::size_t dz = dy * static_cast<std::size_t>(g.size[1]);
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    const RegionLabel a = labels[i];
+    if (a == 0) continue;
+    ++table.voxels[a];
+    table.peak[a] = std::max(table.peak[a], height[i]);
+    const VoxelIndex v = g.index_of(i);
+    const auto touch = [&](bool inside, std::size_t j, double face_mm2) {
+      if (!inside || labels[j] == 0 || labels[j] == a) return;
+      const float saddle = std::min(height[i], height[j]);
+      const auto [contact, is_new] = table.contacts.try_emplace(ordered(a, labels[j]));
+      contact->second.area_mm2 += face_mm2;
+      contact->second.saddle = is_new ? saddle : std::max(contact->second.saddle, saddle);
+    };
+    touch(v.x + 1 < g.size[0], i + 1, g.spacing.y * g.spacing.z);
+    touch(v.y + 1 < g.size[1], i + dy, g.spacing.x * g.spacing.z);
+    touch(v.z + 1 < g.size[2], i + dz, g.spacing.x * g.spacing.y);
+  }
+  return table;
+}
+
+std::vector<RegionLabel> merge_regions(RegionTable table,
+                                       double voxel_volume_mm3,
+                                       const MergeOptions& options) {
+  Merger merger(std::move(table));
+  while (const std::optional<Pair> pair = merger.widest_neck(options.neck_ratio)) {
+    merger.join(pair->first, pair->second);
+  }
+  const double min_voxels = options.min_volume_mm3 / voxel_volume_mm3;
+  while (const RegionLabel small = merger.smallest_below(min_voxels)) {
+    merger.join(merger.most_touched_by(small), small);
+  }
+  return merger.renumbered();
+}
+
+void relabel(const GridView<RegionLabel>& labels, const std::vector<RegionLabel>& labels_to) {
+  for (RegionLabel& label : labels.values()) label = labels_to[label];
+}
+
+std::size_t keep_largest_components(const GridView<RegionLabel>& labels) {
+  const GridGeometry& g = labels.geometry();
+  const auto dy = static_cast<std::size_t>(g.size[0]);
+  const std::size_t dz = dy * static_cast<std::size_t>(g.size[1]);
+  std::vector<std::uint32_t> component(labels.values().size(), 0);
+  std::vector<std::size_t> size_of{0};
+  std::vector<std::uint32_t> best_of;  // [region] its largest component so far
+  std::vector<std::size_t> stack;
+  for (std::size_t seed = 0; seed < component.size(); ++seed) {
+    const RegionLabel label = labels[seed];
+    if (label == 0 || component[seed] != 0) continue;
+    const auto number = static_cast<std::uint32_t>(size_of.size());
+    size_of.push_back(0);
+    component[seed] = number;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const std::size_t i = stack.back();
+      stack.pop_back();
+      ++size_of[number];
+      const VoxelIndex v = g.index_of(i);
+      const auto visit = [&](bool inside, std::size_t j) {
+        if (!inside || labels[j] != label || component[j] != 0) return;
+        component[j] = number;
+        stack.push_back(j);
+      };
+      visit(v.x > 0, i - 1);
+      visit(v.x + 1 < g.size[0], i + 1);
+      visit(v.y > 0, i - dy);
+      visit(v.y + 1 < g.size[1], i + dy);
+      visit(v.z > 0, i - dz);
+      visit(v.z + 1 < g.size[2], i + dz);
+    }
+    if (best_of.size() <= label) best_of.resize(label + std::size_t{1}, 0);
+    if (size_of[number] > size_of[best_of[label]]) best_of[label] = number;
+  }
+  std::size_t removed = 0;
+  for (std::size_t i = 0; i < component.size(); ++i) {
+    if (labels[i] != 0 && component[i] != best_of[labels[i]]) {
+      labels[i] = 0;
+      ++removed;
+    }
+  }
+  return removed;
+}
+
+}  // namespace carpus::imaging

@@ -1,0 +1,43 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Watershed from markers: water rises over a relief from the markers only, and where two basins
+// meet they stay apart. For given markers the result is unique. Sources:
+// [beucher1992morphological], [meyer1994topographic]; thesis §3.2 [yaacoub2008].
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "geometry/grid.hpp"
+
+namespace carpus::imaging {
+
+/// Region numbers; 0 = none.
+using RegionLabel = std::uint16_t;
+
+/// Which voxels the water can flow between.
+enum class FloodSpace : std::uint8_t {
+  Volume,  ///< the six face neighbours
+  Slices,  ///< the four neighbours in the slice: each slice for itself, as in the thesis
+};
+
+struct WatershedOptions {
+  FloodSpace space = FloodSpace::Volume;
+  /// Leave a wall of label 0, one voxel thick, where basins meet (the thesis's form); otherwise
+  /// such voxels belong to the basin that reached them first.
+  bool keep_dams = false;
+  /// The relief is quantised to this many levels between its least and greatest finite value;
+  /// first-in-first-out within one level.
+  int levels = 4096;
+};
+
+/// Floods `relief` from the voxels of `labels` that are not 0, which keep their label, until no
+/// unlabelled voxel touches a basin. Only voxels where `mask` is not 0 are flooded (empty = all).
+/// A relief that is not finite counts as the highest level. Deterministic; O(n + levels).
+void flood_from_markers(const GridView<const float>& relief,
+                        std::span<const std::uint8_t> mask,
+                        const WatershedOptions& options,
+                        const GridView<RegionLabel>& labels);
+
+}  // namespace carpus::imaging

@@ -1,0 +1,240 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "imaging/watershed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "imaging/binary_mask.hpp"
+#include "imaging/peak_markers.hpp"
+#include "imaging/region_merging.hpp"
+
+namespace carpus::imaging {
+namespace {
+
+/// A relief without ties (a random permutation of 0..n-1) and some markers.
+struct Problem {
+  Grid<float> relief;
+  Grid<RegionLabel> markers;
+  RegionLabel marker_count = 0;
+};
+
+Problem random_problem(std::uint64_t seed) {
+  Rng rng(seed);
+  GridGeometry g;
+  g.size = {static_cast<int>(2 + rng.below(8)), static_cast<int>(2 + rng.below(8)),
+            static_cast<int>(2 + rng.below(8))};
+  Problem p{Grid<float>(g), Grid<RegionLabel>(g), 0};
+  const std::size_t n = g.voxel_count();
+  std::vector<float> heights(n);
+  std::iota(heights.begin(), heights.end(), 0.0F);
+  for (std::size_t i = n - 1; i > 0; --i) std::swap(heights[i], heights[rng.below(i + 1)]);
+  std::copy(heights.begin(), heights.end(), p.relief.values().begin());
+  p.marker_count = static_cast<RegionLabel>(1 + rng.below(4));
+  for (RegionLabel m = 1; m <= p.marker_count; ++m) p.markers[rng.below(n)] = m;
+  return p;
+}
+
+/// One level a height, so that no two voxels of a random problem share one.
+WatershedOptions exact_levels(const Problem& p) {
+  WatershedOptions options;
+  options.levels = static_cast<int>(p.relief.values().size());
+  return options;
+}
+
+Grid<RegionLabel> flooded(const Problem& p, const WatershedOptions& options) {
+  Grid<RegionLabel> labels = p.markers;
+  flood_from_markers(p.relief.view(), {}, options, labels.view());
+  return labels;
+}
+
+/// Greatest height on the lowest path from the markers of each label to `target`: by Dijkstra on
+/// the maximum, the slow and obvious definition.
+std::vector<float> pass_heights(const Problem& p, RegionLabel label) {
+  const GridGeometry& g = p.relief.geometry();
+  std::vector<float> best(p.relief.values().size(), 1e9F);
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    if (p.markers[i] == label) best[i] = -1;
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      if (p.markers[i] != 0) continue;
+      const VoxelIndex v = g.index_of(i);
+      for (const VoxelIndex& n : {VoxelIndex{v.x - 1, v.y, v.z}, VoxelIndex{v.x + 1, v.y, v.z},
+                                  VoxelIndex{v.x, v.y - 1, v.z}, VoxelIndex{v.x, v.y + 1, v.z},
+                                  VoxelIndex{v.x, v.y, v.z - 1}, VoxelIndex{v.x, v.y, v.z + 1}}) {
+        if (!g.contains(n)) continue;
+        const float through = std::max(best[g.offset_of(n)], p.relief[i]);
+        if (through < best[i]) {
+          best[i] = through;
+          changed = true;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+RC_GTEST_PROP(Watershed, GivesEachVoxelToAMarkerThatReachesItOverTheLowestPass, ()) {
+  const Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
+  const Grid<RegionLabel> labels = flooded(p, exact_levels(p));
+  std::vector<std::vector<float>> heights(p.marker_count + std::size_t{1});
+  for (RegionLabel m = 1; m <= p.marker_count; ++m) heights[m] = pass_heights(p, m);
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    RC_ASSERT(labels[i] != 0);
+    for (RegionLabel m = 1; m <= p.marker_count; ++m) {
+      RC_ASSERT(heights[labels[i]][i] <= heights[m][i]);
+    }
+  }
+}
+
+RC_GTEST_PROP(Watershed, KeepsMarkersPartitionsTheMaskAndStaysInside, ()) {
+  const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
+  const Problem p = random_problem(seed);
+  Rng rng(seed + 1);
+  std::vector<std::uint8_t> mask(p.relief.values().size());
+  for (std::uint8_t& m : mask) m = rng.uniform() < 0.7 ? 1 : 0;
+  Grid<RegionLabel> labels = p.markers;
+  flood_from_markers(p.relief.view(), mask, {}, labels.view());
+  // Reachable = in a component of (mask or marker) that holds a marker.
+  Grid<std::uint8_t> space(p.relief.geometry());
+  for (std::size_t i = 0; i < mask.size(); ++i) space[i] = mask[i] | (p.markers[i] != 0 ? 1 : 0);
+  const Components c = connected_components(space.view());
+  std::vector<bool> has_marker(c.voxels.size(), false);
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (p.markers[i] != 0) has_marker[c.labels[i]] = true;
+  }
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (p.markers[i] != 0) RC_ASSERT(labels[i] == p.markers[i]);
+    RC_ASSERT((labels[i] != 0) == (space[i] != 0 && has_marker[c.labels[i]]));
+  }
+}
+
+RC_GTEST_PROP(Watershed, WithoutTiesIsTheSameInAFlippedVolume, ()) {
+  const Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
+  const GridGeometry& g = p.relief.geometry();
+  const auto flip = [&](std::size_t i) {
+    const VoxelIndex v = g.index_of(i);
+    return VoxelIndex{g.size[0] - 1 - v.x, g.size[1] - 1 - v.y, g.size[2] - 1 - v.z};
+  };
+  Problem flipped{Grid<float>(g), Grid<RegionLabel>(g), p.marker_count};
+  for (std::size_t i = 0; i < p.relief.values().size(); ++i) {
+    flipped.relief[flip(i)] = p.relief[i];
+    flipped.markers[flip(i)] = p.markers[i];
+  }
+  // With walls: a voxel between two basins then belongs to neither, so no order of visiting is
+  // left.
+  WatershedOptions options = exact_levels(p);
+  options.keep_dams = true;
+  const Grid<RegionLabel> a = flooded(p, options);
+  const Grid<RegionLabel> b = flooded(flipped, options);
+  for (std::size_t i = 0; i < a.values().size(); ++i) RC_ASSERT(a[i] == b[flip(i)]);
+}
+
+RC_GTEST_PROP(Watershed, DamsKeepBasinsApart, ()) {
+  const Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
+  WatershedOptions options = exact_levels(p);
+  options.keep_dams = true;
+  const Grid<RegionLabel> labels = flooded(p, options);
+  const GridGeometry& g = p.relief.geometry();
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    for (const VoxelIndex& n : {VoxelIndex{v.x + 1, v.y, v.z}, VoxelIndex{v.x, v.y + 1, v.z},
+                                VoxelIndex{v.x, v.y, v.z + 1}}) {
+      if (!g.contains(n) || labels[i] == 0 || labels[n] == 0) continue;
+      // Only markers placed side by side may touch.
+      if (p.markers[i] != 0 && p.markers[n] != 0) continue;
+      RC_ASSERT(labels[i] == labels[n]);
+    }
+  }
+}
+
+RC_GTEST_PROP(Watershed, SliceBySliceNeverCrossesSlices, ()) {
+  const Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
+  WatershedOptions options = exact_levels(p);
+  options.space = FloodSpace::Slices;
+  const Grid<RegionLabel> labels = flooded(p, options);
+  const GridGeometry& g = p.relief.geometry();
+  const std::size_t plane = static_cast<std::size_t>(g.size[0] * g.size[1]);
+  for (std::size_t z = 0; z < static_cast<std::size_t>(g.size[2]); ++z) {
+    std::vector<bool> present(p.marker_count + std::size_t{1}, false);
+    bool any = false;
+    for (std::size_t i = z * plane; i < (z + 1) * plane; ++i) {
+      present[p.markers[i]] = true;
+      any = any || p.markers[i] != 0;
+    }
+    for (std::size_t i = z * plane; i < (z + 1) * plane; ++i) {
+      RC_ASSERT((labels[i] != 0) == any);
+      if (any) RC_ASSERT(present[labels[i]]);
+    }
+  }
+}
+
+TEST(Watershed, MeetsOnTheCrestBetweenTwoValleys) {
+  GridGeometry g;
+  g.size = {11, 1, 1};
+  Problem p{Grid<float>(g, {0, 1, 2, 3, 4, 5, 9, 3, 2, 1, 0}), Grid<RegionLabel>(g), 2};
+  p.markers[0] = 1;
+  p.markers[10] = 2;
+  WatershedOptions options;
+  options.keep_dams = true;
+  const Grid<RegionLabel> labels = flooded(p, options);
+  const std::vector<RegionLabel> expected{1, 1, 1, 1, 1, 1, 0, 2, 2, 2, 2};
+  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), labels.values().begin()));
+}
+
+TEST(Watershed, SharesAPlateauByDistance) {
+  GridGeometry g;
+  g.size = {9, 1, 1};
+  Problem p{Grid<float>(g), Grid<RegionLabel>(g), 2};
+  p.markers[0] = 1;
+  p.markers[8] = 2;
+  const Grid<RegionLabel> labels = flooded(p, {});
+  EXPECT_EQ(labels[3], 1);
+  EXPECT_EQ(labels[5], 2);
+}
+
+TEST(ProminentPeaks, AreThoseThatStandOutBySaddleAndHeight) {
+  GridGeometry g;
+  g.size = {13, 1, 1};
+  //                             5 stands out by 5; 4.9 by 0.1 from it; 3 by 2; 0.6 by 0.6
+  const Grid<float> height(g, {0, 5, 4.8F, 4.9F, 1, 3, 2.9F, 3, 0, 0.6F, 0, 2, 1});
+  const Grid<std::uint8_t> mask(g, 1);
+  EXPECT_EQ(prominent_peaks(height.view(), mask.view(), {0.2, 1.0}),
+            (std::vector<std::size_t>{1, 5, 11}));
+  EXPECT_EQ(prominent_peaks(height.view(), mask.view(), {0.05, 0.5}),
+            (std::vector<std::size_t>{1, 3, 5, 7, 11, 9}));
+  EXPECT_EQ(prominent_peaks(height.view(), mask.view(), {2.0, 0.0}),
+            (std::vector<std::size_t>{1, 5, 11}));
+}
+
+TEST(RegionMerging, JoinsOverAWideNeckOnly) {
+  RegionTable table;
+  table.voxels = {0, 1000, 900, 800, 10, 5};
+  table.peak = {0, 5, 4, 4, 1, 1};
+  table.contacts[{1, 2}] = {20, 3.6F};  // ratio 0.9
+  table.contacts[{2, 3}] = {10, 1.0F};  // 0.25
+  table.contacts[{3, 4}] = {2, 0.3F};   // small region 4 touches 3 most
+  table.contacts[{1, 4}] = {1, 0.2F};
+  const auto merged = merge_regions(table, 1.0, {0.6, 100});
+  EXPECT_EQ(merged, (std::vector<RegionLabel>{0, 1, 1, 2, 2, 0}));
+}
+
+TEST(RegionMerging, KeepsTheLargestPieceOfEachRegion) {
+  GridGeometry g;
+  g.size = {8, 1, 1};
+  Grid<RegionLabel> labels(g, {1, 1, 2, 1, 2, 2, 0, 1});
+  EXPECT_EQ(keep_largest_components(labels.view()), 3U);
+  const std::vector<RegionLabel> expected{1, 1, 0, 0, 2, 2, 0, 0};
+  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), labels.values().begin()));
+}
+
+}  // namespace
+}  // namespace carpus::imaging
