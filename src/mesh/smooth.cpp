@@ -1,0 +1,81 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/smooth.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace carpus::mesh {
+namespace {
+
+/// Successors of each vertex, one list after the other. In a closed mesh the edges that leave a
+/// vertex reach each neighbour once.
+struct Neighbours {
+  std::vector<std::size_t> first;  ///< of vertex v: [first[v], first[v + 1])
+  std::vector<std::uint32_t> list;
+};
+
+Neighbours neighbours_of(const TriangleMesh& mesh) {
+  Neighbours result;
+  result.first.assign(mesh.vertices.size() + 1, 0);
+  for (const Triangle& t : mesh.facets) {
+    for (const std::uint32_t v : t) ++result.first[v + 1];
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) result.first[v + 1] += result.first[v];
+  result.list.resize(mesh.facets.size() * 3);
+  std::vector<std::size_t> next(result.first.begin(), result.first.end() - 1);
+  for (const Triangle& t : mesh.facets) {
+    for (std::size_t i = 0; i < 3; ++i) result.list[next[t[i]]++] = t[(i + 1) % 3];
+  }
+  return result;
+}
+
+/// v += factor * (mean of neighbours - v), from the old positions of all.
+void step(std::vector<Vec3>& vertices,
+          std::vector<Vec3>& moved,
+          const Neighbours& neighbours,
+          double factor) {
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const std::size_t begin = neighbours.first[v];
+    const std::size_t end = neighbours.first[v + 1];
+    moved[v] = vertices[v];
+    if (begin == end) continue;
+    Vec3 sum{};
+    for (std::size_t i = begin; i < end; ++i) sum += vertices[neighbours.list[i]];
+    moved[v] += (sum / static_cast<double>(end - begin) - vertices[v]) * factor;
+  }
+  std::swap(vertices, moved);
+}
+
+void restore_volume(TriangleMesh& mesh, double volume_mm3) {
+  const double now = volume_of(mesh);
+  if (!(now * volume_mm3 > 0)) return;
+  const double scale = std::cbrt(volume_mm3 / now);
+  const Vec3 centre = centroid_of(mesh);
+  for (Vec3& v : mesh.vertices) v = centre + (v - centre) * scale;
+}
+
+}  // namespace
+
+TriangleMesh smooth(TriangleMesh mesh, const SmoothOptions& options) {
+  if (!(options.iterations >= 0 && options.lambda > 0 && options.lambda < 1 &&
+        options.mu < -options.lambda && options.mu > -1)) {
+    throw InvalidInput("smooth: iterations >= 0 and 0 < lambda < -mu < 1 are required");
+  }
+  const Neighbours neighbours = neighbours_of(mesh);
+  const double volume_mm3 = options.restores_volume ? volume_of(mesh) : 0.0;
+  std::vector<Vec3> moved(mesh.vertices.size());
+  for (int i = 0; i < options.iterations; ++i) {
+    step(mesh.vertices, moved, neighbours, options.lambda);
+    step(mesh.vertices, moved, neighbours, options.mu);
+  }
+  if (options.restores_volume) restore_volume(mesh, volume_mm3);
+  return mesh;
+}
+
+}  // namespace carpus::mesh
