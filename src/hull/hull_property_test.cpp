@@ -1,0 +1,181 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All algorithms on many seeded point sets, most of them degenerate. Each result is verified by
+// detail/hull_verification.hpp, which knows nothing of how it was made (or is equal, in every
+// corner and facet, to one that was). CARPUS_LONG=1 runs 100 000 sets instead of 2000.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "geometry/predicates.hpp"
+#include "hull/brute_force_hull.hpp"
+#include "hull/chan_hull.hpp"
+#include "hull/detail/degenerate_points.hpp"
+#include "hull/detail/face_polygon.hpp"
+#include "hull/detail/hull_verification.hpp"
+#include "hull/fast_hull.hpp"
+#include "hull/gift_wrapping.hpp"
+#include "hull/hybrid_hull.hpp"
+#include "hull/quickhull.hpp"
+
+namespace carpus::hull {
+namespace {
+
+struct Algorithm {
+  const char* name;
+  HullResult (*build)(std::span<const Vec3>, const HullOptions&);
+  std::size_t most_points;
+};
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+const std::array kAlgorithms{
+    Algorithm{"quickhull", build_convex_hull, kAnyNumber},
+    Algorithm{"fast",
+              [](std::span<const Vec3> p, const HullOptions&) { return build_fast_hull(p); },
+              kAnyNumber},
+    Algorithm{"gift_wrapping", build_hull_by_gift_wrapping, kAnyNumber},
+    Algorithm{"chan", build_hull_by_chan, kAnyNumber},
+    Algorithm{"hybrid", build_hull_by_hybrid, kAnyNumber},
+    Algorithm{"brute_force", build_hull_by_brute_force, 16}};  // O(n^4)
+
+std::uint64_t case_count() {
+  const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)
+  return value != nullptr && std::string(value) == "1" ? 100'000 : 2000;
+}
+
+/// Points of one plane, of one line, one point many times, few points.
+std::vector<Vec3> flat_points(Rng& rng) {
+  const std::uint64_t kind = rng.below(5);
+  std::vector<Vec3> points;
+  for (std::uint64_t i = rng.below(40); i > 0; --i) {
+    const double a = static_cast<double>(rng.below(20)) - 9;
+    const double b = static_cast<double>(rng.below(20)) - 9;
+    Vec3 p{a, b, a + 2 * b};
+    if (kind == 1) p = {rng.uniform(-1, 1), rng.uniform(-1, 1), 0.7};
+    if (kind == 2) p = {a, 3 * a, -5 * a};
+    if (kind == 3) p = {0.1, 0.2, 0.3};
+    if (kind == 4 && i == 1) p.z += 1;  // one point off the plane
+    points.push_back(p);
+  }
+  return points;
+}
+
+std::vector<Vec3> points_of_case(std::uint64_t seed) {
+  Rng rng(seed + 0x9000'0000);
+  if (seed % 10 == 9) return flat_points(rng);
+  std::vector<Vec3> points = random_points(seed);
+  if (seed % 10 == 8) {
+    const std::array factors{1e95, 1e-75, 0.1, 7e3};
+    const double factor = factors[rng.below(factors.size())];
+    for (Vec3& p : points) p *= factor;
+  }
+  if (seed % 10 == 7) {  // far from the origin: coordinates lose bits, points fall together
+    for (Vec3& p : points) p += {1e6, -3e7, 2e15};
+  }
+  if (seed % 3 == 0) points.resize(std::min<std::size_t>(points.size(), 4 + rng.below(12)));
+  return points;
+}
+
+/// By definition, for finite points in range.
+HullStatus status_of(const std::vector<Vec3>& points) {
+  if (points.size() < 4) return HullStatus::TooFewPoints;
+  const Vec3& a = points[0];
+  const auto b = std::find_if(points.begin(), points.end(), [&](const Vec3& p) { return p != a; });
+  if (b == points.end()) return HullStatus::Collinear;
+  const auto c = std::find_if(points.begin(), points.end(),
+                              [&](const Vec3& p) { return !are_collinear(a, *b, p); });
+  if (c == points.end()) return HullStatus::Collinear;
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vec3& p) { return orient3d_exact(a, *b, *c, p) == 0; })
+             ? HullStatus::Coplanar
+             : HullStatus::Ok;
+}
+
+/// Empty, or what is wrong.
+std::string check_all(const std::vector<Vec3>& points, bool has_duplicates) {
+  const HullStatus expected = status_of(points);
+  HullResult first;
+  for (const Algorithm& algorithm : kAlgorithms) {
+    if (points.size() > algorithm.most_points) continue;
+    HullResult result = algorithm.build(points, {});
+    const std::string name = algorithm.name;
+    if (result.status != expected) return name + ": another status";
+    if (expected != HullStatus::Ok) {
+      if (!result.polytope.facets.empty()) return name + ": a polytope without a hull";
+      continue;
+    }
+    const bool is_same = first.status == HullStatus::Ok &&
+                         result.polytope.vertices == first.polytope.vertices &&
+                         result.polytope.input_indices == first.polytope.input_indices &&
+                         result.polytope.facets == first.polytope.facets &&
+                         result.polytope.neighbours == first.polytope.neighbours;
+    if (is_same) continue;
+    if (first.status == HullStatus::Ok && !has_duplicates) return name + ": other bytes";
+    if (const std::string wrong = verify_hull(result.polytope, points); !wrong.empty()) {
+      return name + ": " + wrong;
+    }
+    if (first.status != HullStatus::Ok) first = std::move(result);
+  }
+  return "";
+}
+
+TEST(HullProperties, HoldForEveryAlgorithmOnManySeeds) {
+  std::uint64_t hulls = 0;
+  const std::uint64_t count = case_count();
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const std::vector<Vec3> points = points_of_case(seed);
+    std::vector<Vec3> distinct;
+    for (const std::uint32_t i : distinct_points(points)) distinct.push_back(points[i]);
+    const bool use_distinct = seed % 2 == 0;
+    ASSERT_EQ(check_all(use_distinct ? distinct : points, distinct.size() < points.size()), "")
+        << "seed " << seed;
+    hulls += status_of(points) == HullStatus::Ok ? 1 : 0;
+  }
+  EXPECT_GT(hulls, count / 2);
+  EXPECT_LT(hulls, count);  // inputs without a hull are among them
+}
+
+std::vector<Vec3> corners_sorted(const HullResult& hull) {
+  std::vector<Vec3> v = hull.polytope.vertices;
+  std::sort(v.begin(), v.end(), [](const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  });
+  return v;
+}
+
+TEST(HullProperties, DoNotDependOnOrderDuplicationSignsOrAxes) {
+  const std::uint64_t count = case_count() / 10;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const std::vector<Vec3> points = points_of_case(seed);
+    std::vector<Vec3> moved = points;
+    Rng rng(seed);
+    for (std::size_t i = 0; i < points.size(); i += 3) moved.push_back(points[i]);
+    for (std::size_t i = moved.size(); i > 1; --i) std::swap(moved[i - 1], moved[rng.below(i)]);
+    // An exact rotation: a cyclic change of axes, and two signs.
+    const auto rotated = [](const Vec3& p) { return Vec3{-p.y, p.z, -p.x}; };
+    std::transform(moved.begin(), moved.end(), moved.begin(), rotated);
+    for (const Algorithm& algorithm : kAlgorithms) {
+      if (moved.size() > algorithm.most_points) continue;
+      HullResult expected = algorithm.build(points, {});
+      const HullResult found = algorithm.build(moved, {});
+      if (points.size() < 4) continue;  // duplication changes the number
+      ASSERT_EQ(found.status, expected.status) << algorithm.name << " seed " << seed;
+      auto& v = expected.polytope.vertices;
+      std::transform(v.begin(), v.end(), v.begin(), rotated);
+      ASSERT_EQ(corners_sorted(found), corners_sorted(expected)) << algorithm.name << " " << seed;
+      const HullResult again = algorithm.build(found.polytope.vertices, {});
+      if (found.status != HullStatus::Ok) continue;
+      ASSERT_EQ(again.polytope.facets, found.polytope.facets) << algorithm.name << " " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carpus::hull
