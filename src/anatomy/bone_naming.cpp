@@ -1,0 +1,152 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// 1. Measure the regions. 2. Name them as a left and as a right wrist; the cheaper wins. 3. Try
+// each pair of near regions as one broken bone; keep the pair if that is cheaper still. 4. Lay the
+// model's radius on the patient's for the coordinate system. 5. Tell the parts of a broken scaphoid
+// apart.
+#include "anatomy/bone_naming.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "anatomy/detail/naming_search.hpp"
+#include "anatomy/radius_fit.hpp"
+#include "anatomy/region_shape.hpp"
+
+namespace carpus::anatomy {
+namespace {
+
+using detail::Naming;
+
+/// Fragments of one bone lie closer than this; nonunion gaps are 1 to 3 mm.
+constexpr double kFragmentGap_mm = 4.0;
+/// Two pieces together are no larger than this in a wrist of the model's size, whose largest carpal
+/// bone, the capitate, has 2548 mm^3.
+constexpr double kFragmentVolume_mm3 = 4500.0;
+/// Fewer named bones than this is not a wrist that anyone operates on.
+constexpr std::size_t kLeastBones = 8;
+
+/// A naming of the bodies that are left when two regions count as one.
+struct Account {
+  Naming naming;
+  std::vector<std::vector<std::size_t>> regions_of_body;
+  std::vector<BodyShape> bodies;
+};
+
+Account account_of(const std::vector<BodyShape>& shapes,
+                   std::optional<std::pair<std::size_t, std::size_t>> pair) {
+  Account account;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (pair && i == pair->second) continue;
+    const bool is_pair = pair && i == pair->first;
+    account.bodies.push_back(is_pair ? joined(shapes[i], shapes[pair->second]) : shapes[i]);
+    account.regions_of_body.push_back({i});
+    if (is_pair) account.regions_of_body.back().push_back(pair->second);
+  }
+  return account;
+}
+
+bool could_be_fragments(const BodyShape& a, const BodyShape& b, double scale) {
+  return !a.is_cut && !b.is_cut &&
+         a.volume_mm3 + b.volume_mm3 < kFragmentVolume_mm3 * scale * scale * scale &&
+         a.bounds.grown(kFragmentGap_mm).overlaps(b.bounds) && gap_between(a, b) < kFragmentGap_mm;
+}
+
+/// The cheapest account with one broken bone, or none if whole bones explain the regions better.
+std::optional<Account> with_broken_bone(const std::vector<BodyShape>& shapes, const Naming& whole) {
+  std::optional<Account> best;
+  double best_cost = whole.cost;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (std::size_t j = i + 1; j < shapes.size(); ++j) {
+      if (!could_be_fragments(shapes[i], shapes[j], whole.patient_from_model.scale)) continue;
+      Account account = account_of(shapes, std::pair(i, j));
+      account.naming = detail::best_naming_near(account.bodies, whole);
+      if (!(account.naming.cost < best_cost)) continue;
+      best_cost = account.naming.cost;
+      best = std::move(account);
+    }
+  }
+  return best;
+}
+
+void fit_frame(const Account& account, BoneNaming& result) {
+  Similarity patient_from_model = account.naming.patient_from_model;
+  const std::size_t radius = static_cast<std::size_t>(BoneId::Radius) - 1;
+  if (const auto body = account.naming.body_of_bone[radius]) {
+    const RadiusFit fit =
+        fit_radius(account.bodies[*body].rim, account.naming.side, patient_from_model);
+    patient_from_model = fit.patient_from_model;
+    result.radius_misfit_mm = fit.rms_mm;
+  }
+  const Pose<frame::Patient, frame::Wrist> patient_from_wrist{patient_from_model.rotation,
+                                                              patient_from_model.translation};
+  result.wrist_from_patient = patient_from_wrist.inverse();
+  result.scale = account.naming.patient_from_model.scale;
+}
+
+/// Marks the two pieces of a scaphoid: the proximal one lies farther along the wrist's +x.
+void tell_parts_apart(const std::vector<BodyShape>& shapes,
+                      const std::vector<std::size_t>& regions,
+                      BoneNaming& result) {
+  if (regions.size() != 2 || result.regions[regions[0]]->bone != BoneId::Scaphoid) return;
+  const auto along = [&](std::size_t i) {
+    return (result.wrist_from_patient * Point<frame::Patient>{shapes[i].centroid}).v.x;
+  };
+  const bool first_is_proximal = along(regions[0]) >= along(regions[1]);
+  result.regions[regions[0]]->part = first_is_proximal ? BonePart::Proximal : BonePart::Distal;
+  result.regions[regions[1]]->part = first_is_proximal ? BonePart::Distal : BonePart::Proximal;
+}
+
+NamingStatus judge(const BoneNaming& result) {
+  if (kBoneCount - result.missing.size() < kLeastBones) return NamingStatus::NotAWrist;
+  // Missing bones are said by name; whether the rest fits is judged without them.
+  double fit = 0;
+  for (const auto& region : result.regions) {
+    if (region && region->part != BonePart::Distal) fit += region->cost;
+  }
+  if (fit >= kRefusedNamingCost) return NamingStatus::NotAWrist;
+  if (fit >= kDoubtfulNamingCost) return NamingStatus::Doubtful;
+  return result.missing.empty() ? NamingStatus::Ok : NamingStatus::Incomplete;
+}
+
+}  // namespace
+
+BoneNaming name_bones(const GridView<const std::uint16_t>& regions, std::uint16_t count) {
+  BoneNaming result;
+  const std::vector<BodyShape> shapes = measure_shapes(regions, count);
+  result.regions.resize(count);
+  if (count < 3) {  // no orientation can be found
+    result.status = NamingStatus::NotAWrist;
+    result.missing.assign(kAllBones.begin(), kAllBones.end());
+    return result;
+  }
+  Account account = account_of(shapes, std::nullopt);
+  Naming other = detail::best_naming(account.bodies, Side::Right);
+  account.naming = detail::best_naming(account.bodies, Side::Left);
+  if (other.cost < account.naming.cost) std::swap(other, account.naming);
+  if (auto broken = with_broken_bone(shapes, account.naming)) {
+    account = std::move(*broken);
+    other = detail::best_naming(account.bodies, other.side);
+  }
+  result.side = account.naming.side;
+  result.cost = account.naming.cost;
+  result.other_side_cost = other.cost;
+  fit_frame(account, result);
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    const auto body = account.naming.body_of_bone[b];
+    if (!body) {
+      result.missing.push_back(kAllBones[b]);
+      continue;
+    }
+    for (const std::size_t region : account.regions_of_body[*body]) {
+      result.regions[region] =
+          RegionName{kAllBones[b], BonePart::Whole, account.naming.bone_cost[b]};
+    }
+    tell_parts_apart(shapes, account.regions_of_body[*body], result);
+  }
+  result.status = judge(result);
+  return result;
+}
+
+}  // namespace carpus::anatomy

@@ -1,0 +1,71 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A bone as a solid, whole or in fragments: the fragments as they lie, with the gap between them
+// closed, because a nonunion is still one bone to the surgeon who puts a screw through it.
+// The gap is closed by a morphological closing (dilation, then erosion, by a ball) of the voxelised
+// fragments [serra1982morphology]; distances by the transform of [felzenszwalb2012distance].
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace carpus {
+
+/// Part of a line that lies inside a body: positions along the line's direction [mm].
+struct LineInterval {
+  double enter_mm = 0.0;
+  double leave_mm = 0.0;
+};
+
+/// Fragments, and the space between them where it is at most this wide [mm], count as inside: a
+/// waist nonunion of 1.5 to 2.5 mm with its rough faces, and the voxels that segmentation loses.
+inline constexpr double kBridgedGapMm = 4.0;
+
+/// A sample of a bone's outer surface.
+struct OuterPoint {
+  Vec3 point;
+  double area_mm2 = 0.0;  ///< of the surface that it stands for
+};
+
+/// A bone from the surfaces of its fragments. Built once (about 0.1 s); queries do not allocate but
+/// where they return a vector.
+class BoneSolid {
+ public:
+  /// @param fragments  closed outward surfaces in one frame [mm], at least one, not empty.
+  /// @throws InvalidInput when there is nothing to build from.
+  explicit BoneSolid(std::span<const TriangleMesh* const> fragments);
+
+  /// True inside a fragment or the bridged gap; exact to about half a voxel (0.2 mm).
+  [[nodiscard]] bool contains(const Vec3& point) const noexcept;
+
+  /// Samples of the outer surface, at most 0.5 mm apart; fracture faces are left out.
+  [[nodiscard]] const std::vector<OuterPoint>& outer_points() const noexcept {
+    return outer_points_;
+  }
+
+  /// The parts of the line `point + t * direction` (unit vector) inside the bone, gaps bridged,
+  /// ascending; ends are exact intersections with the surfaces.
+  [[nodiscard]] std::vector<LineInterval> intervals_along(const Vec3& point,
+                                                          const Vec3& direction) const;
+
+  /// The interval of intervals_along that holds t = 0, or the nearest one; empty when the line
+  /// misses the bone.
+  [[nodiscard]] std::optional<LineInterval> chord_through(const Vec3& point,
+                                                          const Vec3& direction) const;
+
+  /// Area [mm^2] of the connected part, around `point`, of the section with the plane through
+  /// `point` perpendicular to `normal`, gap included.
+  [[nodiscard]] double section_area_mm2(const Vec3& point, const Vec3& normal) const;
+
+ private:
+  std::vector<TriangleMesh> fragments_;
+  Grid<unsigned char> closed_;  ///< 1 inside
+  std::vector<OuterPoint> outer_points_;
+};
+
+}  // namespace carpus
