@@ -1,0 +1,92 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a case holds: one patient's wrist, ready to operate on. Plain values; folders and files are
+// case_io's business.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "anatomy/bone_id.hpp"
+#include "geometry/convex_polytope.hpp"
+#include "geometry/grid.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace carpus::cases {
+
+/// Schema of the case folder that this program writes; it reads this one and older ones.
+inline constexpr int kCaseSchemaVersion = 1;
+
+/// One bone, or one part of a broken one.
+struct Bone {
+  BoneId bone = BoneId::Radius;
+  BonePart part = BonePart::Whole;
+  std::uint8_t label = 0;  ///< its value in CaseData::labels
+  TriangleMesh surface;    ///< closed, outward; frame Bone, which is Patient as scanned [mm]
+  ConvexPolytope hull;     ///< of the surface's vertices, same frame
+  Grid<float>
+      distance_field;  ///< signed distance to the surface [mm], negative inside, clamped to a band
+  /// Where the bone is now, relative to where it was scanned; identity until a posture moves it.
+  Pose<frame::Patient, frame::Bone> patient_from_bone;
+};
+
+/// A line along which the screw should lie, with both ends on the bone's surface, frame Patient
+/// [mm].
+struct AxisSegment {
+  Vec3 proximal;  ///< where the line enters at the proximal pole
+  Vec3 distal;    ///< where it leaves at the distal pole
+};
+
+/// What the score measures against (docs/scoring.md). Frame Patient as scanned, which is where the
+/// scaphoid stays in every posture.
+struct ScaphoidLandmarks {
+  AxisSegment central_axis;      ///< axis of the widest cylinder that fits inside the bone
+  double central_radius_mm = 0;  ///< that cylinder's radius
+  AxisSegment longest_line;      ///< the longest straight line through the bone, reported beside it
+  Vec3 waist;                    ///< point of the central axis where the bone is narrowest
+};
+
+/// How the hand is held for the operation. The hand stays where it was scanned and the forearm
+/// turns, so that the CT, the axis and the screw keep their coordinates.
+struct Posture {
+  double flexion_from_scan_rad =
+      0;  ///< about the wrist's +y (left wrist) axis; positive flexes the hand
+  Pose<frame::Patient, frame::Bone>
+      patient_from_forearm;  ///< moves radius, ulna and what follows them
+};
+
+/// Where a case comes from and how it was made.
+struct Provenance {
+  bool simulated =
+      false;            ///< true for anything not scanned from a person; shown wherever it is used
+  std::string source;   ///< what was read, in words; never a path or a patient's name
+  std::string made_by;  ///< program and version
+  std::string made_at;  ///< UTC, ISO 8601
+};
+
+/// One patient's wrist. `ct`, `labels` and surfaces share the Patient frame.
+struct CaseData {
+  std::string pseudonym;  ///< e.g. "demo wrist"
+  Side side = Side::Left;
+  Provenance provenance;
+  Pose<frame::Wrist, frame::Patient> wrist_from_patient;  ///< rigid, never a reflection
+  Grid<std::int16_t> ct;                                  ///< HU
+  Grid<std::uint8_t> labels;                              ///< see anatomy/bone_id.hpp
+  std::vector<Bone> bones;                                ///< in the order of their labels
+  TriangleMesh skin;  ///< Patient [mm]; may be empty, may be open at the field of view's ends
+  ScaphoidLandmarks scaphoid;
+  Posture operative_posture;  ///< what posture.hpp applies before an operation
+};
+
+/// The bone or part with this name, or nullptr.
+[[nodiscard]] const Bone* find_bone(const CaseData& data,
+                                    BoneId bone,
+                                    BonePart part = BonePart::Whole) noexcept;
+
+/// The parts that make up the scaphoid: one whole, or proximal and distal.
+[[nodiscard]] std::vector<const Bone*> scaphoid_parts(const CaseData& data);
+
+}  // namespace carpus::cases
