@@ -1,0 +1,54 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where wire and screw lie in the scaphoid: the geometry under the score.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "anatomy/bone_solid.hpp"
+#include "cases/case_data.hpp"
+#include "procedure/operation_record.hpp"
+#include "procedure/screw_catalogue.hpp"
+
+namespace carpus::procedure::detail {
+
+/// How far the wire runs beside the central axis at one level of it.
+struct Offset {
+  double distance_mm = 0.0;
+  double local_width_mm = 0.0;  ///< diameter of the circle with the section's area
+};
+
+/// Line of the wire against the central axis.
+struct LinePlacement {
+  double angle_deg = 0.0;
+  double angle_to_longest_deg = 0.0;
+  Offset at_waist;
+  Offset at_proximal;  ///< at a sixth of the axis from the proximal end
+  Offset at_distal;    ///< at a sixth from the distal end
+  LineInterval chord;  ///< of the wire's line inside the scaphoid, from the entry along it [mm]
+};
+
+/// A screw on that line.
+struct ScrewPlacement {
+  double proximal_cover_mm = 0.0;  ///< bone over its tail along the line, negative: stands out
+  double distal_cover_mm = 0.0;    ///< bone before its tip
+  double penetration_mm = 0.0;     ///< how far any part of it stands out of the bone
+  std::string penetration_at;      ///< where, in words; empty when nowhere
+};
+
+/// Nothing when the line misses the scaphoid.
+[[nodiscard]] std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
+                                                      const cases::ScaphoidLandmarks& landmarks,
+                                                      const Vec3& entry,
+                                                      const Vec3& direction);
+
+[[nodiscard]] ScrewPlacement place_screw(const BoneSolid& scaphoid,
+                                         const cases::CaseData& data,
+                                         const LinePlacement& line,
+                                         const OperationRecord& record,
+                                         const Screw& screw);
+
+}  // namespace carpus::procedure::detail

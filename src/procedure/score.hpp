@@ -1,0 +1,85 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The truth about an operation, from geometry. Every item, limit and weight is defined and argued
+// in docs/scoring.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "geometry/vec3.hpp"
+#include "procedure/operation_record.hpp"
+
+namespace carpus::procedure {
+
+enum class Grade : std::uint8_t { Good = 0, Acceptable = 1, Fail = 2, NotMeasured = 3 };
+
+/// "good", "acceptable", "fail", "not_measured".
+[[nodiscard]] std::string_view name_of(Grade grade) noexcept;
+
+/// One measured thing.
+struct ScoreItem {
+  std::string id;               ///< stable, snake_case, ends with its unit
+  std::string label;            ///< for people
+  std::optional<double> value;  ///< empty where there was nothing to measure
+  std::string unit;             ///< "deg", "mm", "s", "cGy cm2", "1"
+  std::string target;           ///< "at most 5° good, over 15° fail", with units
+  Grade grade = Grade::NotMeasured;
+  double points = 0.0;
+  double points_possible = 0.0;
+  std::string reason;  ///< why it matters and what was seen, one or two sentences
+};
+
+/// A condition without which the fixation cannot be accepted.
+struct MustHave {
+  std::string id;
+  std::string label;
+  bool fulfilled = false;
+};
+
+/// A straight line in the Patient frame, where the scaphoid lies [mm].
+struct PlacedLine {
+  Vec3 from;
+  Vec3 to;
+};
+
+/// Where things lie, to be drawn beside the figures.
+struct PlacementPicture {
+  PlacedLine central_axis;          ///< proximal to distal
+  Vec3 waist;                       ///< on the central axis
+  std::optional<PlacedLine> wire;   ///< entry to tip
+  std::optional<PlacedLine> screw;  ///< tail to tip
+  double screw_tip_diameter_mm = 0.0;
+  double screw_tail_diameter_mm = 0.0;
+};
+
+/// The score of one operation.
+struct ScoreReport {
+  double overall = 0.0;  ///< 0 to 100, sum of the items' points
+  bool is_fixation_acceptable = false;
+  std::vector<MustHave> must_haves;
+  std::vector<ScoreItem> items;
+
+  double central_axis_length_mm = 0.0;
+  double central_cylinder_radius_mm = 0.0;
+  double longest_line_mm = 0.0;
+  std::optional<double> angle_to_longest_line_deg;
+  std::optional<double> true_length_mm;    ///< along the wire between the cortices
+  std::optional<double> gauge_reading_mm;  ///< what the trainee measured
+  int ideal_screw_index = -1;              ///< for the true length; -1 when there is none
+  std::string ideal_screw;                 ///< its name, empty when there is none
+  int chosen_screw_index = -1;
+  std::string chosen_screw;
+  std::string penetration_at;  ///< "proximal", "distal", "side" or empty; with the bone reached
+  PlacementPicture placement;
+};
+
+/// Scores an operation against the case that it was done on. Deterministic; about 0.5 s.
+/// @param data  the case, as scanned or in its operative posture; needs `scaphoid` and `bones`.
+[[nodiscard]] ScoreReport score_operation(const cases::CaseData& data,
+                                          const OperationRecord& record);
+
+}  // namespace carpus::procedure
