@@ -1,0 +1,33 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "trainee/attempt.hpp"
+
+#include "simulation/world.hpp"
+#include "trainee/scripted_trainee.hpp"
+
+namespace carpus::trainee {
+
+Attempt operate(const cases::CaseData& posed_case,
+                Skill skill,
+                std::uint64_t seed,
+                const std::string& program_version) {
+  constexpr auto kProcedure = procedure::ProcedureId::DorsalScaphoidFixation;
+  simulation::World world(posed_case, kProcedure, seed);
+  simulation::Recorder recorder(program_version, simulation::fingerprint_of(posed_case), kProcedure,
+                                seed);
+  ScriptedTrainee trainee(posed_case, skill, seed);
+  Attempt attempt;
+  while (!world.now().finished) {
+    const simulation::Input input = trainee.next(world.now());
+    recorder.append(input);
+    const simulation::Snapshot& now = world.step(input);
+    for (std::size_t i = 0; i < now.event_count; ++i) attempt.events.push_back(now.events[i]);
+  }
+  attempt.last = world.now();
+  attempt.recording = recorder.finished(attempt.last.state_hash);
+  attempt.record = world.operation_record();
+  attempt.score = procedure::score_operation(posed_case, attempt.record);
+  return attempt;
+}
+
+}  // namespace carpus::trainee
