@@ -1,0 +1,172 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/case_folder.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case_io/detail/case_json.hpp"
+#include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/hull_from_mesh.hpp"
+#include "case_io/detail/volume_file.hpp"
+#include "case_io/glb.hpp"
+#include "case_io/ply.hpp"
+#include "case_io/write_volume.hpp"
+#include "core/error.hpp"
+
+namespace carpus::case_io {
+namespace fs = std::filesystem;
+namespace {
+
+/// A volume file may differ from case.json by its format's rounding, here over the whole grid [mm].
+constexpr double kSamePlaceMm = 1e-3;
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) throw_cannot_write(file);
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw IoError(file.string() +
+                  ": is not there or cannot be read; give a case folder made by "
+                  "'carpus reconstruct'");
+  }
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string bone_name(const cases::Bone& bone) {
+  return std::string(name_of(bone.bone, bone.part));
+}
+
+void check_complete(const cases::CaseData& data) {
+  if (data.ct.values().empty() || data.labels.values().empty() || data.bones.empty()) {
+    throw InvalidInput("a case needs a CT, labels and bones; reconstruct it from a CT first");
+  }
+  for (const cases::Bone& bone : data.bones) {
+    if (bone.surface.facets.empty() || bone.hull.facets.empty() ||
+        bone.distance_field.values().empty()) {
+      throw InvalidInput("the case's " + bone_name(bone) + " lacks surface, hull or field");
+    }
+  }
+}
+
+bool are_alike(const GridGeometry& a, const GridGeometry& b) {
+  if (a.size != b.size) return false;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 v{};
+    for (std::size_t i = 0; i < 3; ++i) v[i] = (corner >> i) % 2 == 0 ? 0.0 : a.size[i] - 1;
+    if (!(distance(a.patient_from_voxel(v), b.patient_from_voxel(v)) < kSamePlaceMm)) return false;
+  }
+  return true;
+}
+
+/// A volume of the folder, on the grid that case.json gives.
+template <typename T>
+Grid<T> read_grid(const fs::path& folder, const std::string& name, const CaseHeader& header) {
+  const fs::path file = folder / name;
+  const auto known = header.grids.find(name);
+  if (known == header.grids.end()) {
+    throw IoError((folder / "case.json").string() + ": does not describe " + name +
+                  "; restore it or make the case again from its CT");
+  }
+  if (!fs::exists(file)) {
+    throw IoError(file.string() + ": is missing; restore it or make the case again from its CT");
+  }
+  ValueCount count;
+  Grid<T> stored = read_volume_file<T>(file, count);
+  if (!are_alike(stored.geometry(), known->second)) {
+    throw IoError(file.string() +
+                  ": lies elsewhere than case.json says; one of the two was "
+                  "changed: make the case again from its CT");
+  }
+  if (count.not_finite + count.clamped + count.rounded > 0) {
+    throw IoError(file.string() +
+                  ": holds values that it cannot have; restore it or make the case "
+                  "again from its CT");
+  }
+  return Grid<T>(known->second, std::vector<T>(stored.values().begin(), stored.values().end()));
+}
+
+void read_bone(const fs::path& folder, const CaseHeader& header, cases::Bone& bone) {
+  const std::string name = bone_name(bone);
+  const fs::path surface_file = folder / "bones" / (name + ".ply");
+  bone.surface = read_ply(surface_file);
+  if (check_surface(bone.surface) != SurfaceStatus::Ok) {
+    throw IoError(surface_file.string() +
+                  ": is no closed surface; restore it or make the case again from its CT");
+  }
+  const fs::path hull_file = folder / "hulls" / (name + ".ply");
+  auto hull = hull_from_mesh(read_ply(hull_file), bone.surface.vertices);
+  if (!hull) {
+    throw IoError(hull_file.string() + ": is no convex hull of bones/" + name +
+                  ".ply; restore it or make the case again from its CT");
+  }
+  bone.hull = std::move(*hull);
+  bone.distance_field = read_grid<float>(folder, field_file(bone), header);
+}
+
+void write_bone(const fs::path& folder, const cases::Bone& bone) {
+  const std::string name = bone_name(bone);
+  write_ply(folder / "bones" / (name + ".ply"), bone.surface);
+  write_ply(folder / "hulls" / (name + ".ply"), bone.hull.surface());
+  write_volume<float>(folder / field_file(bone), bone.distance_field.view());
+}
+
+}  // namespace
+
+void write_case(const cases::CaseData& data,
+                const fs::path& folder,
+                Overwrite overwrite,
+                const Progress& progress) {
+  check_complete(data);
+  progress("saving", 0.0);
+  AtomicFolder out(folder, overwrite);
+  for (const char* part : {"bones", "hulls", "fields"}) {
+    std::error_code error;
+    fs::create_directory(out.staging() / part, error);
+    if (error) throw_cannot_write(out.staging() / part);
+  }
+  const double steps = static_cast<double>(data.bones.size()) + 3;
+  double done = 0;
+  for (const cases::Bone& bone : data.bones) {
+    write_bone(out.staging(), bone);
+    progress("saving", ++done / steps);
+  }
+  if (!data.skin.facets.empty()) write_ply(out.staging() / "skin.ply", data.skin);
+  write_text(out.staging() / "bones.glb", make_case_glb(data));
+  write_volume<std::int16_t>(out.staging() / "ct.nii.gz", data.ct.view());
+  progress("saving", ++done / steps);
+  write_volume<std::uint8_t>(out.staging() / "labels.nii.gz", data.labels.view());
+  write_text(out.staging() / "case.json", case_json_text(data));
+  out.commit();
+  progress("saving", 1.0);
+}
+
+cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
+  const fs::path file = folder / "case.json";
+  CaseHeader header = parse_case_json(read_text(file), file);
+  cases::CaseData& data = header.data;
+  const double steps = static_cast<double>(data.bones.size()) + 2;
+  double done = 0;
+  for (cases::Bone& bone : data.bones) {
+    read_bone(folder, header, bone);
+    progress("loading", ++done / steps);
+  }
+  if (fs::exists(folder / "skin.ply")) data.skin = read_ply(folder / "skin.ply");
+  data.ct = read_grid<std::int16_t>(folder, "ct.nii.gz", header);
+  progress("loading", ++done / steps);
+  data.labels = read_grid<std::uint8_t>(folder, "labels.nii.gz", header);
+  progress("loading", 1.0);
+  return std::move(header.data);
+}
+
+}  // namespace carpus::case_io

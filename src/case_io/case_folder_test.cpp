@@ -1,0 +1,286 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/case_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "case_io/ply.hpp"
+#include "core/error.hpp"
+
+namespace carpus::case_io {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// An octahedron about `centre`, with the hull in the order that hull_from_mesh gives.
+cases::Bone octahedron(BoneId id, BonePart part, std::uint8_t label, const Vec3& centre) {
+  cases::Bone bone;
+  bone.bone = id;
+  bone.part = part;
+  bone.label = label;
+  const double r = 5.1 + 0.1 * label;
+  for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1},
+                        Vec3{0, 0, -1}}) {
+    bone.surface.vertices.push_back(centre + d * r);
+  }
+  bone.surface.facets = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                         {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  bone.hull.vertices = bone.surface.vertices;
+  bone.hull.facets = bone.surface.facets;
+  bone.hull.neighbours = {{4, 1, 3}, {5, 2, 0}, {6, 3, 1}, {7, 0, 2},
+                          {0, 7, 5}, {1, 4, 6}, {2, 5, 7}, {3, 6, 4}};
+  bone.hull.input_indices = {0, 1, 2, 3, 4, 5};
+  GridGeometry g;
+  g.size = {7, 6, 5};
+  g.spacing = {0.1 + 0.2, 1.0 / 3.0, 0.7};  // numbers that text could round
+  g.origin = centre - Vec3{1.0 / 7.0, 2, 3};
+  bone.distance_field = Grid<float>(g);
+  for (std::size_t i = 0; i < g.voxel_count(); ++i) {
+    bone.distance_field[i] = static_cast<float>(i) / 7.0F - 3.0F;
+  }
+  return bone;
+}
+
+cases::CaseData small_case() {
+  cases::CaseData data;
+  data.pseudonym = "wrist \"7\"";
+  data.side = Side::Right;
+  data.provenance = {true, "simulated wrist, seed 7", "carpus 0.1.0", "2026-01-02T03:04:05Z"};
+  data.wrist_from_patient = {rotation_about({0, 0, 1}, 0.3), {1.0 / 3.0, 2, 3}};
+  GridGeometry g;
+  g.size = {20, 18, 16};
+  g.spacing = {0.3, 0.3, 0.5};
+  g.origin = {-12.1, 3.7, 100.0 / 3.0};
+  g.direction = rotation_about({0, 1, 0}, 0.1);
+  data.ct = Grid<std::int16_t>(g);
+  data.labels = Grid<std::uint8_t>(g);
+  for (std::size_t i = 0; i < g.voxel_count(); ++i) {
+    data.ct[i] = static_cast<std::int16_t>((i * 7919) % 3000) - 1000;
+    data.labels[i] = static_cast<std::uint8_t>(i % 17);
+  }
+  data.bones = {octahedron(BoneId::Scaphoid, BonePart::Proximal, 3, {1, 2, 3}),
+                octahedron(BoneId::Lunate, BonePart::Whole, 4, {20, 2, 3}),
+                octahedron(BoneId::Scaphoid, BonePart::Distal, 16, {1, 20, 3})};
+  data.bones[1].patient_from_bone = {rotation_about({1, 0, 0}, 0.2), {4, 5, 1.0 / 9.0}};
+  data.skin = data.bones[0].surface;
+  data.skin.facets.pop_back();  // skin may be open
+  data.scaphoid = {{{1, 2, 3}, {4, 5, 6}}, 3.25, {{7, 8, 9}, {1.0 / 3.0, 11, 12}}, {2, 3, 4}};
+  data.operative_posture.flexion_from_scan_rad = 0.7;
+  data.operative_posture.patient_from_forearm = {rotation_about({0, 1, 0}, 0.7), {0.1, 0.2, 0.3}};
+  return data;
+}
+
+class CaseFolder : public ::testing::Test {
+ protected:
+  CaseFolder()
+      : folder_(fs::temp_directory_path() /
+                ("carpus_case_" + std::to_string(::getpid()) + "_" +
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~CaseFolder() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path target() const { return folder_ / "wrist"; }
+  [[nodiscard]] const fs::path& parent() const { return folder_; }
+  /// Entries of the parent folder: the case and whatever was left behind.
+  [[nodiscard]] std::ptrdiff_t entries() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+  void replace_in_json(const std::string& from, const std::string& to) const {
+    std::ifstream in(target() / "case.json");
+    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(target() / "case.json") << text;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+template <typename E>
+std::string error_of(const fs::path& folder) {
+  try {
+    (void)read_case(folder);
+  } catch (const E& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    return std::string("another kind of error: ") + error.what();
+  }
+  return "no error";
+}
+
+template <typename T>
+void expect_same_grid(const Grid<T>& a, const Grid<T>& b) {
+  EXPECT_EQ(a.geometry(), b.geometry());
+  EXPECT_TRUE(
+      std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end()));
+}
+
+void expect_same_case(const cases::CaseData& a, const cases::CaseData& b) {
+  EXPECT_EQ(a.pseudonym, b.pseudonym);
+  EXPECT_EQ(a.side, b.side);
+  EXPECT_EQ(a.provenance.simulated, b.provenance.simulated);
+  EXPECT_EQ(a.provenance.source, b.provenance.source);
+  EXPECT_EQ(a.provenance.made_at, b.provenance.made_at);
+  EXPECT_EQ(a.wrist_from_patient, b.wrist_from_patient);
+  EXPECT_EQ(a.operative_posture.patient_from_forearm, b.operative_posture.patient_from_forearm);
+  EXPECT_EQ(a.operative_posture.flexion_from_scan_rad, b.operative_posture.flexion_from_scan_rad);
+  EXPECT_EQ(a.scaphoid.longest_line.distal, b.scaphoid.longest_line.distal);
+  EXPECT_EQ(a.scaphoid.central_radius_mm, b.scaphoid.central_radius_mm);
+  EXPECT_EQ(a.scaphoid.waist, b.scaphoid.waist);
+  expect_same_grid(a.ct, b.ct);
+  expect_same_grid(a.labels, b.labels);
+  EXPECT_EQ(a.skin.vertices, b.skin.vertices);
+  EXPECT_EQ(a.skin.facets, b.skin.facets);
+  ASSERT_EQ(a.bones.size(), b.bones.size());
+  for (std::size_t i = 0; i < a.bones.size(); ++i) {
+    EXPECT_EQ(a.bones[i].bone, b.bones[i].bone);
+    EXPECT_EQ(a.bones[i].part, b.bones[i].part);
+    EXPECT_EQ(a.bones[i].label, b.bones[i].label);
+    EXPECT_EQ(a.bones[i].surface.vertices, b.bones[i].surface.vertices);
+    EXPECT_EQ(a.bones[i].surface.facets, b.bones[i].surface.facets);
+    EXPECT_EQ(a.bones[i].patient_from_bone, b.bones[i].patient_from_bone);
+    expect_same_grid(a.bones[i].distance_field, b.bones[i].distance_field);
+    EXPECT_EQ(a.bones[i].hull.vertices, b.bones[i].hull.vertices);
+    EXPECT_EQ(a.bones[i].hull.facets, b.bones[i].hull.facets);
+    EXPECT_EQ(a.bones[i].hull.neighbours, b.bones[i].hull.neighbours);
+    EXPECT_EQ(a.bones[i].hull.input_indices, b.bones[i].hull.input_indices);
+  }
+}
+
+TEST_F(CaseFolder, GivesBackWhatWasWrittenBitForBit) {
+  const cases::CaseData data = small_case();
+  write_case(data, target());
+  const cases::CaseData again = read_case(target());
+  expect_same_case(data, again);
+  EXPECT_EQ(entries(), 1);
+  for (const cases::Bone& bone : again.bones) {
+    ASSERT_EQ(bone.hull.planes.size(), 8U);
+    for (std::size_t f = 0; f < 8; ++f) {
+      EXPECT_NEAR(length(bone.hull.planes[f].normal), 1.0, 1e-15);
+      for (const Vec3& v : bone.hull.vertices) {
+        EXPECT_LE(dot(bone.hull.planes[f].normal, v), bone.hull.planes[f].offset);
+      }
+    }
+  }
+}
+
+TEST_F(CaseFolder, IsReplacedOnlyOnDemand) {
+  cases::CaseData data = small_case();
+  write_case(data, target());
+  data.pseudonym = "another";
+  EXPECT_THROW(write_case(data, target()), IoError);
+  EXPECT_EQ(read_case(target()).pseudonym, small_case().pseudonym);
+  write_case(data, target(), Overwrite::Replace);
+  EXPECT_EQ(read_case(target()).pseudonym, "another");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(CaseFolder, AFullDiskLeavesTheOldCaseAndNothingElse) {
+  cases::CaseData data = small_case();
+  write_case(data, target());
+  data.pseudonym = "another";
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::uintmax_t largest = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(target())) {
+    if (entry.is_regular_file()) largest = std::max(largest, entry.file_size());
+  }
+  // From too little for the first surface to a few bytes too little for the largest file.
+  for (const std::uintmax_t limit : {std::uintmax_t{100}, std::uintmax_t{400}, std::uintmax_t{900},
+                                     largest / 2, largest - 300, largest - 1}) {
+    rlimit small = before;
+    small.rlim_cur = limit;
+    setrlimit(RLIMIT_FSIZE, &small);
+    std::string message = "no error";
+    try {
+      write_case(data, target(), Overwrite::Replace);
+    } catch (const IoError& error) {
+      message = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_THAT(message, AllOf(HasSubstr("could not be written whole"), HasSubstr("make room")))
+        << limit;
+    expect_same_case(small_case(), read_case(target()));
+    EXPECT_EQ(entries(), 1) << limit;
+  }
+}
+
+TEST_F(CaseFolder, OfANewerVersionIsRefusedByName) {
+  write_case(small_case(), target());
+  replace_in_json("\"schema_version\": 1", "\"schema_version\": 2");
+  EXPECT_THAT(error_of<SchemaError>(target()),
+              AllOf(HasSubstr("version 2"), HasSubstr("up to 1"), HasSubstr("update carpus")));
+}
+
+TEST_F(CaseFolder, MissingOrDamagedFilesAreNamed) {
+  EXPECT_THAT(error_of<IoError>(parent() / "none"), HasSubstr("case.json"));
+  const auto fresh = [&] { write_case(small_case(), target(), Overwrite::Replace); };
+  for (const char* name : {"ct.nii.gz", "labels.nii.gz", "fields/lunate.nrrd", "bones/lunate.ply",
+                           "hulls/scaphoid_distal.ply"}) {
+    fresh();
+    fs::resize_file(target() / name, fs::file_size(target() / name) / 2);
+    EXPECT_THAT(error_of<IoError>(target()), HasSubstr(name)) << "cut";
+    fs::remove(target() / name);
+    EXPECT_THAT(error_of<IoError>(target()), HasSubstr(name)) << "missing";
+  }
+  fresh();
+  fs::copy_file(target() / "hulls" / "lunate.ply", target() / "hulls" / "scaphoid_distal.ply",
+                fs::copy_options::overwrite_existing);
+  EXPECT_THAT(error_of<IoError>(target()), HasSubstr("no convex hull of bones/scaphoid_distal"));
+}
+
+TEST_F(CaseFolder, JsonThatLiesIsRefused) {
+  const auto fresh = [&] { write_case(small_case(), target(), Overwrite::Replace); };
+  for (const auto& [from, to] :
+       {std::pair{"\"lunate\"", "\"../../etc\""}, std::pair{"\"right\"", "\"middle\""},
+        std::pair{"\"carpus case\"", "\"recipe\""}, std::pair{"\"label\": 4", "\"label\": \"4\""},
+        std::pair{"\"label\": 4", "\"label\": 260"}, std::pair{"\"label\": 4", "\"label\": 5"},
+        std::pair{"\"label\": 4", "\"label\": 1e99"},
+        std::pair{"\"schema_version\": 1", "\"schema_version\": 1e99"},
+        std::pair{"\"schema_version\": 1", "\"schema_version\": -1"},
+        std::pair{"\"central_radius_mm\": 3.25", "\"central_radius_mm\": -3.25"},
+        std::pair{"\"flexion_from_scan_rad\": 0.7", "\"flexion_from_scan_rad\": 1e9"},
+        std::pair{"-12.1", "-1e300"}, std::pair{"wrist \\\"7", "wrist \\u001b[31m"},
+        std::pair{"\"spacing_mm\"", "\"spacing\""}, std::pair{"\"rotation\"", "\"rotations\""}}) {
+    fresh();
+    replace_in_json(from, to);
+    EXPECT_THAT(error_of<IoError>(target()), HasSubstr("case.json")) << from;
+  }
+  cases::CaseData twice = small_case();
+  twice.bones.push_back(twice.bones.front());
+  write_case(twice, target(), Overwrite::Replace);
+  EXPECT_THAT(error_of<IoError>(target()), HasSubstr("a bone is there twice"));
+  fresh();
+  replace_in_json("-12.1", "-14.1");
+  EXPECT_THAT(error_of<IoError>(target()), HasSubstr("lies elsewhere"));
+  fresh();
+  fs::resize_file(target() / "case.json", 500);
+  EXPECT_THAT(error_of<IoError>(target()), HasSubstr("damaged"));
+}
+
+TEST_F(CaseFolder, IncompleteCasesAreNotWritten) {
+  cases::CaseData data = small_case();
+  data.bones[0].distance_field = {};
+  EXPECT_THROW(write_case(data, target()), InvalidInput);
+  EXPECT_THROW(write_case({}, target()), InvalidInput);
+  EXPECT_EQ(entries(), 0);
+}
+
+}  // namespace
+}  // namespace carpus::case_io

@@ -1,0 +1,27 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One volume file (NIfTI, NRRD, MetaImage) into a grid, its memory order as stored.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "case_io/detail/itk_image.hpp"
+#include "geometry/grid.hpp"
+
+namespace carpus::case_io {
+
+inline constexpr std::string_view kKnownFormats =
+    "a DICOM series, NIfTI (.nii, .nii.gz), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)";
+
+/// Whether the name ends like a volume file that can be read.
+[[nodiscard]] bool is_volume_file(const std::filesystem::path& file);
+
+/// Reads geometry and values; T is int16_t, uint8_t or float.
+/// @throws IoError on missing, damaged or cut files; InvalidInput on other formats or unusable
+/// geometry.
+template <typename T>
+[[nodiscard]] Grid<T> read_volume_file(const std::filesystem::path& file, ValueCount& count);
+
+}  // namespace carpus::case_io

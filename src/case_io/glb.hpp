@@ -1,0 +1,36 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Surfaces as one binary glTF for viewers: a node for each, with its name.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "cases/case_data.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace carpus::case_io {
+
+/// A surface to show; `mesh` is owned elsewhere.
+struct NamedMesh {
+  std::string name;
+  const TriangleMesh* mesh = nullptr;
+  Pose<frame::Patient, frame::Bone> patient_from_bone;  ///< becomes the node's matrix
+};
+
+/// The bytes of a .glb: one node and mesh each, float32 positions [mm, frame Patient before the
+/// node's matrix] and smooth normals, uint32 indices. The unit is mm and +z is superior, not the
+/// metres and Y-up of the glTF standard: the viewer converts (docs/case_format.md). Empty meshes
+/// are left out.
+[[nodiscard]] std::string make_glb(std::span<const NamedMesh> meshes);
+
+/// Bones (where they are now) and skin of a case, named as in the case.
+[[nodiscard]] std::string make_case_glb(const cases::CaseData& data);
+
+/// Vertex normals: the mean of the facets' normals, weighted by their area.
+[[nodiscard]] std::vector<Vec3> smooth_normals(const TriangleMesh& mesh);
+
+}  // namespace carpus::case_io

@@ -1,0 +1,63 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/glb.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace carpus::case_io {
+namespace {
+
+const TriangleMesh kTetrahedron{{{0, 0, 0}, {4, 0, 0}, {0, 5, 0}, {0, 0, 6}},
+                                {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+
+std::uint32_t word_at(const std::string& bytes, std::size_t at) {
+  std::uint32_t v = 0;
+  std::memcpy(&v, bytes.data() + at, sizeof v);
+  return v;
+}
+
+TEST(Glb, HoldsANamedNodeForEachMesh) {
+  Pose<frame::Patient, frame::Bone> moved;
+  moved.translation = {7, 8, 9};
+  const TriangleMesh empty;
+  const std::vector<NamedMesh> meshes{
+      {"lunate", &kTetrahedron, {}}, {"skin", &empty, {}}, {"radius", &kTetrahedron, moved}};
+  const std::string glb = make_glb(meshes);
+  ASSERT_GT(glb.size(), 20U);
+  EXPECT_EQ(glb.substr(0, 4), "glTF");
+  EXPECT_EQ(word_at(glb, 4), 2U);
+  EXPECT_EQ(word_at(glb, 8), glb.size());
+  const std::uint32_t json_size = word_at(glb, 12);
+  const auto json = nlohmann::json::parse(glb.substr(20, json_size));
+  ASSERT_EQ(json.at("nodes").size(), 2U);  // the empty skin is left out
+  EXPECT_EQ(json.at("nodes")[0].at("name"), "lunate");
+  EXPECT_EQ(json.at("nodes")[1].at("name"), "radius");
+  EXPECT_EQ(json.at("nodes")[1].at("matrix")[12], 7);
+  const auto& primitive = json.at("meshes")[0].at("primitives")[0];
+  const auto& position =
+      json.at("accessors")[primitive.at("attributes").at("POSITION").get<std::size_t>()];
+  EXPECT_EQ(position.at("count"), 4);
+  EXPECT_EQ(position.at("max"), nlohmann::json({4.0, 5.0, 6.0}));
+  EXPECT_EQ(json.at("accessors")[primitive.at("indices").get<std::size_t>()].at("count"), 12);
+  const std::size_t binary = 20 + json_size + 8;
+  float first_x_of_second_vertex = 0;
+  std::memcpy(&first_x_of_second_vertex, glb.data() + binary + 12, sizeof(float));
+  EXPECT_EQ(first_x_of_second_vertex, 4.0F);
+}
+
+TEST(Glb, NormalsPointOutwards) {
+  const std::vector<Vec3> normals = smooth_normals(kTetrahedron);
+  const Vec3 centre{1, 1.25, 1.5};
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    EXPECT_NEAR(length(normals[i]), 1, 1e-12);
+    EXPECT_GT(dot(normals[i], kTetrahedron.vertices[i] - centre), 0);
+  }
+}
+
+}  // namespace
+}  // namespace carpus::case_io

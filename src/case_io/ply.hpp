@@ -1,0 +1,23 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Surfaces as binary PLY, which 3D Slicer, Blender and MeshLab open.
+#pragma once
+
+#include <filesystem>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace carpus::case_io {
+
+/// Writes binary little-endian PLY with double vertices, so that reading gives the same bits back.
+/// @throws IoError where the file cannot be written whole.
+void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh);
+
+/// Reads binary little-endian PLY with scalar vertex properties x, y, z (others are skipped) and
+/// triangles. Nothing in the file is believed before it is checked: counts against the file's
+/// length, indices against the vertices, coordinates for being finite.
+/// @throws IoError naming the file and what is wrong.
+[[nodiscard]] TriangleMesh read_ply(const std::filesystem::path& file);
+
+}  // namespace carpus::case_io

@@ -1,0 +1,54 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reading a CT and label volumes: DICOM series, NIfTI, NRRD and MetaImage give the same grid, in
+// LPS, whichever format the volume came from. Through ITK and GDCM.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "geometry/grid.hpp"
+
+namespace carpus::case_io {
+
+/// One DICOM series of a folder.
+struct SeriesSummary {
+  std::string uid;          ///< SeriesInstanceUID; what `--series` takes
+  std::string description;  ///< SeriesDescription, may be empty
+  std::string modality;     ///< "CT", ...
+  int slices = 0;
+  std::filesystem::path folder;  ///< of its first file
+};
+
+struct ReadOptions {
+  std::string series_uid;  ///< which DICOM series of the folder; empty: the only one
+  std::function<void(const std::string&)> warn;  ///< receives doubts, in words for the user
+  Progress progress = no_progress;  ///< called from this thread only, never more often than a slice
+};
+
+/// Reads a CT in HU. `input` is a file (.nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, or one DICOM file,
+/// which stands for its series in that folder) or a folder, which is searched recursively for a
+/// DICOM series, else for one volume file.
+///
+/// The grid's axes are those nearest to +x, +y, +z of LPS, so that the same voxels give the same
+/// grid whichever way round a file stored them. Rescale slope and intercept are applied; values are
+/// rounded to whole HU and clamped to int16. Patient names are never read.
+/// @throws IoError missing, empty, unreadable or truncated files.
+/// @throws InvalidInput several series, missing slices, uneven or impossible geometry, not finite
+/// values. Messages name the file and say what to do.
+[[nodiscard]] Grid<std::int16_t> read_ct(const std::filesystem::path& input,
+                                         const ReadOptions& options = {});
+
+/// Reads a label volume (numbers in anatomy/bone_id.hpp) from a volume file; axes as read_ct.
+/// @throws as read_ct; InvalidInput too where a value is not a whole number from 0 to 255.
+[[nodiscard]] Grid<std::uint8_t> read_labels(const std::filesystem::path& file);
+
+/// The DICOM series under a folder, most slices first, then by UID.
+[[nodiscard]] std::vector<SeriesSummary> list_series(const std::filesystem::path& folder);
+
+}  // namespace carpus::case_io

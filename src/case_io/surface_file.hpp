@@ -1,0 +1,32 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Surfaces and point sets in the formats that other programs write: PLY, STL, OBJ, OFF, XYZ, CSV.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "geometry/predicates.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace carpus::case_io {
+
+/// Reads by the file's extension: .ply (as read_ply), .stl (binary or text; equal corners become
+/// one vertex), .obj (v and f lines; others are skipped), .off, .xyz (three numbers a line, further
+/// columns are skipped; no facets). Polygons are cut into triangles from their first corner.
+/// Nothing is believed before it is checked; no memory is set aside for what a header promises.
+/// @throws IoError naming the file, the line of a text file, and what is wrong.
+[[nodiscard]] TriangleMesh read_surface(const std::filesystem::path& file);
+
+/// Writes by the file's extension: .ply, .obj and .off keep every bit of a coordinate; .stl is
+/// binary and holds single precision, as the format does.
+/// @throws IoError where the file cannot be written whole or the format is not known.
+void write_surface(const std::filesystem::path& file, const TriangleMesh& mesh);
+
+/// Two numbers a line, between them a comma, a semicolon or blanks; the first line may hold names,
+/// further columns are skipped.
+/// @throws IoError as read_surface.
+[[nodiscard]] std::vector<Vec2> read_planar_points(const std::filesystem::path& file);
+
+}  // namespace carpus::case_io

@@ -1,0 +1,92 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/write_volume.hpp"
+
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/itk_image.hpp"
+#include "case_io/detail/nifti_check.hpp"
+#include "core/error.hpp"
+
+namespace carpus::case_io {
+namespace fs = std::filesystem;
+namespace {
+
+itk::ImageIOBase::Pointer volume_writer_for(const std::string& name) {
+  const std::string_view n = name;
+  if (n.ends_with(".nii") || n.ends_with(".nii.gz")) return itk::NiftiImageIO::New().GetPointer();
+  if (n.ends_with(".nrrd")) return itk::NrrdImageIO::New().GetPointer();
+  if (n.ends_with(".mha")) return itk::MetaImageIO::New().GetPointer();
+  throw InvalidInput(name + ": has no ending that volumes are written to (.nii.gz, .nrrd, .mha)");
+}
+
+template <typename T>
+constexpr itk::IOComponentEnum component_of() {
+  if (std::is_same_v<T, std::int16_t>) return itk::IOComponentEnum::SHORT;
+  if (std::is_same_v<T, std::uint8_t>) return itk::IOComponentEnum::UCHAR;
+  return itk::IOComponentEnum::FLOAT;
+}
+
+template <typename T>
+void describe(itk::ImageIOBase& io, const GridGeometry& g) {
+  io.SetNumberOfDimensions(3);
+  itk::ImageIORegion region(3);
+  for (unsigned i = 0; i < 3; ++i) {
+    const Vec3 axis = g.direction.column(i);
+    io.SetDimensions(i, static_cast<itk::SizeValueType>(g.size[i]));
+    io.SetSpacing(i, g.spacing[i]);
+    io.SetOrigin(i, g.origin[i]);
+    io.SetDirection(i, std::vector<double>{axis.x, axis.y, axis.z});
+    region.SetIndex(i, 0);
+    region.SetSize(i, static_cast<itk::SizeValueType>(g.size[i]));
+  }
+  io.SetIORegion(region);
+  io.SetNumberOfComponents(1);
+  io.SetPixelType(itk::IOPixelEnum::SCALAR);
+  io.SetComponentType(component_of<T>());
+}
+
+template <typename T>
+bool reads_back(const fs::path& file, const GridView<const T>& volume) {
+  try {
+    const itk::ImageIOBase::Pointer io = volume_writer_for(file.string());
+    if (file.string().find(".nii") != std::string::npos) check_nifti_is_whole(file);
+    const GridGeometry g = read_geometry(*io, file);
+    if (g.size != volume.geometry().size) return false;
+    std::vector<T> values(g.voxel_count());
+    ValueCount count;
+    read_values<T>(*io, file, values, count);
+    return std::equal(values.begin(), values.end(), volume.values().begin());
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+template <typename T>
+void write_volume(const fs::path& file, const GridView<const T>& volume) {
+  itk::Object::SetGlobalWarningDisplay(false);
+  const itk::ImageIOBase::Pointer io = volume_writer_for(file.string());
+  try {
+    io->SetFileName(file.string());
+    describe<T>(*io, volume.geometry());
+    io->SetUseCompression(file.string().ends_with(".gz"));
+    io->Write(volume.values().data());
+  } catch (const itk::ExceptionObject&) {
+    throw_cannot_write(file);
+  }
+  if (!reads_back(file, volume)) throw_cannot_write(file);
+}
+
+template void write_volume(const fs::path&, const GridView<const std::int16_t>&);
+template void write_volume(const fs::path&, const GridView<const std::uint8_t>&);
+template void write_volume(const fs::path&, const GridView<const float>&);
+
+}  // namespace carpus::case_io
