@@ -1,0 +1,112 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/ground_truth.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "case_io/read_volume.hpp"
+#include "core/error.hpp"
+
+namespace carpus::reconstruct {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Number in the file -> number here.
+using LabelMap = std::array<std::uint8_t, 256>;
+
+constexpr std::uint8_t kMostBoneLabel = kScaphoidDistalLabel;
+/// Two grids are one if their corners agree to this part of a voxel: formats round differently.
+constexpr double kSamePlace = 0.05;
+
+LabelMap standard_map() {
+  LabelMap map{};
+  for (std::uint8_t label = 1; label <= kMostBoneLabel; ++label) map[label] = label;
+  return map;
+}
+
+std::uint8_t label_of(const std::string& name) {
+  if (name == "scaphoid_distal_fragment") return kScaphoidDistalLabel;
+  const std::optional<NamedBone> bone = bone_of(name);
+  if (!bone) return kBackgroundLabel;
+  return bone->part == BonePart::Distal ? kScaphoidDistalLabel
+                                        : static_cast<std::uint8_t>(bone->bone);
+}
+
+LabelMap read_map(const fs::path& file) {
+  std::ifstream stream(file);
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  if (!json.is_object()) {
+    throw InvalidInput(file.string() + ": not a list of label numbers such as {\"radius\": 1}");
+  }
+  LabelMap map{};
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_number_integer()) continue;  // remarks
+    const auto number = value.get<std::int64_t>();
+    if (number < 0 || number > 255) {
+      throw InvalidInput(file.string() + ": label of " + name + " is " + std::to_string(number) +
+                         ", expected 0 to 255");
+    }
+    map[static_cast<std::size_t>(number)] = label_of(name);
+  }
+  return map;
+}
+
+bool lie_on_one_grid(const GridGeometry& a, const GridGeometry& b) {
+  if (a.size != b.size) return false;
+  const double voxel = std::min({a.spacing.x, a.spacing.y, a.spacing.z});
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 v{(corner & 1) != 0 ? a.size[0] - 1.0 : 0.0,
+                 (corner & 2) != 0 ? a.size[1] - 1.0 : 0.0,
+                 (corner & 4) != 0 ? a.size[2] - 1.0 : 0.0};
+    if (!(distance(a.patient_from_voxel(v), b.patient_from_voxel(v)) < kSamePlace * voxel)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+GroundTruth read_ground_truth(const fs::path& file) {
+  GroundTruth truth{case_io::read_labels(file)};
+  const fs::path names = file.parent_path() / "labels.json";
+  const LabelMap map = fs::exists(names) ? read_map(names) : standard_map();
+  for (std::uint8_t& label : truth.labels.values()) label = map[label];
+  return truth;
+}
+
+std::vector<LabelDice> compare_labels(const GridView<const std::uint8_t>& found,
+                                      const GroundTruth& truth) {
+  if (!lie_on_one_grid(found.geometry(), truth.labels.geometry())) {
+    const auto& a = found.geometry().size;
+    const auto& b = truth.labels.geometry().size;
+    const auto text = [](const std::array<int, 3>& s) {
+      return std::to_string(s[0]) + " x " + std::to_string(s[1]) + " x " + std::to_string(s[2]);
+    };
+    throw InvalidInput("the ground truth (" + text(b) + " voxels) does not lie on the CT's grid (" +
+                       text(a) + " voxels): give the label volume that belongs to this scan");
+  }
+  std::array<LabelDice, 256> count{};
+  std::array<std::size_t, 256> both{};
+  for (std::size_t i = 0; i < found.values().size(); ++i) {
+    ++count[found[i]].found_voxels;
+    ++count[truth.labels[i]].truth_voxels;
+    if (found[i] == truth.labels[i]) ++both[found[i]];
+  }
+  std::vector<LabelDice> result;
+  for (std::uint8_t label = 1; label <= kMostBoneLabel; ++label) {
+    LabelDice& entry = count[label];
+    if (entry.truth_voxels == 0) continue;
+    entry.label = label;
+    entry.dice = 2.0 * static_cast<double>(both[label]) /
+                 static_cast<double>(entry.truth_voxels + entry.found_voxels);
+    result.push_back(entry);
+  }
+  return result;
+}
+
+}  // namespace carpus::reconstruct

@@ -1,0 +1,54 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a CT to a case that can be operated on: bones segmented, named, as surfaces, hulls and
+// distance fields, with the skin, the scaphoid's landmarks and the operative posture. Fully
+// automatic.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "core/progress.hpp"
+#include "imaging/bone_segmentation.hpp"
+#include "reconstruct/bone_surface.hpp"
+#include "reconstruct/stage_clock.hpp"
+
+namespace carpus::reconstruct {
+
+struct ReconstructOptions {
+  std::string pseudonym = "wrist";
+  cases::Provenance provenance;
+  imaging::BoneSegmentationOptions segmentation;
+  BoneSurfaceOptions surface;
+  Progress progress = no_progress;
+};
+
+/// What was found out about one bone, beside what the case holds.
+struct BoneFigures {
+  double naming_cost = 0;  ///< see anatomy::BoneNaming
+  double hull_seconds = 0;
+};
+
+struct Reconstruction {
+  cases::CaseData data;
+  std::vector<BoneFigures> figures;  ///< in the order of data.bones
+  std::vector<StageTime> stages;
+  std::vector<std::string> warnings;  ///< in words for the user; empty when all is well
+  double naming_cost = 0;
+  double other_side_cost = 0;  ///< the margin to naming_cost is the confidence in the side
+  double size = 1;             ///< relative to the model wrist
+};
+
+/// Makes a case of `ct` [HU].
+/// @throws InvalidInput, saying what was seen and what to do, where there is no bone, where the
+/// bones
+///     make no wrist (anatomy::NamingStatus::NotAWrist), or where radius, lunate, capitate or
+///     scaphoid are missing, without which nothing can be operated on. Other missing bones and a
+///     doubtful fit are warnings.
+[[nodiscard]] Reconstruction reconstruct_case(Grid<std::int16_t> ct,
+                                              const ReconstructOptions& options);
+
+}  // namespace carpus::reconstruct

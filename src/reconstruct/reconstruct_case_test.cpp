@@ -1,0 +1,209 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole way from CT to case: on a plain simulated wrist made here from the parametric model,
+// and, where it is at hand, on the reference wrist's two simulated CTs with their ground truth.
+#include "reconstruct/reconstruct_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "anatomy/wrist_model.hpp"
+#include "case_io/read_volume.hpp"
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "core/units.hpp"
+#include "imaging/gaussian.hpp"
+#include "reconstruct/ground_truth.hpp"
+
+namespace carpus::reconstruct {
+namespace {
+
+struct SimulatedWrist {
+  Grid<std::int16_t> ct;
+  GroundTruth truth;
+};
+
+/// Implicit value of a bone whose shaft goes on beyond the model's cut with its last section.
+double value_with_shaft(const anatomy::WristModel& model, const anatomy::ModelBone& bone, Vec3 p) {
+  if (bone.cut_plane) {
+    const double beyond = bone.cut_plane->signed_distance(p) + 0.5;
+    if (beyond > 0) p -= (beyond / dot(bone.cut_plane->normal, bone.shaft_axis)) * bone.shaft_axis;
+  }
+  constexpr double kFar = 1e3;
+  return bone.bounds.grown(1).contains(p) ? model.uncut_value(bone.bone, p) : kFar;
+}
+
+/// Cortex of 1 mm, cancellous core, soft tissue, air, blur and noise; wrist frame = patient frame.
+SimulatedWrist simulate(Side side, bool broken_scaphoid, double slice_mm = 0.5) {
+  const anatomy::WristModel& model = anatomy::WristModel::generic(side);
+  Aabb box;
+  for (const auto& bone : model.bones()) box.include(bone.bounds);
+  GridGeometry g;
+  g.spacing = {0.5, 0.5, slice_mm};
+  g.origin = box.low;
+  for (std::size_t a = 0; a < 3; ++a) {
+    g.size[a] = static_cast<int>(box.extent()[a] / g.spacing[a]) + 1;
+  }
+  const Vec3 waist = model.bone(BoneId::Scaphoid).bounds.centre();
+  SimulatedWrist wrist{Grid<std::int16_t>(g), {Grid<std::uint8_t>(g)}};
+  Grid<float> hu(g, 45.0F);
+  for (std::size_t i = 0; i < hu.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    const Vec3 p = g.patient_from_voxel(
+        {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
+    for (const auto& bone : model.bones()) {
+      const double value = value_with_shaft(model, bone, p);
+      if (!(value < 0)) continue;
+      const bool is_scaphoid = bone.bone == BoneId::Scaphoid;
+      const double from_gap = is_scaphoid && broken_scaphoid ? p.x - waist.x : 10;
+      if (std::abs(from_gap) < 0.9) continue;
+      hu[i] = value > -1.0 || std::abs(from_gap) < 1.9 ? 1100.0F : 300.0F;
+      wrist.truth.labels[i] =
+          from_gap < 0 ? kScaphoidDistalLabel : static_cast<std::uint8_t>(bone.bone);
+    }
+  }
+  const Grid<float> blurred = imaging::gaussian_smooth(hu.view(), 0.25);
+  Rng rng(11);
+  for (std::size_t i = 0; i < hu.values().size(); ++i) {
+    wrist.ct[i] =
+        static_cast<std::int16_t>(std::lround(static_cast<double>(blurred[i]) + 25 * rng.normal()));
+  }
+  return wrist;
+}
+
+/// What must hold of every case, and how well it agrees with the truth.
+void expect_whole_case(const Reconstruction& r,
+                       const GroundTruth& truth,
+                       Side side,
+                       double mean_dice,
+                       double worst_dice) {
+  EXPECT_EQ(r.data.side, side);
+  EXPECT_GT(r.other_side_cost, r.naming_cost + 20);
+  double sum = 0;
+  double worst = 1;
+  const auto dice = compare_labels(r.data.labels.view(), truth);
+  std::set<int> expected, found;
+  for (const LabelDice& d : dice) {
+    sum += d.dice;
+    worst = std::min(worst, d.dice);
+    expected.insert(d.label);
+  }
+  EXPECT_GE(sum / static_cast<double>(dice.size()), mean_dice);
+  EXPECT_GE(worst, worst_dice);
+  for (const cases::Bone& bone : r.data.bones) {
+    found.insert(bone.label);
+    EXPECT_EQ(check_surface(bone.surface), SurfaceStatus::Ok) << name_of(bone.bone, bone.part);
+    EXPECT_GT(volume_of(bone.surface), 0);
+    EXPECT_LE(bone.surface.facets.size(), 13000U) << name_of(bone.bone, bone.part);
+    EXPECT_EQ(bone.hull.facets.size(), 2 * bone.hull.vertices.size() - 4);
+    EXPECT_FALSE(bone.distance_field.values().empty());
+  }
+  EXPECT_EQ(found, expected);
+  EXPECT_NEAR(r.data.wrist_from_patient.rotation.determinant(), 1.0, 1e-9);
+  EXPECT_GT(r.data.scaphoid.central_radius_mm, 1.5);
+  const double axis =
+      distance(r.data.scaphoid.central_axis.proximal, r.data.scaphoid.central_axis.distal);
+  EXPECT_GT(axis, 15);
+  EXPECT_LT(axis, 35);
+}
+
+TEST(ReconstructCase, MakesACaseOfASimulatedBrokenLeftWrist) {
+  const SimulatedWrist wrist = simulate(Side::Left, true);
+  const Reconstruction r = reconstruct_case(wrist.ct, {});
+  expect_whole_case(r, wrist.truth, Side::Left, 0.95, 0.92);
+  EXPECT_NE(cases::find_bone(r.data, BoneId::Scaphoid, BonePart::Proximal), nullptr);
+  EXPECT_NE(cases::find_bone(r.data, BoneId::Scaphoid, BonePart::Distal), nullptr);
+  EXPECT_EQ(r.data.bones.size(), 16U);
+  EXPECT_FALSE(r.stages.empty());
+  // The wrist frame was the patient frame.
+  const Vec3 x = r.data.wrist_from_patient.rotation.column(0);
+  EXPECT_GT(x.x, std::cos(radians_from_degrees(3)));
+}
+
+TEST(ReconstructCase, MakesACaseOfASimulatedIntactRightWrist) {
+  const SimulatedWrist wrist = simulate(Side::Right, false);
+  const Reconstruction r = reconstruct_case(wrist.ct, {});
+  expect_whole_case(r, wrist.truth, Side::Right, 0.95, 0.92);
+  EXPECT_EQ(r.data.bones.size(), 15U);
+}
+
+TEST(ReconstructCase, ManagesThickSlicesByTryingOtherSeparations) {
+  const SimulatedWrist wrist = simulate(Side::Left, false, 1.25);
+  const Reconstruction r = reconstruct_case(wrist.ct, {});
+  expect_whole_case(r, wrist.truth, Side::Left, 0.93, 0.88);
+  EXPECT_EQ(r.data.bones.size(), 15U);
+}
+
+std::string message_of(const Grid<std::int16_t>& ct) {
+  try {
+    (void)reconstruct_case(ct, {});
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReconstructCase, RefusesAVolumeWithoutBoneAndSaysWhatWasSeen) {
+  GridGeometry g;
+  g.size = {30, 30, 30};
+  Rng rng(1);
+  Grid<std::int16_t> ct(g);
+  for (std::int16_t& v : ct.values()) v = static_cast<std::int16_t>(40 + 20 * rng.normal());
+  EXPECT_NE(message_of(ct).find("no bone"), std::string::npos) << message_of(ct);
+  EXPECT_NE(message_of(ct).find("HU"), std::string::npos);
+}
+
+TEST(ReconstructCase, RefusesBonesThatMakeNoWrist) {
+  GridGeometry g;
+  g.size = {90, 90, 40};
+  g.spacing = {0.5, 0.5, 0.5};
+  Grid<std::int16_t> ct(g, 40);
+  for (std::size_t i = 0; i < ct.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    const double d = length({v.x % 30 - 15.0, v.y % 30 - 15.0, v.z - 20.0}) * 0.5;
+    if (d < 6) ct[i] = d > 5 ? std::int16_t{1200} : std::int16_t{300};
+  }
+  EXPECT_NE(message_of(ct).find("do not make a wrist"), std::string::npos) << message_of(ct);
+}
+
+/// Folder of the reference wrist, or nothing.
+std::optional<std::filesystem::path> reference_wrist() {
+  const char* set = std::getenv("CARPUS_REFERENCE_WRIST");
+  const std::filesystem::path folder = set != nullptr ? set : "../shared/reference-wrist";
+  if (!std::filesystem::is_directory(folder)) return std::nullopt;
+  return folder;
+}
+
+struct ReferenceScan {
+  const char* name;
+  Side side;
+  std::size_t bones;
+};
+
+class ReferenceWrist : public testing::TestWithParam<ReferenceScan> {};
+
+TEST_P(ReferenceWrist, IsSegmentedAndNamedWithoutError) {
+  const auto folder = reference_wrist();
+  if (!folder) GTEST_SKIP() << "no reference wrist: set CARPUS_REFERENCE_WRIST to its folder";
+  const auto scan = *folder / GetParam().name;
+  const Reconstruction r = reconstruct_case(case_io::read_ct(scan / "dicom"), {});
+  const GroundTruth truth = read_ground_truth(scan / "labels.nii.gz");
+  EXPECT_EQ(r.data.bones.size(), GetParam().bones);
+  expect_whole_case(r, truth, GetParam().side, 0.97, 0.94);
+  EXPECT_TRUE(r.warnings.empty()) << r.warnings.front();
+}
+
+INSTANTIATE_TEST_SUITE_P(Scans,
+                         ReferenceWrist,
+                         testing::Values(ReferenceScan{"ct-nonunion", Side::Left, 16},
+                                         ReferenceScan{"ct-intact-right", Side::Right, 15}));
+
+}  // namespace
+}  // namespace carpus::reconstruct

@@ -1,0 +1,145 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/reconstruction_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace carpus::reconstruct {
+namespace {
+
+std::string name_of_label(std::uint8_t label, bool scaphoid_is_broken) {
+  if (label == kScaphoidDistalLabel) {
+    return std::string(name_of(BoneId::Scaphoid, BonePart::Distal));
+  }
+  const auto bone = static_cast<BoneId>(label);
+  const bool proximal = bone == BoneId::Scaphoid && scaphoid_is_broken;
+  return std::string(name_of(bone, proximal ? BonePart::Proximal : BonePart::Whole));
+}
+
+__attribute__((format(printf, 2, 3))) void append(std::string& text, const char* format, ...) {
+  std::array<char, 256> line{};
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line.data(), line.size(), format, arguments);
+  va_end(arguments);
+  text += line.data();
+}
+
+void add_dice(const std::vector<LabelDice>& dice,
+              const Reconstruction& reconstruction,
+              ReconstructionReport& report) {
+  if (dice.empty()) return;
+  const bool broken = std::any_of(
+      dice.begin(), dice.end(), [](const LabelDice& d) { return d.label == kScaphoidDistalLabel; });
+  double sum = 0;
+  double least = 1;
+  const auto& bones = reconstruction.data.bones;
+  for (const LabelDice& d : dice) {
+    sum += d.dice;
+    least = std::min(least, d.dice);
+    const auto bone = std::find_if(bones.begin(), bones.end(),
+                                   [&](const cases::Bone& b) { return b.label == d.label; });
+    if (bone != bones.end()) {
+      report.bones[static_cast<std::size_t>(bone - bones.begin())].dice = d.dice;
+    } else {
+      BoneLine line;
+      line.name = name_of_label(d.label, broken);
+      line.dice = 0;
+      line.is_found = false;
+      report.bones.push_back(line);
+    }
+  }
+  report.dice_mean = sum / static_cast<double>(dice.size());
+  report.dice_min = least;
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+void append_bones(const ReconstructionReport& report, std::string& text) {
+  append(text, "%-18s %8s %8s %8s %8s %9s %8s %7s\n", "bone", "vertices", "facets", "hull v.",
+         "hull f.", "hull ms", "misfit", "Dice");
+  for (const BoneLine& b : report.bones) {
+    if (b.is_found) {
+      append(text, "%-18s %8zu %8zu %8zu %8zu %9.2f %8.2f", b.name.c_str(), b.vertices, b.facets,
+             b.hull_vertices, b.hull_facets, 1000 * b.hull_seconds, b.naming_cost);
+    } else {
+      append(text, "%-18s %8s %44s", b.name.c_str(), "", "NOT FOUND");
+    }
+    if (b.dice) append(text, " %7.4f", *b.dice);
+    text += '\n';
+  }
+}
+
+}  // namespace
+
+ReconstructionReport make_report(const Reconstruction& reconstruction,
+                                 const std::vector<LabelDice>& dice) {
+  ReconstructionReport report;
+  report.side = name_of(reconstruction.data.side);
+  report.stages = reconstruction.stages;
+  report.naming_cost = reconstruction.naming_cost;
+  report.other_side_cost = reconstruction.other_side_cost;
+  for (std::size_t i = 0; i < reconstruction.data.bones.size(); ++i) {
+    const cases::Bone& bone = reconstruction.data.bones[i];
+    BoneLine line;
+    line.name = name_of(bone.bone, bone.part);
+    line.vertices = bone.surface.vertices.size();
+    line.facets = bone.surface.facets.size();
+    line.hull_vertices = bone.hull.vertices.size();
+    line.hull_facets = bone.hull.facets.size();
+    line.hull_seconds = reconstruction.figures[i].hull_seconds;
+    line.naming_cost = reconstruction.figures[i].naming_cost;
+    report.bones.push_back(line);
+  }
+  add_dice(dice, reconstruction, report);
+  return report;
+}
+
+std::string text_of(const ReconstructionReport& report) {
+  std::string text;
+  append(text, "side: %s (misfit %.1f; as the other side %.1f)\n\n", report.side.c_str(),
+         report.naming_cost, report.other_side_cost);
+  append_bones(report, text);
+  if (report.dice_mean && report.dice_min) {
+    append(text, "\nDice: mean %.4f, worst bone %.4f\n", *report.dice_mean, *report.dice_min);
+  }
+  double total = 0;
+  for (const StageTime& stage : report.stages) total += stage.seconds;
+  append(text, "\n%-18s %8s %6s\n", "stage", "seconds", "share");
+  for (const StageTime& stage : report.stages) {
+    append(text, "%-18s %8.2f %5.1f%%\n", stage.name.c_str(), stage.seconds,
+           total > 0 ? 100 * stage.seconds / total : 0.0);
+  }
+  append(text, "%-18s %8.2f\n", "total", total);
+  return text;
+}
+
+std::string json_of(const ReconstructionReport& report) {
+  nlohmann::ordered_json json;
+  json["side"] = report.side;
+  json["bones"] = nlohmann::ordered_json::array();
+  for (const BoneLine& b : report.bones) {
+    if (!b.is_found) continue;
+    json["bones"].push_back({{"name", b.name},
+                             {"dice", number_or_null(b.dice)},
+                             {"vertices", b.vertices},
+                             {"facets", b.facets},
+                             {"hull_vertices", b.hull_vertices},
+                             {"hull_facets", b.hull_facets}});
+  }
+  json["dice_mean"] = number_or_null(report.dice_mean);
+  json["dice_min"] = number_or_null(report.dice_min);
+  json["stages"] = nlohmann::ordered_json::array();
+  for (const StageTime& stage : report.stages) {
+    json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace carpus::reconstruct

@@ -1,0 +1,52 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `carpus reconstruct` prints and writes about a reconstruction.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reconstruct/ground_truth.hpp"
+#include "reconstruct/reconstruct_case.hpp"
+
+namespace carpus::reconstruct {
+
+/// One line of the table: a bone or a part of one.
+struct BoneLine {
+  std::string name;
+  std::optional<double> dice;  ///< against the truth, where there is one
+  bool is_found = true;        ///< false: the truth has it, the case does not
+  std::size_t vertices = 0;
+  std::size_t facets = 0;
+  std::size_t hull_vertices = 0;
+  std::size_t hull_facets = 0;
+  double hull_seconds = 0;
+  double naming_cost = 0;
+};
+
+struct ReconstructionReport {
+  std::string side;
+  std::vector<BoneLine> bones;
+  std::optional<double> dice_mean;  ///< over the truth's bones; one that was not found counts as 0
+  std::optional<double> dice_min;
+  std::vector<StageTime> stages;
+  double naming_cost = 0;
+  double other_side_cost = 0;
+};
+
+/// Gathers the figures; `dice` as compare_labels gives it, empty without a truth.
+[[nodiscard]] ReconstructionReport make_report(const Reconstruction& reconstruction,
+                                               const std::vector<LabelDice>& dice);
+
+/// The thesis's table (bone, vertices, facets, hull vertices, hull facets, time), Dice, and the
+/// time of each stage with its share, for people.
+[[nodiscard]] std::string text_of(const ReconstructionReport& report);
+
+/// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets"}],
+/// "dice_mean", "dice_min", "stages": [{"name", "seconds"}]}; the Dice figures are null without a
+/// truth. A bone that was not found is not in "bones", but counts in the mean and the minimum.
+[[nodiscard]] std::string json_of(const ReconstructionReport& report);
+
+}  // namespace carpus::reconstruct

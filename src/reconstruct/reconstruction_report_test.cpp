@@ -1,0 +1,73 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/reconstruction_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace carpus::reconstruct {
+namespace {
+
+using testing::HasSubstr;
+
+Reconstruction two_bones() {
+  Reconstruction r;
+  r.data.side = Side::Right;
+  for (const auto& [bone, label] :
+       {std::pair(BoneId::Radius, std::uint8_t{1}), std::pair(BoneId::Scaphoid, std::uint8_t{3})}) {
+    cases::Bone b;
+    b.bone = bone;
+    b.label = label;
+    b.surface.vertices.resize(6);
+    b.surface.facets.resize(8);
+    b.hull.vertices.resize(4);
+    b.hull.facets.resize(4);
+    r.data.bones.push_back(b);
+    r.figures.push_back({0.5, 0.002});
+  }
+  r.stages = {{"smooth", 1.0}, {"names", 3.0}};
+  return r;
+}
+
+TEST(ReconstructionReport, WritesTheDocumentedJson) {
+  const auto report = make_report(two_bones(), {{1, 10, 10, 0.9}, {3, 10, 10, 0.8}});
+  const auto json = nlohmann::json::parse(json_of(report));
+  EXPECT_EQ(json["side"], "right");
+  ASSERT_EQ(json["bones"].size(), 2U);
+  EXPECT_EQ(json["bones"][1]["name"], "scaphoid");
+  EXPECT_EQ(json["bones"][1]["dice"], 0.8);
+  EXPECT_EQ(json["bones"][1]["vertices"], 6);
+  EXPECT_EQ(json["bones"][1]["facets"], 8);
+  EXPECT_EQ(json["bones"][1]["hull_vertices"], 4);
+  EXPECT_EQ(json["bones"][1]["hull_facets"], 4);
+  EXPECT_NEAR(json["dice_mean"].get<double>(), 0.85, 1e-12);
+  EXPECT_EQ(json["dice_min"], 0.8);
+  EXPECT_EQ(json["stages"][1]["name"], "names");
+  EXPECT_EQ(json["stages"][1]["seconds"], 3.0);
+  EXPECT_EQ(json.size(), 5U);
+}
+
+TEST(ReconstructionReport, SaysNothingAboutDiceWithoutATruth) {
+  const auto json = nlohmann::json::parse(json_of(make_report(two_bones(), {})));
+  EXPECT_TRUE(json["dice_mean"].is_null());
+  EXPECT_TRUE(json["bones"][0]["dice"].is_null());
+}
+
+TEST(ReconstructionReport, CountsABoneThatWasNotFoundAsZero) {
+  const auto report =
+      make_report(two_bones(), {{1, 10, 10, 0.9}, {3, 10, 10, 0.9}, {16, 10, 0, 0.0}});
+  EXPECT_NEAR(*report.dice_mean, 0.6, 1e-12);
+  EXPECT_EQ(*report.dice_min, 0.0);
+  EXPECT_THAT(text_of(report), HasSubstr("scaphoid_distal"));
+  EXPECT_THAT(text_of(report), HasSubstr("NOT FOUND"));
+  EXPECT_EQ(nlohmann::json::parse(json_of(report))["bones"].size(), 2U);
+}
+
+TEST(ReconstructionReport, GivesEachStageItsShare) {
+  EXPECT_THAT(text_of(make_report(two_bones(), {})), HasSubstr("75.0%"));
+}
+
+}  // namespace
+}  // namespace carpus::reconstruct
