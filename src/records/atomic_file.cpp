@@ -1,0 +1,107 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "records/atomic_file.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace carpus::records {
+
+namespace {
+
+std::string advice(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "free some space and try again";
+    case ENOENT:
+      return "create its folder first";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a place that you may write to";
+    default:
+      return "choose another place";
+  }
+}
+
+/// A file under a temporary name that vanishes unless it is renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& target)
+      : target_(target), name_(target.string() + ".XXXXXX") {
+    descriptor_ = ::mkstemp(name_.data());
+    if (descriptor_ < 0) fail("cannot create");
+    // mkstemp makes it private; other users may read it like any file that a program writes.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot set the permissions of");
+  }
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(std::span<const std::byte> content) {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail("cannot write");
+      content = content.subspan(static_cast<std::size_t>(written));
+    }
+    if (::fsync(descriptor_) != 0) fail("cannot write");
+  }
+
+  void rename_to_target() {
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail("cannot write");
+    name_.clear();
+  }
+
+ private:
+  [[noreturn]] void fail(const char* what) {
+    const int error = errno;
+    throw IoError(target_.string() + ": " + what + " the file: " + std::strerror(error) + "; " +
+                  advice(error));
+  }
+
+  std::filesystem::path target_;
+  std::string name_;
+  int descriptor_ = -1;
+};
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& file, std::span<const std::byte> content) {
+  TemporaryFile temporary(file);
+  temporary.write(content);
+  temporary.rename_to_target();
+}
+
+void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+  write_file_atomically(file, std::as_bytes(std::span(content.data(), content.size())));
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw IoError(file.string() + ": no such file, or it cannot be read");
+  }
+  std::vector<std::byte> content(static_cast<std::size_t>(stream.tellg()));
+  stream.seekg(0);
+  stream.read(reinterpret_cast<char*>(content.data()),
+              static_cast<std::streamsize>(content.size()));
+  if (!stream) throw IoError(file.string() + ": cannot be read to its end");
+  return content;
+}
+
+}  // namespace carpus::records

@@ -1,0 +1,25 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files that are whole or not there: written under a temporary name in the same folder, flushed to
+// the disk, then renamed.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace carpus::records {
+
+/// Replaces or creates `file`.
+/// @throws IoError  saying what to do; whatever was there before is still there.
+void write_file_atomically(const std::filesystem::path& file, std::span<const std::byte> content);
+void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+/// The whole content of a file.
+/// @throws IoError  where there is none or it cannot be read.
+[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file);
+
+}  // namespace carpus::records

@@ -1,0 +1,214 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "records/attempt_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "records/detail/schema.hpp"
+
+namespace carpus::records {
+
+static_assert(detail::kMigrations.size() == kRecordsSchemaVersion);
+
+namespace {
+
+/// How long a write waits for another process that is writing [ms].
+constexpr int kBusyTimeoutMs = 5000;
+
+/// Says in words what to do about an SQLite error.
+std::string advice(const SQLite::Exception& error) {
+  switch (error.getErrorCode()) {
+    case SQLITE_FULL:
+      return "the disk is full; free some space and try again";
+    case SQLITE_READONLY:
+      return "the file is read-only; make it writable or choose another with --records";
+    case SQLITE_CANTOPEN:
+      return "the file cannot be opened or created; check that its folder exists and is writable, "
+             "or choose another with --records";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another program is using the file; close it and try again";
+    case SQLITE_NOTADB:
+      return "this is not a records file; choose another with --records";
+    case SQLITE_CORRUPT:
+      return "the file is damaged; restore it from a copy or choose another with --records";
+    case SQLITE_IOERR:
+      return "the disk refused to read or write; it may be full or failing: free some space and "
+             "try again";
+    default:
+      return "choose another file with --records";
+  }
+}
+
+IoError io_error(const std::filesystem::path& file,
+                 const std::string& what,
+                 const SQLite::Exception& error) {
+  return IoError("records " + file.string() + ": " + what + ": " + error.what() + "; " +
+                 advice(error));
+}
+
+AttemptSummary read_summary(SQLite::Statement& row) {
+  AttemptSummary summary;
+  summary.id = row.getColumn("id").getInt64();
+  summary.trainee = row.getColumn("trainee").getString();
+  summary.case_name = row.getColumn("case_name").getString();
+  summary.case_fingerprint = row.getColumn("case_fingerprint").getString();
+  summary.procedure = row.getColumn("procedure").getString();
+  summary.input_device = row.getColumn("input_device").getString();
+  summary.started_at = row.getColumn("started_at").getString();
+  summary.ended_at = row.getColumn("ended_at").getString();
+  summary.outcome =
+      row.getColumn("outcome").getString() == "finished" ? Outcome::Finished : Outcome::Unfinished;
+  const SQLite::Column overall = row.getColumn("overall");
+  if (!overall.isNull()) summary.overall = overall.getDouble();
+  summary.duration_ticks = static_cast<std::uint64_t>(row.getColumn("duration_ticks").getInt64());
+  summary.final_hash = row.getColumn("final_hash").getString();
+  return summary;
+}
+
+void bind(SQLite::Statement& insert, const Attempt& attempt) {
+  const AttemptSummary& summary = attempt.summary;
+  insert.bind(":trainee", summary.trainee);
+  insert.bind(":case_name", summary.case_name);
+  insert.bind(":case_fingerprint", summary.case_fingerprint);
+  insert.bind(":procedure", summary.procedure);
+  insert.bind(":input_device", summary.input_device);
+  insert.bind(":started_at", summary.started_at);
+  insert.bind(":ended_at", summary.ended_at);
+  insert.bind(":outcome", std::string(name_of(summary.outcome)));
+  if (summary.overall) insert.bind(":overall", *summary.overall);
+  insert.bind(":duration_ticks", static_cast<std::int64_t>(summary.duration_ticks));
+  insert.bind(":final_hash", summary.final_hash);
+  insert.bind(":score", attempt.score_json);
+  insert.bind(":events", attempt.events_json);
+  // SQLite stores NULL for a null pointer, which an empty vector may give.
+  insert.bind(":recording",
+              attempt.recording.empty() ? "" : static_cast<const void*>(attempt.recording.data()),
+              static_cast<int>(attempt.recording.size()));
+}
+
+}  // namespace
+
+std::string_view name_of(Outcome outcome) noexcept {
+  return outcome == Outcome::Finished ? "finished" : "unfinished";
+}
+
+struct AttemptStore::Connection {
+  SQLite::Database database;
+
+  explicit Connection(const std::filesystem::path& file)
+      : database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {}
+
+  int pragma(const char* name) {
+    return database.execAndGet(std::string("PRAGMA ") + name).getInt();
+  }
+
+  void prepare(const std::filesystem::path& file) {
+    const int version = pragma("user_version");
+    const bool is_new =
+        version == 0 && database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
+    if (!is_new && pragma("application_id") != detail::kApplicationId) {
+      throw IoError("records " + file.string() +
+                    ": a database of another program; choose another file with --records");
+    }
+    if (version > kRecordsSchemaVersion) {
+      throw SchemaError("records " + file.string() + ": schema version " + std::to_string(version) +
+                        " is newer than " + std::to_string(kRecordsSchemaVersion) +
+                        ", which this program knows; update Carpus or choose another file with "
+                        "--records");
+    }
+    database.exec("PRAGMA journal_mode = WAL");
+    database.exec("PRAGMA synchronous = FULL");
+    if (version < kRecordsSchemaVersion) migrate();
+  }
+
+  void migrate() {
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    // Another process may have done it while this one waited for the lock.
+    for (int version = pragma("user_version"); version < kRecordsSchemaVersion; ++version) {
+      database.exec(detail::kMigrations[static_cast<std::size_t>(version)]);
+    }
+    database.exec("PRAGMA application_id = " + std::to_string(detail::kApplicationId));
+    database.exec("PRAGMA user_version = " + std::to_string(kRecordsSchemaVersion));
+    transaction.commit();
+  }
+};
+
+AttemptStore::AttemptStore(const std::filesystem::path& file) : file_(file) {
+  try {
+    connection_ = std::make_unique<Connection>(file);
+    connection_->prepare(file);
+  } catch (const SQLite::Exception& error) {
+    throw io_error(file, "cannot open", error);
+  }
+}
+
+AttemptStore::~AttemptStore() = default;
+AttemptStore::AttemptStore(AttemptStore&&) noexcept = default;
+AttemptStore& AttemptStore::operator=(AttemptStore&&) noexcept = default;
+
+std::int64_t AttemptStore::save(const Attempt& attempt) {
+  try {
+    SQLite::Transaction transaction(connection_->database, SQLite::TransactionBehavior::IMMEDIATE);
+    SQLite::Statement insert(
+        connection_->database,
+        "INSERT INTO attempt (trainee, case_name, case_fingerprint, procedure, input_device, "
+        "started_at, ended_at, outcome, overall, duration_ticks, final_hash, score, events, "
+        "recording) VALUES (:trainee, :case_name, :case_fingerprint, :procedure, :input_device, "
+        ":started_at, :ended_at, :outcome, :overall, :duration_ticks, :final_hash, :score, "
+        ":events, :recording)");
+    bind(insert, attempt);
+    insert.exec();
+    const std::int64_t id = connection_->database.getLastInsertRowid();
+    transaction.commit();
+    return id;
+  } catch (const SQLite::Exception& error) {
+    throw io_error(file_, "the attempt was not stored", error);
+  }
+}
+
+std::vector<AttemptSummary> AttemptStore::list() const {
+  try {
+    std::vector<AttemptSummary> attempts;
+    SQLite::Statement rows(
+        connection_->database,
+        "SELECT id, trainee, case_name, case_fingerprint, procedure, input_device, started_at, "
+        "ended_at, outcome, overall, duration_ticks, final_hash FROM attempt ORDER BY id DESC");
+    while (rows.executeStep()) attempts.push_back(read_summary(rows));
+    return attempts;
+  } catch (const SQLite::Exception& error) {
+    throw io_error(file_, "cannot read the attempts", error);
+  }
+}
+
+std::optional<Attempt> AttemptStore::find(std::int64_t id) const {
+  try {
+    SQLite::Statement row(connection_->database, "SELECT * FROM attempt WHERE id = ?");
+    row.bind(1, id);
+    if (!row.executeStep()) return std::nullopt;
+    Attempt attempt;
+    attempt.summary = read_summary(row);
+    attempt.score_json = row.getColumn("score").getString();
+    attempt.events_json = row.getColumn("events").getString();
+    const SQLite::Column blob = row.getColumn("recording");
+    attempt.recording.resize(static_cast<std::size_t>(blob.getBytes()));
+    if (!attempt.recording.empty()) {
+      std::memcpy(attempt.recording.data(), blob.getBlob(), attempt.recording.size());
+    }
+    return attempt;
+  } catch (const SQLite::Exception& error) {
+    throw io_error(file_, "cannot read attempt " + std::to_string(id), error);
+  }
+}
+
+void AttemptStore::limit_pages(int pages) {
+  connection_->database.exec("PRAGMA max_page_count = " + std::to_string(pages));
+}
+
+}  // namespace carpus::records

@@ -1,0 +1,146 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "records/attempt_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "records/records_test_support.hpp"
+
+namespace carpus::records {
+namespace {
+
+using testing::FileSizeLimit;
+using ::testing::HasSubstr;
+using testing::make_attempt;
+using testing::TemporaryFolder;
+
+template <typename Exception, typename Action>
+std::string message_of(Action&& action) {
+  try {
+    action();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(AttemptStore, FindsWhatWasSavedByteForByte) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  Attempt attempt = make_attempt("Éva \"O'Neil\"; DROP TABLE attempt;--", 70000);
+  attempt.summary.id = store.save(attempt);
+  EXPECT_EQ(attempt.summary.id, 1);
+  EXPECT_EQ(store.find(1), attempt);
+  EXPECT_EQ(store.find(2), std::nullopt);
+}
+
+TEST(AttemptStore, KeepsAnUnfinishedAttemptWithoutScoreOrRecording) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  Attempt attempt = make_attempt("", 0);
+  attempt.summary.outcome = Outcome::Unfinished;
+  attempt.summary.overall.reset();
+  attempt.score_json.clear();
+  attempt.summary.id = store.save(attempt);
+  EXPECT_EQ(store.find(attempt.summary.id), attempt);
+}
+
+TEST(AttemptStore, ListsNewestFirstAndSurvivesReopening) {
+  const TemporaryFolder folder;
+  for (const char* name : {"first", "second", "third"}) {
+    AttemptStore store(folder / "attempts.sqlite");
+    store.save(make_attempt(name));
+  }
+  const auto attempts = AttemptStore(folder / "attempts.sqlite").list();
+  ASSERT_EQ(attempts.size(), 3U);
+  EXPECT_EQ(attempts[0].trainee, "third");
+  EXPECT_EQ(attempts[2].trainee, "first");
+}
+
+TEST(AttemptStore, TwoProcessesMaySaveInTurn) {
+  const TemporaryFolder folder;
+  AttemptStore one(folder / "attempts.sqlite");
+  AttemptStore other(folder / "attempts.sqlite");
+  one.save(make_attempt("one"));
+  other.save(make_attempt("other"));
+  one.save(make_attempt("one again"));
+  EXPECT_EQ(other.list().size(), 3U);
+}
+
+TEST(AttemptStore, FullDiskStoresNothingOfTheAttemptAndSaysWhatToDo) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  store.save(make_attempt("before"));
+  store.limit_pages(16);
+  const std::string message =
+      message_of<IoError>([&] { store.save(make_attempt("too much", 500000)); });
+  EXPECT_THAT(message, HasSubstr("the disk is full; free some space"));
+  store.limit_pages(100000);
+  ASSERT_EQ(store.list().size(), 1U);
+  store.save(make_attempt("after", 500000));
+  EXPECT_EQ(store.list().size(), 2U);
+}
+
+TEST(AttemptStore, FileThatCannotGrowKeepsWhatWasThere) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  store.save(make_attempt("before"));
+  {
+    const FileSizeLimit limit(60000);
+    const std::string message =
+        message_of<IoError>([&] { store.save(make_attempt("too much", 500000)); });
+    EXPECT_THAT(message, HasSubstr("free some space"));
+  }
+  EXPECT_EQ(AttemptStore(folder / "attempts.sqlite").list().size(), 1U);
+  store.save(make_attempt("after", 500000));
+  EXPECT_EQ(store.list().size(), 2U);
+}
+
+TEST(AttemptStore, RefusesANewerSchema) {
+  const TemporaryFolder folder;
+  { AttemptStore store(folder / "attempts.sqlite"); }
+  {
+    SQLite::Database database((folder / "attempts.sqlite").string(), SQLite::OPEN_READWRITE);
+    database.exec("PRAGMA user_version = 99");
+  }
+  const std::string message =
+      message_of<SchemaError>([&] { AttemptStore(folder / "attempts.sqlite"); });
+  EXPECT_THAT(message, HasSubstr("99 is newer"));
+  EXPECT_THAT(message, HasSubstr("update Carpus"));
+}
+
+TEST(AttemptStore, RefusesADatabaseOfAnotherProgram) {
+  const TemporaryFolder folder;
+  {
+    SQLite::Database database((folder / "other.sqlite").string(),
+                              SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    database.exec("CREATE TABLE diary (day TEXT)");
+  }
+  EXPECT_THAT(message_of<IoError>([&] { AttemptStore(folder / "other.sqlite"); }),
+              HasSubstr("another program"));
+}
+
+TEST(AttemptStore, RefusesAFileThatIsNoDatabase) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "notes.txt") << std::string(5000, 'x');
+  EXPECT_THAT(message_of<IoError>([&] { AttemptStore(folder / "notes.txt"); }),
+              HasSubstr("not a records file"));
+}
+
+TEST(AttemptStore, SaysThatAPlaceCannotBeWritten) {
+  const TemporaryFolder folder;
+  for (const auto& file : {folder / "missing/attempts.sqlite",
+                           std::filesystem::path("/proc/attempts.sqlite"), folder.path()}) {
+    EXPECT_THAT(message_of<IoError>([&] { AttemptStore store(file); }), HasSubstr("--records"))
+        << file;
+  }
+}
+
+}  // namespace
+}  // namespace carpus::records

@@ -1,0 +1,39 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The schema of the records file and how one version becomes the next.
+#pragma once
+
+#include <array>
+
+namespace carpus::records::detail {
+
+/// "CARP", in the file's header: tells our files from other SQLite databases.
+inline constexpr int kApplicationId = 0x43415250;
+
+/// kMigrations[v] turns a file of version v into one of version v + 1; a new file begins at 0.
+/// Never change one that was released: add the next.
+inline constexpr std::array<const char*, 1> kMigrations{
+    R"sql(
+      CREATE TABLE attempt (
+        id               INTEGER PRIMARY KEY AUTOINCREMENT,
+        trainee          TEXT NOT NULL,
+        case_name        TEXT NOT NULL,
+        case_fingerprint TEXT NOT NULL,
+        procedure        TEXT NOT NULL,
+        input_device     TEXT NOT NULL,
+        started_at       TEXT NOT NULL,
+        ended_at         TEXT NOT NULL,
+        outcome          TEXT NOT NULL CHECK (outcome IN ('unfinished', 'finished')),
+        overall          REAL CHECK (overall BETWEEN 0 AND 100),
+        duration_ticks   INTEGER NOT NULL,
+        final_hash       TEXT NOT NULL,
+        score            TEXT NOT NULL,
+        events           TEXT NOT NULL,
+        recording        BLOB NOT NULL
+      );
+      CREATE INDEX attempt_by_start ON attempt (started_at);
+    )sql",
+};
+
+}  // namespace carpus::records::detail
