@@ -1,0 +1,96 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One exercise as the station hosts it: a world in its 1 kHz thread, the recording, the log, and
+// the attempt that is kept of it. Used in one thread, the network's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "procedure/procedure_id.hpp"
+#include "procedure/score.hpp"
+#include "records/attempt.hpp"
+#include "server/event_text.hpp"
+#include "server/simulation_loop.hpp"
+#include "simulation/recording.hpp"
+#include "simulation/world.hpp"
+
+namespace carpus::server {
+
+struct ExerciseSetup {
+  std::string trainee;
+  std::string input_device;
+  procedure::ProcedureId procedure = procedure::ProcedureId::DorsalScaphoidFixation;
+  std::uint64_t seed = 0;
+};
+
+/// A picture that was taken: from where, and the state at that tick.
+struct TakenShot {
+  std::uint32_t number = 0;
+  std::uint64_t exercise = 0;  ///< the station's count, to tell late pictures from new ones
+  double rotation_deg = 0.0;
+  double tilt_deg = 0.0;
+  simulation::Snapshot snapshot;
+};
+
+/// What happened since the last look.
+struct ExerciseNews {
+  std::vector<LoggedEvent> events;
+  std::vector<TakenShot> shots;
+};
+
+class Exercise {
+ public:
+  /// Starts at once. @param posed_case must outlive it.
+  /// @throws InvalidInput when the case cannot be operated on.
+  Exercise(const cases::CaseData& posed_case, std::uint64_t case_fingerprint, ExerciseSetup setup);
+
+  /// The loop's controls: hold, command, pause.
+  [[nodiscard]] SimulationLoop& loop() noexcept { return loop_; }
+
+  /// Takes over what was done since; to be called many times a second.
+  [[nodiscard]] ExerciseNews collect();
+
+  /// True when there is a newer state than at the last call; `state()` has it.
+  bool update() noexcept { return loop_.take_state(state_); }
+  [[nodiscard]] const LoopState& state() const noexcept { return state_; }
+
+  /// Stops the thread and returns what is to be kept: with a score when the operation was
+  /// finished. The last news are in the attempt's log. Call once.
+  [[nodiscard]] records::Attempt end();
+
+ private:
+  ExerciseSetup setup_;
+  const cases::CaseData& posed_case_;
+  std::uint64_t case_fingerprint_;
+  std::string started_at_;
+  simulation::World world_;
+  simulation::Recorder recorder_;
+  std::vector<LoggedEvent> log_;
+  LoopState state_;
+  SimulationLoop loop_;  ///< last, so that its thread ends before what it uses
+};
+
+/// The record of one attempt, however it was made: a station's exercise or a scripted trainee's.
+struct AttemptParts {
+  const cases::CaseData& posed_case;
+  const simulation::Recording& recording;
+  const std::vector<LoggedEvent>& log;
+  std::optional<procedure::ScoreReport> score;  ///< of a finished operation
+  std::string trainee;
+  std::string input_device;
+  std::string started_at;
+};
+[[nodiscard]] records::Attempt make_attempt(const AttemptParts& parts);
+
+/// Sixteen hexadecimal digits, as state hashes and fingerprints are written everywhere.
+[[nodiscard]] std::string hexadecimal(std::uint64_t value);
+
+/// [{"tick", "kind", "text"}]
+[[nodiscard]] std::string events_json(const std::vector<LoggedEvent>& events);
+
+}  // namespace carpus::server

@@ -1,0 +1,86 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// HTTP and WebSocket on one port (Boost.Beast), in one thread: the network's end of the station.
+// It knows nothing of operations; it hands requests and frames on and keeps bad ones out.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/http_message.hpp"
+
+namespace carpus::server {
+
+/// A page that is connected to /ws. Used in the network thread only.
+class PageConnection {
+ public:
+  virtual ~PageConnection() = default;
+  /// Queues a text frame. A page that lets more than some megabytes wait is disconnected.
+  virtual void send_text(std::string text) = 0;
+  /// Queues a binary frame.
+  virtual void send_binary(std::string bytes) = 0;
+  /// Frames that wait for the network; states are not worth sending while older ones wait.
+  [[nodiscard]] virtual std::size_t waiting_frames() const = 0;
+  /// Says goodbye after what is queued.
+  virtual void close() = 0;
+};
+
+/// What happens on /ws. Called in the network thread, never after `on_close` of that connection.
+class PageHandler {
+ public:
+  virtual ~PageHandler() = default;
+  virtual void on_open(const std::shared_ptr<PageConnection>& page) = 0;
+  virtual void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) = 0;
+  virtual void on_binary(const std::shared_ptr<PageConnection>& page) = 0;
+  /// Anything was heard, an answer to a ping included.
+  virtual void on_alive(const std::shared_ptr<PageConnection>& page) = 0;
+  virtual void on_close(const std::shared_ptr<PageConnection>& page) = 0;
+};
+
+struct NetworkOptions {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8080;  ///< 0 lets the system choose
+  /// For a request to arrive as a whole, an answer to leave, a handshake.
+  std::chrono::milliseconds request_timeout{10000};
+  /// A page that does not answer pings for so long is gone.
+  std::chrono::milliseconds page_timeout{10000};
+  std::chrono::milliseconds ping_interval{400};
+  std::size_t max_connections = 64;
+};
+
+class NetworkServer {
+ public:
+  /// Takes the port.
+  /// @throws IoError  naming the port or address and the option to change it.
+  NetworkServer(const NetworkOptions& options, HttpHandler http, PageHandler& pages);
+  ~NetworkServer();
+  NetworkServer(const NetworkServer&) = delete;
+  NetworkServer& operator=(const NetworkServer&) = delete;
+
+  /// "http://127.0.0.1:8080"
+  [[nodiscard]] std::string url() const;
+  [[nodiscard]] std::uint16_t port() const noexcept;
+
+  /// Serves until stop(); all handlers are called in the thread that calls this.
+  void run();
+  /// From any thread: closes the connections (each gets its on_close) and lets run() return.
+  void stop();
+  /// SIGINT and SIGTERM call stop().
+  void stop_on_signals();
+  /// From any thread: calls `task` in the network thread.
+  void post(std::function<void()> task);
+  /// Before run(): calls `task` in the network thread at this interval.
+  void repeat(std::chrono::milliseconds interval, std::function<void()> task);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace carpus::server

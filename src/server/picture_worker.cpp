@@ -1,0 +1,113 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/picture_worker.hpp"
+
+#include <bit>
+#include <utility>
+
+#include "core/error.hpp"
+#include "geometry/aabb.hpp"
+#include "procedure/views.hpp"
+#include "server/metal_in_beam.hpp"
+
+namespace carpus::server {
+
+namespace {
+
+void append(std::string& bytes, std::uint32_t value, int count) {
+  for (int i = 0; i < count; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xFFU);
+}
+
+void append(std::string& bytes, double value) {
+  append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+}
+
+/// Middle of the scaphoid's bounds: where a radiographer would centre the beam.
+Vec3 scaphoid_centre(const cases::CaseData& data) {
+  Aabb bounds;
+  for (const cases::Bone* part : cases::scaphoid_parts(data)) {
+    for (const Vec3& vertex : part->surface.vertices) {
+      bounds.include((part->patient_from_bone * Point<frame::Bone>{vertex}).v);
+    }
+  }
+  return bounds.is_empty() ? Vec3{} : (bounds.low + bounds.high) / 2;
+}
+
+}  // namespace
+
+std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image) {
+  std::string bytes = "CARM";
+  append(bytes, 1, 4);
+  append(bytes, shot.number, 4);
+  append(bytes, static_cast<std::uint32_t>(image.width), 2);
+  append(bytes, static_cast<std::uint32_t>(image.height), 2);
+  append(bytes, image.pixel_mm);
+  append(bytes, shot.rotation_deg);
+  append(bytes, shot.tilt_deg);
+  append(bytes, procedure::kDosePerShotCgyCm2);
+  bytes.append(image.grey.begin(), image.grey.end());
+  return bytes;
+}
+
+fluoroscopy::Image take_picture(const cases::CaseData& posed_case,
+                                const fluoroscopy::FluoroscopyRenderer& renderer,
+                                const TakenShot& shot) {
+  const Direction<frame::Wrist> ulnar{{0, posed_case.side == Side::Left ? 1.0 : -1.0, 0}};
+  // Views are named by the forearm as it is held: in the operative posture it has turned.
+  const Pose<frame::Wrist, frame::Bone> wrist_from_forearm{
+      posed_case.wrist_from_patient.rotation, posed_case.wrist_from_patient.translation};
+  const Pose<frame::Wrist, frame::Patient> wrist_as_held =
+      wrist_from_forearm * posed_case.operative_posture.patient_from_forearm.inverse();
+  const fluoroscopy::CArmPose pose = fluoroscopy::make_c_arm_pose(
+      {shot.rotation_deg, shot.tilt_deg}, {scaphoid_centre(posed_case)}, wrist_as_held, ulnar);
+  fluoroscopy::Exposure exposure;
+  exposure.seed = shot.snapshot.tick;
+  return renderer.render(pose, metal_in_beam(shot.snapshot), exposure);
+}
+
+PictureWorker::PictureWorker(const cases::CaseData& posed_case, Deliver deliver)
+    : posed_case_(posed_case), renderer_(posed_case.ct.view()), deliver_(std::move(deliver)) {
+  thread_ = std::thread([this] { run(); });
+}
+
+PictureWorker::~PictureWorker() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void PictureWorker::request(const TakenShot& shot) {
+  {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back(shot);
+  }
+  wake_.notify_one();
+}
+
+void PictureWorker::clear() {
+  const std::lock_guard lock(mutex_);
+  queue_.clear();
+}
+
+void PictureWorker::run() {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+    if (stopping_) return;
+    const TakenShot shot = queue_.front();
+    queue_.pop_front();
+    lock.unlock();
+    std::string frame;
+    try {
+      frame = encode_picture(shot, take_picture(posed_case_, renderer_, shot));
+    } catch (const std::exception&) {
+      frame.clear();
+    }
+    deliver_(shot.exercise, std::move(frame));
+  }
+}
+
+}  // namespace carpus::server

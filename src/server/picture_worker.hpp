@@ -1,0 +1,59 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fluoroscopy pictures, rendered in a thread of their own so that neither the hand nor the network
+// waits for them.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "cases/case_data.hpp"
+#include "fluoroscopy/render.hpp"
+#include "server/exercise.hpp"
+
+namespace carpus::server {
+
+/// The binary frame of protocol/README.md.
+[[nodiscard]] std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image);
+
+/// One picture, as `PictureWorker` makes it: the C-arm centred on the scaphoid, the metal as it
+/// lay.
+/// @throws InvalidInput for angles that no C-arm can take.
+[[nodiscard]] fluoroscopy::Image take_picture(const cases::CaseData& posed_case,
+                                              const fluoroscopy::FluoroscopyRenderer& renderer,
+                                              const TakenShot& shot);
+
+class PictureWorker {
+ public:
+  /// Called in the worker's thread; the frame is empty when the picture could not be made.
+  using Deliver = std::function<void(std::uint64_t exercise, std::string frame)>;
+
+  PictureWorker(const cases::CaseData& posed_case, Deliver deliver);
+  ~PictureWorker();
+  PictureWorker(const PictureWorker&) = delete;
+  PictureWorker& operator=(const PictureWorker&) = delete;
+
+  void request(const TakenShot& shot);
+  /// Forgets what was asked for and not yet begun.
+  void clear();
+
+ private:
+  void run();
+
+  const cases::CaseData& posed_case_;
+  fluoroscopy::FluoroscopyRenderer renderer_;
+  Deliver deliver_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<TakenShot> queue_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace carpus::server

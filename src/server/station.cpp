@@ -1,0 +1,272 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/station.hpp"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/version.hpp"
+#include "server/case_messages.hpp"
+
+namespace carpus::server {
+
+using simulation::Command;
+using simulation::CommandKind;
+using std::chrono::steady_clock;
+
+namespace {
+
+/// States are worth sending only while older ones are not waiting.
+constexpr std::size_t kMaxWaitingFrames = 3;
+/// A page that goes on after so many messages were dropped is not ours.
+constexpr std::uint64_t kMaxDropped = 20000;
+
+/// The protocol's limit for texts that come from elsewhere, such as a system's error message.
+std::string shortened(std::string text) {
+  constexpr std::size_t kMaxBytes = 1000;
+  if (text.size() <= kMaxBytes) return text;
+  std::size_t end = kMaxBytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "…";
+}
+
+/// "1000.0 Hz, a tick took 12 us (p50), 30 us (p99), 210 us (worst), 0 late; ordinary priority"
+std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "%.1f Hz, a tick took %.0f us (p50), %.0f us (p99), %.0f us (worst), %llu late; %s",
+                timing.rate_hz, timing.p50_us, timing.p99_us, timing.worst_us,
+                static_cast<unsigned long long>(timing.late_ticks),
+                grants.real_time_priority ? "real-time priority" : "ordinary priority");
+  return text.data();
+}
+
+void send_error(PageConnection& page, std::string reason, std::string what_to_do) {
+  page.send_text(serialize(protocol::HostMessage(
+      protocol::Error{shortened(std::move(reason)), shortened(std::move(what_to_do))})));
+}
+
+}  // namespace
+
+Station::Station(const cases::CaseData& posed_case, records::AttemptKeeper& records, Log log)
+    : posed_case_(posed_case),
+      case_fingerprint_(simulation::fingerprint_of(posed_case)),
+      broken_scaphoid_(has_broken_scaphoid(posed_case)),
+      records_(records),
+      log_(std::move(log)) {}
+
+Station::~Station() { store_running(); }
+
+void Station::attach(NetworkServer& network) {
+  network_ = &network;
+  pictures_ = std::make_unique<PictureWorker>(
+      posed_case_, [this](std::uint64_t exercise, std::string frame) {
+        network_->post([this, exercise, frame = std::move(frame)]() mutable {
+          // A picture of the exercise before is of no use to this one.
+          if (!operator_ || exercise != exercise_number_) return;
+          if (frame.empty()) return refuse("The picture could not be made", "Take it again.");
+          operator_->send_binary(std::move(frame));
+        });
+      });
+  network.repeat(kStateInterval, [this] { update(); });
+}
+
+void Station::on_open(const std::shared_ptr<PageConnection>& page) { visitors_[page.get()]; }
+
+void Station::on_close(const std::shared_ptr<PageConnection>& page) {
+  visitors_.erase(page.get());
+  if (page != operator_) return;
+  operator_.reset();
+  store_running();
+}
+
+void Station::on_alive(const std::shared_ptr<PageConnection>& page) {
+  if (page == operator_) last_heard_ = steady_clock::now();
+}
+
+void Station::on_binary(const std::shared_ptr<PageConnection>& page) {
+  if (may_speak(page)) {
+    send_error(*page, "A binary frame was received", "Only text frames are understood.");
+  }
+}
+
+bool Station::may_speak(const std::shared_ptr<PageConnection>& page) {
+  Visitor& visitor = visitors_[page.get()];
+  if (visitor.limit.allows(steady_clock::now())) return true;
+  if (++visitor.dropped == 1) {
+    send_error(*page, "Too many messages; some are ignored", "Send at most 1000 a second.");
+  }
+  if (visitor.dropped > kMaxDropped) page->close();
+  return false;
+}
+
+void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) {
+  if (!may_speak(page)) return;
+  const Result<protocol::PageMessage> message = protocol::parse_page_message(text);
+  if (!message) {
+    return send_error(*page, "Message refused: " + message.error(),
+                      "Reload the page; the exercise goes on.");
+  }
+  if (const auto* hello = std::get_if<protocol::Hello>(&*message)) return greet(page, *hello);
+  if (page != operator_) {
+    return send_error(*page, "This page does not operate", "Say hello first.");
+  }
+  try {
+    std::visit([this](const auto& m) { on_message(m); }, *message);
+  } catch (const Error& error) {
+    log_(error.what());
+    refuse(error.what(), "Change what the message says and try again.");
+  }
+}
+
+void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello) {
+  if (hello.protocol != protocol::kProtocolVersion) {
+    send_error(*page,
+               "The page speaks protocol " + std::to_string(hello.protocol) + ", this station " +
+                   std::to_string(protocol::kProtocolVersion),
+               "Reload the page.");
+    return page->close();
+  }
+  if (operator_ && operator_ != page) {
+    return page->send_text(serialize(protocol::HostMessage(
+        protocol::Busy{"Another page operates on this station. Close it there, then try again."})));
+  }
+  operator_ = page;
+  last_heard_ = steady_clock::now();
+  send(protocol::Welcome{protocol::kProtocolVersion, kProgramVersion, exercise_ != nullptr});
+}
+
+void Station::on_message(const protocol::Hello&) {}
+
+void Station::on_message(const protocol::Start& start) {
+  store_running();
+  ExerciseSetup setup;
+  setup.trainee = start.trainee;
+  setup.input_device = name_of(start.input_device);
+  setup.procedure = procedure::procedure_of(name_of(start.procedure)).value();
+  setup.seed = static_cast<std::uint64_t>(start.seed);
+  paused_by_page_ = false;
+  paused_by_silence_ = false;
+  exercise_ = std::make_unique<Exercise>(posed_case_, case_fingerprint_, std::move(setup));
+  ++exercise_number_;
+  pictures_->clear();
+  last_heard_ = steady_clock::now();
+}
+
+void Station::on_message(const protocol::Tool& tool) {
+  if (has_exercise()) exercise_->loop().hold(held_tool(tool));
+}
+
+void Station::on_message(const protocol::TakeShot& shot) {
+  command({CommandKind::TakeShot, 0, shot.rotation_deg, shot.tilt_deg});
+}
+
+void Station::on_message(const protocol::Measure&) { command({CommandKind::Measure, 0, 0.0, 0.0}); }
+
+void Station::on_message(const protocol::SelectScrew& screw) {
+  command({CommandKind::SelectScrew, static_cast<std::int32_t>(screw.index), 0.0, 0.0});
+}
+
+void Station::on_message(const protocol::Undo&) { command({CommandKind::Undo, 0, 0.0, 0.0}); }
+
+void Station::on_message(const protocol::Finish&) {
+  // Time must pass for the operation to end.
+  paused_by_page_ = false;
+  apply_pause();
+  command({CommandKind::Finish, 0, 0.0, 0.0});
+}
+
+void Station::on_message(const protocol::Pause& pause) {
+  if (!has_exercise()) return;
+  paused_by_page_ = pause.on;
+  apply_pause();
+}
+
+bool Station::has_exercise() {
+  if (exercise_) return true;
+  refuse("No exercise runs", "Begin one first.");
+  return false;
+}
+
+void Station::command(const Command& command) {
+  if (!has_exercise()) return;
+  if (!exercise_->loop().command(command)) {
+    refuse("Too many commands are waiting", "Wait a moment, or resume when paused.");
+  }
+}
+
+void Station::apply_pause() {
+  if (exercise_) exercise_->loop().pause(paused_by_page_ || paused_by_silence_);
+}
+
+void Station::update() {
+  if (!exercise_) return;
+  watch_silence();
+  send_news();
+  send_state();
+  if (exercise_ && exercise_->state().snapshot.finished) conclude();
+}
+
+void Station::watch_silence() {
+  const bool silent = steady_clock::now() - last_heard_ > kSilence;
+  if (silent == paused_by_silence_) return;
+  paused_by_silence_ = silent;
+  apply_pause();
+}
+
+void Station::send_news() {
+  ExerciseNews news = exercise_->collect();
+  for (LoggedEvent& event : news.events) {
+    send(protocol::Event{static_cast<std::int64_t>(event.tick), std::move(event.kind),
+                         std::move(event.text)});
+  }
+  for (TakenShot& shot : news.shots) {
+    shot.exercise = exercise_number_;
+    pictures_->request(shot);
+  }
+}
+
+void Station::send_state() {
+  if (!exercise_->update() || !operator_) return;
+  // The last state of an exercise must arrive, others are replaced by the next.
+  const bool is_last = exercise_->state().snapshot.finished;
+  if (!is_last && operator_->waiting_frames() > kMaxWaitingFrames) return;
+  send(snapshot_message(exercise_->state(), paused_by_page_ || paused_by_silence_,
+                        broken_scaphoid_));
+}
+
+void Station::store_running() {
+  if (exercise_) conclude();
+}
+
+void Station::conclude() {
+  send_news();
+  const records::Attempt attempt = exercise_->end();
+  const std::string timing = in_words(exercise_->state().timing, exercise_->loop().grants());
+  exercise_.reset();
+  const records::KeptAttempt kept = records_.save(attempt);
+  const bool finished = attempt.summary.outcome == records::Outcome::Finished;
+  log_("attempt " + (kept.id > 0 ? std::to_string(kept.id) : std::string("(not stored)")) +
+       (finished ? " finished" : " unfinished") + " after " +
+       std::to_string(attempt.summary.duration_ticks / 1000) + " s; " + timing);
+  if (!kept.problem.empty()) {
+    log_(kept.problem);
+    refuse(kept.problem, "Tell the person who runs this station; nothing is lost yet.");
+  }
+  if (finished) {
+    send(protocol::Score{kept.id, attempt.summary.overall.value_or(0.0), attempt.score_json});
+  }
+}
+
+void Station::send(const protocol::HostMessage& message) {
+  if (operator_) operator_->send_text(serialize(message));
+}
+
+void Station::refuse(std::string reason, std::string what_to_do) {
+  if (operator_) send_error(*operator_, std::move(reason), std::move(what_to_do));
+}
+
+}  // namespace carpus::server

@@ -1,0 +1,99 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The station: one case, one operating page at a time, its exercise and its records. Speaks the
+// protocol; knows no sockets. All in the network's thread.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+#include "cases/case_data.hpp"
+#include "records/attempt_keeper.hpp"
+#include "server/exercise.hpp"
+#include "server/network_server.hpp"
+#include "server/picture_worker.hpp"
+#include "server/protocol_messages.hpp"
+#include "server/rate_limit.hpp"
+
+namespace carpus::server {
+
+/// One line for the person who runs the station.
+using Log = std::function<void(const std::string& line)>;
+
+class Station : public PageHandler {
+ public:
+  /// How often the page is told the state.
+  static constexpr std::chrono::milliseconds kStateInterval{16};
+  /// A page that is silent for longer than this stops time until it is heard again.
+  static constexpr std::chrono::milliseconds kSilence{1000};
+
+  /// @param posed_case  in its operative posture; it and the records must outlive the station.
+  Station(const cases::CaseData& posed_case, records::AttemptKeeper& records, Log log);
+  ~Station() override;
+
+  /// Begins to serve: pictures and states go out through this network.
+  void attach(NetworkServer& network);
+  /// Ends the exercise that runs, if any, and stores it as it is.
+  void store_running();
+
+  void on_open(const std::shared_ptr<PageConnection>& page) override;
+  void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) override;
+  void on_binary(const std::shared_ptr<PageConnection>& page) override;
+  void on_alive(const std::shared_ptr<PageConnection>& page) override;
+  void on_close(const std::shared_ptr<PageConnection>& page) override;
+
+ private:
+  struct Visitor {
+    RateLimit limit{kMessagesPerSecond, kMessageBurst};
+    std::uint64_t dropped = 0;
+  };
+  /// A tool pose a tick is the most that can have an effect.
+  static constexpr double kMessagesPerSecond = 1000;
+  static constexpr double kMessageBurst = 2000;
+
+  void on_message(const protocol::Hello& hello);
+  void on_message(const protocol::Start& start);
+  void on_message(const protocol::Tool& tool);
+  void on_message(const protocol::TakeShot& shot);
+  void on_message(const protocol::Measure&);
+  void on_message(const protocol::SelectScrew& screw);
+  void on_message(const protocol::Undo&);
+  void on_message(const protocol::Finish&);
+  void on_message(const protocol::Pause& pause);
+
+  void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
+  [[nodiscard]] bool may_speak(const std::shared_ptr<PageConnection>& page);
+  void command(const simulation::Command& command);
+  void update();
+  void watch_silence();
+  void apply_pause();
+  void send_news();
+  void send_state();
+  /// Ends and stores; sends the score when there is one.
+  void conclude();
+  void send(const protocol::HostMessage& message);
+  void refuse(std::string reason, std::string what_to_do);
+  [[nodiscard]] bool has_exercise();
+
+  const cases::CaseData& posed_case_;
+  std::uint64_t case_fingerprint_;
+  bool broken_scaphoid_;
+  records::AttemptKeeper& records_;
+  Log log_;
+  std::shared_ptr<PageConnection> operator_;
+  std::unordered_map<PageConnection*, Visitor> visitors_;
+  std::unique_ptr<Exercise> exercise_;
+  std::uint64_t exercise_number_ = 0;
+  bool paused_by_page_ = false;
+  bool paused_by_silence_ = false;
+  std::chrono::steady_clock::time_point last_heard_;
+  NetworkServer* network_ = nullptr;
+  std::unique_ptr<PictureWorker> pictures_;
+};
+
+}  // namespace carpus::server

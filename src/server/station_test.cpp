@@ -1,0 +1,304 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole station on loopback: a real client operates on a synthetic wrist.
+#include "server/station.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cases/synthetic_case_test_support.hpp"
+#include "server/loopback_client_test_support.hpp"
+#include "server/station_http.hpp"
+#include "simulation/recording.hpp"
+
+namespace carpus::server {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using namespace std::chrono_literals;
+using testing::PageClient;
+using testing::request;
+using Json = nlohmann::json;
+
+constexpr const char* kHello = R"({"type":"hello","protocol":1})";
+constexpr const char* kStart =
+    R"({"type":"start","trainee":"Ada","procedure":"dorsal_scaphoid_fixation",)"
+    R"("input_device":"mouse","seed":7})";
+constexpr const char* kTool =
+    R"({"type":"tool","sequence":1,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],"thrust_n":2,)"
+    R"("driver":"off"})";
+
+const cases::CaseData& wrist() {
+  static const cases::CaseData data = cases::test::synthetic_case();
+  return data;
+}
+
+class StationTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "carpus-station-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    std::ofstream(folder_ / "index.html") << "<title>Carpus</title>";
+    records_ = std::make_unique<records::AttemptKeeper>(folder_ / "attempts.sqlite");
+    station_ = std::make_unique<Station>(wrist(), *records_, [](const std::string&) {});
+    http_ = std::make_unique<StationHttp>(wrist(), "glTF", *records_, folder_);
+    NetworkOptions options;
+    options.port = 0;
+    options.ping_interval = 100ms;
+    network_ = std::make_unique<NetworkServer>(
+        options, [this](const HttpRequest& r) { return http_->answer(r); }, *station_);
+    station_->attach(*network_);
+    thread_ = std::thread([this] { network_->run(); });
+  }
+  void TearDown() override {
+    stop();
+    station_.reset();
+    network_.reset();
+    fs::remove_all(folder_);
+  }
+  void stop() {
+    network_->stop();
+    if (thread_.joinable()) thread_.join();
+  }
+  [[nodiscard]] std::uint16_t port() const { return network_->port(); }
+
+  [[nodiscard]] static std::unique_ptr<PageClient> operate(std::uint16_t port) {
+    auto page = std::make_unique<PageClient>(port);
+    page->send(kHello);
+    EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"running\":false"));
+    page->send(kStart);
+    page->send(kTool);
+    return page;
+  }
+  /// Waits until the records hold so many attempts.
+  void wait_for_attempts(std::size_t count) {
+    for (int i = 0; i < 1000 && records_->list().size() < count; ++i) {
+      std::this_thread::sleep_for(10ms);
+    }
+    ASSERT_EQ(records_->list().size(), count);
+  }
+  static Json wait_for_snapshot(PageClient& page, const std::function<bool(const Json&)>& fits) {
+    Json found;
+    (void)page.wait_for([&](const PageClient::Frame& frame) {
+      if (frame.is_binary) return false;
+      const Json json = Json::parse(frame.content);
+      if (json["type"] != "snapshot" || !fits(json)) return false;
+      found = json;
+      return true;
+    });
+    EXPECT_FALSE(found.is_null()) << "no such snapshot";
+    return found;
+  }
+
+  fs::path folder_;
+  std::unique_ptr<records::AttemptKeeper> records_;
+  std::unique_ptr<Station> station_;
+  std::unique_ptr<StationHttp> http_;
+  std::unique_ptr<NetworkServer> network_;
+  std::thread thread_;
+};
+
+TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
+  const auto page = operate(port());
+  const Json moving = wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 50; });
+  EXPECT_EQ(moving["step"], "survey");
+  page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5})");
+  const auto picture = page->wait_for([](const auto& f) { return f.is_binary; });
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->content.substr(0, 4), "CARM");
+  EXPECT_EQ(picture->content.size(), 32U + 512U * 512U);
+  float rotation = 0;
+  std::memcpy(&rotation, picture->content.data() + 20, 4);
+  EXPECT_EQ(rotation, 30.0F);
+  page->send(R"({"type":"finish"})");
+  const Json last = wait_for_snapshot(*page, [](const Json& s) { return bool(s["finished"]); });
+  const Json score = Json::parse(page->wait_for_type("score"));
+  EXPECT_EQ(score["attempt_id"], 1);
+  EXPECT_TRUE(score["report"].contains("items"));
+
+  const auto list = Json::parse(request(port(), "/api/attempts").body())["attempts"];
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0]["trainee"], "Ada");
+  EXPECT_EQ(list[0]["outcome"], "finished");
+  EXPECT_EQ(list[0]["overall"], score["overall"]);
+  EXPECT_EQ(list[0]["state_hash"], last["state_hash"]);
+  const auto detail = Json::parse(request(port(), "/api/attempts/1").body());
+  EXPECT_EQ(detail["score"], score["report"]);
+  EXPECT_EQ(detail["events"].back()["kind"], "finished");
+}
+
+TEST_F(StationTest, RecordingOfALiveExerciseReplaysToTheSameHash) {
+  const auto page = operate(port());
+  for (int i = 0; i < 200; ++i) {
+    const double z = 40.0 - 0.2 * i;
+    page->send(R"({"type":"tool","sequence":2,"tip_mm":[2,-1,)" + std::to_string(z) +
+               R"(],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"forward"})");
+    std::this_thread::sleep_for(1ms);
+  }
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 100; });
+  page->send(R"({"type":"finish"})");
+  (void)page->wait_for_type("score");
+  const auto recording = request(port(), "/api/attempts/1/recording");
+  EXPECT_EQ(recording["Content-Type"], "application/octet-stream");
+  const std::string& bytes = recording.body();
+  const auto decoded = simulation::decode(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  ASSERT_TRUE(decoded.has_value()) << decoded.error();
+  const simulation::Replay replay = simulation::replay(wrist(), *decoded);
+  EXPECT_TRUE(replay.hash_matches);
+  EXPECT_TRUE(replay.case_matches);
+  EXPECT_TRUE(replay.last.finished);
+  EXPECT_GT(replay.last.tick, 100U);
+}
+
+TEST_F(StationTest, BadMessagesAreAnsweredAndTheExerciseGoesOn) {
+  const auto page = operate(port());
+  const auto refused = [&](const std::string& text, const char* reason, bool binary = false) {
+    page->send(text, binary);
+    EXPECT_THAT(page->wait_for_type("error"), HasSubstr(reason)) << text.substr(0, 100);
+  };
+  refused("rubbish", "not valid JSON");
+  refused(R"({"type":"select_screw","index":999})", "from 0 to 255");
+  refused(R"({"type":"tool"})", "is missing");
+  refused(R"({"type":"welcome"})", "unknown message type");
+  refused(R"({"type":"undo","x":")" + std::string(20000, 'x') + "\"}", "longer than 16384 bytes");
+  refused("\x01\x02", "binary", true);
+  const Json now = wait_for_snapshot(*page, [](const Json&) { return true; });
+  (void)wait_for_snapshot(*page, [&](const Json& s) { return s["tick"] > now["tick"]; });
+}
+
+TEST_F(StationTest, FloodOfMessagesIsThinnedWithoutHarm) {
+  const auto page = operate(port());
+  for (int i = 0; i < 6000; ++i) page->send(kTool);
+  EXPECT_THAT(page->wait_for_type("error"), HasSubstr("Too many messages"));
+  std::this_thread::sleep_for(300ms);
+  page->send(R"({"type":"finish"})");
+  EXPECT_THAT(page->wait_for_type("score"), HasSubstr("attempt_id"));
+}
+
+TEST_F(StationTest, CommandsWithoutAnExerciseAndTalkWithoutHelloAreRefused) {
+  PageClient page(port());
+  page.send(kStart);
+  EXPECT_THAT(page.wait_for_type("error"), HasSubstr("Say hello first"));
+  page.send(R"({"type":"hello","protocol":2})");
+  EXPECT_THAT(page.wait_for_type("error"), HasSubstr("Reload the page"));
+  EXPECT_TRUE(page.wait_until_closed());
+  PageClient other(port());
+  other.send(kHello);
+  other.send(R"({"type":"measure"})");
+  EXPECT_THAT(other.wait_for_type("error"), HasSubstr("No exercise runs"));
+}
+
+TEST_F(StationTest, SecondPageIsBusyUntilTheFirstLeavesAndHttpStillWorks) {
+  auto first = operate(port());
+  PageClient second(port());
+  second.send(kHello);
+  EXPECT_THAT(second.wait_for_type("busy"), HasSubstr("Another page operates"));
+  second.send(R"({"type":"finish"})");
+  EXPECT_THAT(second.wait_for_type("error"), HasSubstr("does not operate"));
+  EXPECT_EQ(request(port(), "/").result_int(), 200U);
+  first->vanish();
+  wait_for_attempts(1);
+  second.send(kHello);
+  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":false"));
+}
+
+TEST_F(StationTest, DisconnectInTheMiddleLeavesAnUnfinishedAttemptThatReplays) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->vanish();
+  wait_for_attempts(1);
+  const auto attempt = records_->find(1);
+  EXPECT_EQ(attempt->summary.outcome, records::Outcome::Unfinished);
+  EXPECT_FALSE(attempt->summary.overall.has_value());
+  const auto decoded = simulation::decode(attempt->recording);
+  ASSERT_TRUE(decoded.has_value());
+  EXPECT_TRUE(simulation::replay(wrist(), *decoded).hash_matches);
+}
+
+TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->send(kStart);
+  wait_for_attempts(1);
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] < 20; });
+  stop();
+  EXPECT_EQ(records_->list().size(), 2U);
+}
+
+TEST_F(StationTest, PauseStopsTimeAndResumes) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->send(R"({"type":"pause","on":true})");
+  (void)wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
+  std::this_thread::sleep_for(50ms);
+  const Json one = wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
+  (void)wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
+  std::this_thread::sleep_for(100ms);
+  page->send(R"({"type":"pause","on":false})");
+  const Json again = wait_for_snapshot(*page, [](const Json& s) { return !s["paused"]; });
+  EXPECT_LT(again["tick"].get<int>() - one["tick"].get<int>(), 60);
+}
+
+TEST_F(StationTest, SilentPageStopsTimeUntilItIsHeardAgain) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  std::this_thread::sleep_for(1600ms);  // this client answers pings only while it waits
+  const Json paused = wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
+  EXPECT_LT(paused["tick"], 1500);
+  (void)wait_for_snapshot(*page, [](const Json& s) { return !s["paused"]; });
+}
+
+TEST_F(StationTest, FullDiskWhileSavingIsToldAndNothingIsLost) {
+  records_->store().limit_pages(1);  // as large as it is now
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  for (int i = 0; i < 1500; ++i) {  // fills the recording beyond 8 pages
+    page->send(R"({"type":"tool","sequence":2,"tip_mm":[)" + std::to_string(40 + 0.01 * i) +
+               R"(,40,40],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"off"})");
+    std::this_thread::sleep_for(1ms);
+  }
+  page->send(R"({"type":"finish"})");
+  EXPECT_THAT(page->wait_for_type("error"), HasSubstr("free some space"));
+  const Json score = Json::parse(page->wait_for_type("score"));
+  EXPECT_EQ(score["attempt_id"], 0);
+  EXPECT_EQ(records_->waiting(), 1U);
+  records_->store().limit_pages(100000);
+  page->send(kStart);
+  page->send(R"({"type":"finish"})");
+  (void)page->wait_for_type("score");
+  EXPECT_EQ(records_->list().size(), 2U);
+}
+
+TEST_F(StationTest, HttpTellsTheCaseWithoutTheAnswer) {
+  const auto answer = request(port(), "/api/case");
+  ASSERT_TRUE(protocol::parse_case_description(answer.body()).has_value());
+  EXPECT_EQ(answer.body().find("axis"), std::string::npos);
+  EXPECT_TRUE(Json::parse(answer.body())["simulated"]);
+  EXPECT_EQ(Json::parse(request(port(), "/api/screws").body())["screws"][0]["index"], 0);
+  EXPECT_EQ(request(port(), "/api/scene.glb")["Content-Type"], "model/gltf-binary");
+  EXPECT_EQ(request(port(), "/").body(), "<title>Carpus</title>");
+}
+
+TEST_F(StationTest, HttpAnswersNothingThatIsNotThere) {
+  for (const char* target :
+       {"/api", "/api/attempts/1", "/api/attempts/0", "/api/attempts/-1", "/api/attempts/x",
+        "/api/attempts/1/x", "/api/attempts/99999999999999999999", "/api/attemptsx",
+        "/attempts.sqlite.bak"}) {
+    EXPECT_EQ(request(port(), target).result_int(), 404U) << target;
+  }
+  for (const char* target : {"/../secret", "/%2e%2e/secret", "/..%2fsecret", "/a\\b", "/api/"}) {
+    EXPECT_EQ(request(port(), target).result_int(), 400U) << target;
+  }
+}
+
+}  // namespace
+}  // namespace carpus::server
