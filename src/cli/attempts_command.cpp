@@ -1,0 +1,84 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/attempts_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/operation_files.hpp"
+#include "core/error.hpp"
+#include "records/atomic_file.hpp"
+#include "records/attempt_store.hpp"
+#include "server/station_http.hpp"
+
+namespace carpus::cli {
+namespace {
+
+struct AttemptsArguments {
+  std::string records = kDefaultRecords;
+  std::string json;
+  std::int64_t export_id = 0;
+  std::string out;
+};
+
+void export_recording(const records::AttemptStore& store, const AttemptsArguments& arguments) {
+  const auto attempt = store.find(arguments.export_id);
+  if (!attempt) {
+    throw InvalidInput(arguments.records + ": there is no attempt " +
+                       std::to_string(arguments.export_id) +
+                       "; 'carpus attempts' lists what there is");
+  }
+  records::write_file_atomically(arguments.out, attempt->recording);
+  std::printf("attempt %lld: %zu bytes written to %s\n",
+              static_cast<long long>(arguments.export_id), attempt->recording.size(),
+              arguments.out.c_str());
+}
+
+void print_list(const std::vector<records::AttemptSummary>& attempts) {
+  std::printf("%6s  %-24s  %-20s  %-16s  %-8s  %8s  %7s  %s\n", "id", "started (UTC)", "trainee",
+              "case", "input", "seconds", "score", "state hash");
+  for (const records::AttemptSummary& attempt : attempts) {
+    const std::string score = attempt.overall ? std::to_string(*attempt.overall).substr(0, 5)
+                                              : std::string(name_of(attempt.outcome)).substr(0, 7);
+    std::printf("%6lld  %-24s  %-20.20s  %-16.16s  %-8.8s  %8.1f  %7.7s  %s\n",
+                static_cast<long long>(attempt.id), attempt.started_at.c_str(),
+                attempt.trainee.c_str(), attempt.case_name.c_str(), attempt.input_device.c_str(),
+                static_cast<double>(attempt.duration_ticks) / 1000.0, score.c_str(),
+                attempt.final_hash.c_str());
+  }
+  std::printf("%zu attempts\n", attempts.size());
+}
+
+void run(const AttemptsArguments& arguments) {
+  if (!std::filesystem::exists(arguments.records)) {
+    throw IoError(arguments.records + ": no such file; name the records with --records");
+  }
+  const records::AttemptStore store(arguments.records);
+  if (arguments.export_id != 0) return export_recording(store, arguments);
+  const auto attempts = store.list();
+  print_list(attempts);
+  if (!arguments.json.empty()) {
+    records::write_file_atomically(arguments.json, server::attempts_json(attempts, 2) + "\n");
+  }
+}
+
+}  // namespace
+
+void add_attempts_command(CLI::App& app) {
+  auto arguments = std::make_shared<AttemptsArguments>();
+  CLI::App* command = app.add_subcommand("attempts", "List attempts and export their recordings");
+  command->add_option("--records", arguments->records, "File with the attempts")
+      ->capture_default_str();
+  command->add_option("--json", arguments->json, "Write the list to this file");
+  CLI::Option* id = command->add_option("--export", arguments->export_id,
+                                        "Number of the attempt whose recording is taken out");
+  CLI::Option* out = command->add_option("--out", arguments->out, "File for the recording");
+  id->needs(out);
+  out->needs(id);
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace carpus::cli

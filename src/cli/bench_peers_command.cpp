@@ -1,0 +1,41 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench_peers_command.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace carpus::cli {
+namespace {
+
+/// Becomes carpus-bench; returns only by an exception.
+void become_bench(const std::string& what, const std::vector<std::string>& arguments) {
+  const auto program =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "carpus-bench";
+  std::vector<std::string> words{program.string(), what};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execv(program.c_str(), argv.data());
+  throw IoError(program.string() +
+                ": cannot be started. It is built where the other libraries are installed: run "
+                "tools/install bench, then configure and build again.");
+}
+
+}  // namespace
+
+void add_bench_peers_command(CLI::App& bench) {
+  CLI::App* hull = bench.add_subcommand("hull", "Convex hulls against Qhull, CGAL and Bullet");
+  hull->set_help_flag();  // carpus-bench answers --help
+  hull->prefix_command();
+  hull->callback([hull] { become_bench("hull", hull->remaining()); });
+}
+
+}  // namespace carpus::cli

@@ -1,0 +1,69 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/operation_files.hpp"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "case_io/case_folder.hpp"
+#include "cases/posture.hpp"
+#include "core/error.hpp"
+#include "records/atomic_file.hpp"
+
+namespace carpus::cli {
+
+cases::CaseData load_posed_case(const std::filesystem::path& folder) {
+  cases::CaseData data = case_io::read_case(folder);
+  const cases::Posture posture = data.operative_posture;
+  return cases::apply_posture(std::move(data), posture);
+}
+
+simulation::Recording load_recording(const std::filesystem::path& file) {
+  Result<simulation::Recording> recording = simulation::decode(records::read_file(file));
+  if (!recording) {
+    throw IoError(file.string() + ": this is no whole recording: " + recording.error() +
+                  "; export it again with 'carpus attempts --export'");
+  }
+  return std::move(*recording);
+}
+
+simulation::Replay replay_on_its_case(const cases::CaseData& posed_case,
+                                      const simulation::Recording& recording) {
+  simulation::Replay replay = simulation::replay(posed_case, recording);
+  if (!replay.case_matches) {
+    throw InvalidInput("the recording was made on another case than '" + posed_case.pseudonym +
+                       "', or on another version of it; name the right one with --case");
+  }
+  return replay;
+}
+
+std::string score_table(const procedure::ScoreReport& report) {
+  std::string table;
+  std::array<char, 512> line{};
+  const auto add = [&] { table += line.data(); };
+  for (const procedure::ScoreItem& item : report.items) {
+    std::array<char, 32> value{"-"};
+    if (item.value) std::snprintf(value.data(), value.size(), "%.2f", *item.value);
+    std::snprintf(line.data(), line.size(), "%-44.44s %9s %-7.7s %-12s %5.1f / %-5.1f %s\n",
+                  item.label.c_str(), value.data(), item.unit == "1" ? "" : item.unit.c_str(),
+                  std::string(procedure::name_of(item.grade)).c_str(), item.points,
+                  item.points_possible, item.target.c_str());
+    add();
+  }
+  for (const procedure::MustHave& must : report.must_haves) {
+    std::snprintf(line.data(), line.size(), "must have: %-60.60s %s\n", must.label.c_str(),
+                  must.fulfilled ? "yes" : "NO");
+    add();
+  }
+  std::snprintf(line.data(), line.size(), "screw chosen: %s, ideal: %s\n",
+                report.chosen_screw.empty() ? "none" : report.chosen_screw.c_str(),
+                report.ideal_screw.empty() ? "none" : report.ideal_screw.c_str());
+  add();
+  std::snprintf(line.data(), line.size(), "overall %.1f of 100, fixation %s\n", report.overall,
+                report.is_fixation_acceptable ? "acceptable" : "not acceptable");
+  add();
+  return table;
+}
+
+}  // namespace carpus::cli

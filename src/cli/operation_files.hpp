@@ -1,0 +1,36 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Loading what several verbs need: a case ready to operate on, a recording, a score as a table.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cases/case_data.hpp"
+#include "procedure/score.hpp"
+#include "simulation/recording.hpp"
+
+namespace carpus::cli {
+
+/// The case that ./run makes.
+inline constexpr const char* kDefaultCase = "cases/demo";
+/// Where ./run keeps attempts.
+inline constexpr const char* kDefaultRecords = "recordings/attempts.sqlite";
+
+/// Reads a case folder and puts the wrist in its operative posture.
+/// @throws IoError, SchemaError  as case_io::read_case.
+[[nodiscard]] cases::CaseData load_posed_case(const std::filesystem::path& folder);
+
+/// Reads a recording. @throws IoError  where it is missing, cut short or damaged.
+[[nodiscard]] simulation::Recording load_recording(const std::filesystem::path& file);
+
+/// Replays a recording on the case that it was made on.
+/// @throws InvalidInput  when it was made on another case, naming --case.
+[[nodiscard]] simulation::Replay replay_on_its_case(const cases::CaseData& posed_case,
+                                                    const simulation::Recording& recording);
+
+/// The score for people: one line an item with value, target, grade, points and reason.
+[[nodiscard]] std::string score_table(const procedure::ScoreReport& report);
+
+}  // namespace carpus::cli

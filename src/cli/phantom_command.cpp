@@ -1,0 +1,73 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/phantom_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "case_io/atomic_folder.hpp"
+#include "cli/progress_line.hpp"
+#include "core/error.hpp"
+#include "phantom/phantom.hpp"
+#include "phantom/write_phantom.hpp"
+
+namespace carpus::cli {
+namespace {
+
+struct PhantomArguments {
+  std::string out;
+  std::uint64_t seed = 1;
+  std::string nonunion = "waist";
+  std::string side = "left";
+  double scale = 1.0;
+  std::string format = "dicom";
+  bool force = false;
+};
+
+void run(const PhantomArguments& arguments) {
+  phantom::PhantomOptions options;
+  options.seed = arguments.seed;
+  options.scale = arguments.scale;
+  options.nonunion = phantom::nonunion_of(arguments.nonunion).value();  // CLI11 checked the name
+  options.side = side_of(arguments.side).value();
+  const auto format =
+      arguments.format == "dicom" ? phantom::CtFormat::Dicom : phantom::CtFormat::Nifti;
+  const auto overwrite = arguments.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse;
+  // Refuses a folder that is in the way before the work, not after it.
+  { const case_io::AtomicFolder probe(arguments.out, overwrite); }
+  const phantom::Phantom made = phantom::make_phantom(options, show_progress);
+  phantom::write_phantom(made, arguments.out, format, overwrite, show_progress);
+  const auto& size = made.ct.geometry().size;
+  std::printf("simulated CT of a %s wrist, nonunion %s, %d x %d x %d voxels: %s\n",
+              arguments.side.c_str(), arguments.nonunion.c_str(), size[0], size[1], size[2],
+              arguments.out.c_str());
+}
+
+}  // namespace
+
+void add_phantom_command(CLI::App& app) {
+  auto arguments = std::make_shared<PhantomArguments>();
+  CLI::App* command = app.add_subcommand(
+      "phantom", "Make the demo patient: a simulated CT of the parametric wrist with its truth");
+  command->add_option("--out", arguments->out, "Folder to make")->required();
+  command->add_option("--seed", arguments->seed, "Of noise, texture and pose")
+      ->capture_default_str();
+  command->add_option("--nonunion", arguments->nonunion, "Scaphoid nonunion")
+      ->check(CLI::IsMember({"none", "waist", "proximal"}))
+      ->capture_default_str();
+  command->add_option("--side", arguments->side, "Side of the body")
+      ->check(CLI::IsMember({"left", "right"}))
+      ->capture_default_str();
+  command->add_option("--scale", arguments->scale, "Size of the wrist, 0.7 to 1.4")
+      ->capture_default_str();
+  command->add_option("--format", arguments->format, "Of the CT")
+      ->check(CLI::IsMember({"dicom", "nifti"}))
+      ->capture_default_str();
+  command->add_flag("--force", arguments->force, "Replace the folder where it is there already");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace carpus::cli

@@ -1,0 +1,172 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/reconstruct_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "case_io/case_folder.hpp"
+#include "case_io/read_volume.hpp"
+#include "cli/progress_line.hpp"
+#include "core/error.hpp"
+#include "core/version.hpp"
+#include "reconstruct/reconstruct_case.hpp"
+#include "reconstruct/reconstruction_report.hpp"
+
+namespace carpus::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path input;
+  fs::path out;
+  fs::path truth;
+  fs::path json;
+  std::string series;
+  std::string pseudonym = "wrist";
+  bool simulated = false;
+  bool force = false;
+};
+
+void warn(const std::string& text) { std::fprintf(stderr, "carpus: warning: %s\n", text.c_str()); }
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+/// Said before minutes of work, and never deletes a folder that is not a case.
+void check_target(const Arguments& a) {
+  if (!fs::exists(a.out)) return;
+  if (!fs::is_directory(a.out)) {
+    throw IoError(a.out.string() + ": is a file; give a folder for the case with --out");
+  }
+  if (fs::is_empty(a.out)) return;
+  if (!a.force) {
+    throw IoError(a.out.string() + ": exists; give another folder or --force to replace the case");
+  }
+  if (!fs::exists(a.out / "case.json")) {
+    throw IoError(a.out.string() +
+                  ": is not empty and holds no case.json, so --force does not replace it; give "
+                  "another folder");
+  }
+}
+
+bool says_simulated(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.find("simulated") != std::string::npos;
+}
+
+/// Simulated scans say so in their series description, or have their truth beside them.
+bool is_simulated(const Arguments& a) {
+  if (a.simulated) return true;
+  const fs::path folder = fs::is_directory(a.input) ? a.input : a.input.parent_path();
+  for (const fs::path& place : {folder, folder / ".."}) {
+    if (fs::exists(place / "truth.json")) return true;
+  }
+  if (!fs::is_directory(a.input)) return false;
+  const auto series = case_io::list_series(a.input);
+  return std::any_of(series.begin(), series.end(), [&](const case_io::SeriesSummary& s) {
+    return (a.series.empty() || s.uid == a.series) && says_simulated(s.description);
+  });
+}
+
+std::string source_in_words(const Arguments& a, const GridGeometry& g, bool simulated) {
+  const bool volume_file = !fs::is_directory(a.input) && a.input.extension() != ".dcm";
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "%s%s of %d x %d x %d voxels of %.3g x %.3g x %.3g mm",
+                simulated ? "simulated " : "", volume_file ? "CT volume" : "CT series", g.size[0],
+                g.size[1], g.size[2], g.spacing.x, g.spacing.y, g.spacing.z);
+  return text.data();
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.flush();
+  if (!out) throw IoError(file.string() + ": could not be written; check the folder and the disk");
+}
+
+void run(const Arguments& a) {
+  check_target(a);
+  const auto started = reconstruct::StageClock::Clock::now();
+  show_progress("read", 0);
+  case_io::ReadOptions reading;
+  reading.series_uid = a.series;
+  reading.warn = warn;
+  Grid<std::int16_t> ct = case_io::read_ct(a.input, reading);
+  reconstruct::GroundTruth truth;
+  if (!a.truth.empty()) truth = reconstruct::read_ground_truth(a.truth);
+  const double reading_seconds = reconstruct::StageClock::seconds_since(started);
+
+  reconstruct::ReconstructOptions options;
+  options.pseudonym = a.pseudonym;
+  options.provenance.simulated = is_simulated(a);
+  options.provenance.source = source_in_words(a, ct.geometry(), options.provenance.simulated);
+  options.provenance.made_by = kProgramVersion;
+  options.provenance.made_at = utc_now();
+  options.progress = show_progress;
+  reconstruct::Reconstruction result = reconstruct::reconstruct_case(std::move(ct), options);
+  for (const std::string& text : result.warnings) warn(text);
+
+  std::vector<reconstruct::LabelDice> dice;
+  if (!a.truth.empty()) dice = reconstruct::compare_labels(result.data.labels.view(), truth);
+  const auto writing = reconstruct::StageClock::Clock::now();
+  case_io::write_case(result.data, a.out,
+                      a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
+  result.stages.insert(result.stages.begin(), {"read", reading_seconds});
+  result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
+  const reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice);
+  if (!a.json.empty()) write_text(a.json, reconstruct::json_of(report));
+  std::fputs(reconstruct::text_of(report).c_str(), stdout);
+  std::printf("case: %s%s\n", a.out.string().c_str(),
+              options.provenance.simulated ? " (simulated)" : "");
+}
+
+}  // namespace
+
+void add_reconstruct_command(CLI::App& app) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("reconstruct", "Make a case of a CT: bones, names, surfaces, hulls");
+  command
+      ->add_option(
+          "input", a->input,
+          "CT: a folder with one DICOM series, or a .nii, .nii.gz, .nrrd, .mha or .dcm file")
+      ->required();
+  command->add_option("--out", a->out, "Folder for the case")->required();
+  command->add_option("--truth", a->truth,
+                      "Label volume to compare with; its numbers in labels.json beside it");
+  command->add_option("--json", a->json, "Write every figure to this file");
+  command->add_option("--series", a->series, "SeriesInstanceUID, where a folder holds several");
+  command->add_option("--pseudonym", a->pseudonym, "What the case is called; never a person's name")
+      ->check([](const std::string& name) {
+        constexpr std::size_t kLongest = 128;  // as case.json and the page take it
+        const bool is_plain = std::none_of(
+            name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+        return name.size() <= kLongest && is_plain
+                   ? std::string()
+                   : std::string("use at most 128 bytes, without control characters");
+      });
+  command->add_flag("--simulated", a->simulated, "Mark the case as simulated, not scanned");
+  command->add_flag("--force", a->force, "Replace an existing case");
+  command->callback([a] { run(*a); });
+}
+
+}  // namespace carpus::cli
