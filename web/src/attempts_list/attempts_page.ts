@@ -1,0 +1,87 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Past attempts, newest first; each opens its score.
+import { fetchJson } from "../case_data";
+import { make } from "../dom";
+import {
+  dateText,
+  durationText,
+  parseAttempts,
+  procedureText,
+  type AttemptSummary,
+} from "./attempts_model";
+
+export function mountAttempts(app: HTMLElement): () => void {
+  let left = false;
+  const body = make("div", {}, make("p.secondary", { role: "status" }, "Loading…"));
+  app.replaceChildren(
+    make(
+      "main.page.attempts",
+      {},
+      make(
+        "header.page-head",
+        {},
+        make("div", {}, make("p.secondary", {}, "Carpus"), make("h1", {}, "Past attempts")),
+        make("a.button-link", { href: "#/" }, "Operate"),
+      ),
+      body,
+    ),
+  );
+  void (async () => {
+    try {
+      const attempts = parseAttempts(await fetchJson("/api/attempts"));
+      if (!left) body.replaceChildren(attempts.length === 0 ? nothingYet() : table(attempts));
+    } catch (error) {
+      const why = error instanceof Error ? error.message : String(error);
+      if (!left) body.replaceChildren(make("p", { role: "alert" }, why));
+    }
+  })();
+  return () => {
+    left = true;
+  };
+}
+
+function nothingYet(): HTMLElement {
+  return make("p.secondary", {}, "None yet. An attempt is stored when it is finished or left.");
+}
+
+function table(attempts: readonly AttemptSummary[]): HTMLElement {
+  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "Input", "Time", "Score"];
+  return make(
+    "div.table-frame",
+    { tabindex: "0", role: "region", "aria-label": "Attempts" },
+    make(
+      "table",
+      {},
+      make("thead", {}, make("tr", {}, ...heads.map((head) => make("th", { scope: "col" }, head)))),
+      make("tbody", {}, ...attempts.map(row)),
+    ),
+  );
+}
+
+function row(attempt: AttemptSummary): HTMLElement {
+  const score = attempt.finished && attempt.overall !== undefined;
+  return make(
+    "tr",
+    { "data-attempt": String(attempt.id) },
+    make("td", {}, String(attempt.id)),
+    make("td", {}, dateText(attempt.startedAt)),
+    make("td", {}, attempt.trainee === "" ? "not named" : attempt.trainee),
+    make("td", {}, attempt.caseName),
+    make("td", {}, procedureText(attempt.procedure)),
+    make("td", {}, attempt.inputDevice),
+    make("td.figure", {}, durationText(attempt.durationS)),
+    make(
+      "td.figure",
+      {},
+      score
+        ? make(
+            "a",
+            { href: `#/attempts/${attempt.id}` },
+            `${Math.round(attempt.overall ?? 0)} of 100`,
+          )
+        : make("span.secondary", {}, "not finished"),
+    ),
+  );
+}

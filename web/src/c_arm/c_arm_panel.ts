@@ -1,0 +1,203 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The C-arm's side of the screen: last picture, views, free angles, dose, the last pictures.
+import { button, make, setText } from "../dom";
+import type { CArmPicture, NamedView } from "../protocol";
+import "./c_arm.css";
+import { drawPicture } from "./picture_canvas";
+import { signed, viewName, wrapped } from "./view_name_model";
+
+export interface CArmHandlers {
+  takeShot(rotationDeg: number, tiltDeg: number): void;
+}
+
+const HISTORY = 6;
+const MAX_TILT_DEG = 60;
+/** What a mini C-arm shows for a wrist; the host's spectrum is one of about 40 keV. */
+const KV_TEXT = "60 kV";
+
+export class CArmPanel {
+  readonly element: HTMLElement;
+  private readonly canvas = make("canvas.c-arm-picture", { role: "img" });
+  private readonly empty = make("p.c-arm-empty");
+  private readonly name = make("span.secondary");
+  private readonly count = make("p.c-arm-count");
+  private readonly stand = make("span.c-arm-stand");
+  private readonly strip = make("div.c-arm-strip", {
+    role: "group",
+    "aria-label": "Last pictures",
+  });
+  private readonly pictures: CArmPicture[] = [];
+  private readonly viewButtons: HTMLButtonElement[];
+  private readonly invertButton: HTMLButtonElement;
+  private shown = -1;
+  private inverted = false;
+  private rotationDeg = 0;
+  private tiltDeg = 0;
+
+  constructor(
+    private readonly views: readonly NamedView[],
+    private readonly handlers: CArmHandlers,
+  ) {
+    this.viewButtons = views.map((view, index) =>
+      button(view.label, index < 6 ? String(index + 1) : "", () => {
+        this.shoot(index);
+      }),
+    );
+    this.invertButton = button("Invert", "I", () => {
+      this.invert();
+    });
+    this.invertButton.setAttribute("aria-pressed", "false");
+    setText(this.empty, "No picture yet. Press 1 for PA, 2 for lateral.");
+    this.element = make(
+      "section.c-arm",
+      { "aria-label": "C-arm" },
+      make("header.panel-title", {}, make("h2", {}, "C-arm"), this.name),
+      make("div.c-arm-frame", {}, this.canvas, this.empty),
+      make(
+        "div.c-arm-views",
+        { role: "group", "aria-label": "Take a picture" },
+        ...this.viewButtons,
+      ),
+      this.standRow(),
+      this.count,
+      this.strip,
+    );
+    this.showStand();
+    this.showCount(0, 0);
+    new ResizeObserver(() => {
+      this.redraw();
+    }).observe(this.canvas);
+  }
+
+  private standRow(): HTMLElement {
+    const turn = (
+      label: string,
+      says: string,
+      rotation: number,
+      tilt: number,
+    ): HTMLButtonElement => {
+      const b = button(label, "", () => {
+        this.turn(rotation, tilt);
+      });
+      b.setAttribute("aria-label", says);
+      b.title = says;
+      return b;
+    };
+    return make(
+      "div.c-arm-turn",
+      {},
+      this.stand,
+      turn("↶", "Turn the C-arm by −5° (comma)", -5, 0),
+      turn("↷", "Turn the C-arm by +5° (full stop)", 5, 0),
+      turn("↓", "Tilt the C-arm towards distal by 5° (Shift + comma)", 0, -5),
+      turn("↑", "Tilt the C-arm towards proximal by 5° (Shift + full stop)", 0, 5),
+      button("Shoot", "X", () => {
+        this.shootFree();
+      }),
+      this.invertButton,
+    );
+  }
+
+  /** Takes the picture of a named view; the C-arm then stands there. */
+  shoot(index: number): void {
+    const view = this.views[index];
+    if (view === undefined) return;
+    this.rotationDeg = view.rotationDeg;
+    this.tiltDeg = view.tiltDeg;
+    this.shootFree();
+  }
+
+  shootFree(): void {
+    this.showStand();
+    this.handlers.takeShot(this.rotationDeg, this.tiltDeg);
+  }
+
+  turn(rotationDeg: number, tiltDeg: number): void {
+    this.rotationDeg = wrapped(this.rotationDeg + rotationDeg);
+    this.tiltDeg = Math.min(MAX_TILT_DEG, Math.max(-MAX_TILT_DEG, this.tiltDeg + tiltDeg));
+    this.showStand();
+  }
+
+  invert(): void {
+    this.inverted = !this.inverted;
+    this.invertButton.setAttribute("aria-pressed", String(this.inverted));
+    this.redraw();
+    this.redrawStrip();
+  }
+
+  add(picture: CArmPicture): void {
+    this.pictures.push(picture);
+    if (this.pictures.length > HISTORY) this.pictures.shift();
+    this.shown = this.pictures.length - 1;
+    this.redraw();
+    this.redrawStrip();
+  }
+
+  clear(): void {
+    this.pictures.length = 0;
+    this.shown = -1;
+    this.redraw();
+    this.redrawStrip();
+  }
+
+  showCount(shots: number, doseCgyCm2: number): void {
+    const pictures = shots === 1 ? "1 shot" : `${shots} shots`;
+    setText(this.count, `${pictures} · ${doseCgyCm2.toFixed(1)} cGy cm²`);
+  }
+
+  private showStand(): void {
+    setText(this.stand, `${signed(this.rotationDeg)} rot · ${signed(this.tiltDeg)} tilt`);
+    this.viewButtons.forEach((b, index) => {
+      const view = this.views[index];
+      const here =
+        view !== undefined && view.label === viewName(this.views, this.rotationDeg, this.tiltDeg);
+      b.setAttribute("aria-pressed", String(here));
+    });
+  }
+
+  private nameOf(picture: CArmPicture): string {
+    return viewName(this.views, picture.rotationDeg, picture.tiltDeg);
+  }
+
+  private redraw(): void {
+    const picture = this.pictures[this.shown];
+    const side = Math.round(this.canvas.clientWidth * Math.min(2, window.devicePixelRatio));
+    // Setting the size also clears the canvas.
+    if (side > 1) this.canvas.width = this.canvas.height = side;
+    const view = picture === undefined ? "" : this.nameOf(picture);
+    drawPicture(this.canvas, picture, this.inverted, { view, kv: KV_TEXT });
+    this.empty.hidden = picture !== undefined;
+    const old = picture !== undefined && this.shown < this.pictures.length - 1;
+    setText(
+      this.name,
+      picture === undefined ? "" : `${view}, shot ${picture.shot}${old ? ", earlier" : ""}`,
+    );
+    const says =
+      picture === undefined ? "No fluoroscopy picture yet" : `Fluoroscopy picture ${view}`;
+    this.canvas.setAttribute("aria-label", says);
+  }
+
+  private redrawStrip(): void {
+    this.strip.replaceChildren(
+      ...this.pictures.map((picture, index) => {
+        const small = make("canvas", { width: "128", height: "128", "aria-hidden": "true" });
+        drawPicture(small, picture, this.inverted, undefined);
+        const b = make(
+          "button.quiet",
+          { type: "button", "aria-label": `Show shot ${picture.shot}, ${this.nameOf(picture)}` },
+          small,
+          make("span", {}, this.nameOf(picture)),
+        );
+        b.setAttribute("aria-pressed", String(index === this.shown));
+        b.addEventListener("click", () => {
+          this.shown = index;
+          this.redraw();
+          this.redrawStrip();
+        });
+        return b;
+      }),
+    );
+  }
+}

@@ -1,0 +1,6 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The C-arm's panel.
+export { CArmPanel, type CArmHandlers } from "./c_arm_panel";
+export { viewName } from "./view_name_model";

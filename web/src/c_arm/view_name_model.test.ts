@@ -1,0 +1,28 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Named views by name, any other by its angles.
+import { describe, expect, it } from "vitest";
+import { signed, viewName, wrapped } from "./view_name_model";
+
+const views = [
+  { id: "pa", label: "PA", rotationDeg: 0, tiltDeg: 0 },
+  { id: "sky", label: "SKY", rotationDeg: 0, tiltDeg: -60 },
+];
+
+describe("viewName", () => {
+  it("tells views of one rotation apart by their tilt", () => {
+    expect(viewName(views, 0.1, 0)).toBe("PA");
+    expect(viewName(views, 0, -60)).toBe("SKY");
+  });
+  it("names the angles of any other", () => {
+    expect(viewName(views, 15, -5)).toBe("+15° / −5°");
+    expect(signed(-0.2)).toBe("0°");
+  });
+});
+
+describe("wrapped", () => {
+  it("stays within half a turn", () => {
+    expect([185, -180, 180, 540, -5].map(wrapped)).toEqual([-175, 180, 180, 180, -5]);
+  });
+});

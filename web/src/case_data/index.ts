@@ -1,0 +1,6 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the host tells about the case, its screws and past attempts over HTTP.
+export * from "./case_client";
+export * from "./screws_model";

@@ -1,0 +1,27 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Entry of the page: which room the address names.
+//   #/               operate
+//   #/attempts       past attempts
+//   #/attempts/12    the score of one
+import "./look";
+import { mountAttempts } from "./attempts_list";
+import { mountScore } from "./score_report";
+import { mountTrain } from "./train";
+
+const app = document.getElementById("app");
+let leave: () => void = () => undefined;
+
+function route(): void {
+  if (app === null) return;
+  leave();
+  window.scrollTo(0, 0);
+  const attempt = /^#\/attempts\/(\d+)$/.exec(location.hash)?.[1];
+  if (attempt !== undefined) leave = mountScore(app, Number(attempt));
+  else if (location.hash === "#/attempts") leave = mountAttempts(app);
+  else leave = mountTrain(app);
+}
+
+window.addEventListener("hashchange", route);
+route();

@@ -1,0 +1,157 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The placement in see-through bone with the central axis, from three sides, as still pictures: they
+// print, and nothing keeps running behind the report.
+import * as THREE from "three";
+import { make } from "../dom";
+import { makeFrameMap, type FrameMap } from "../frames";
+import type { CaseDescription, Vec3 } from "../protocol";
+import {
+  alignShaft,
+  glassBoneMaterial,
+  loadCaseScene,
+  metalMaterial,
+  screwGeometry,
+  studioLight,
+  wireGeometry,
+} from "../theatre";
+import { normalized, subtract } from "../tool_placement";
+import type { Placement } from "./score_model";
+
+interface Look {
+  readonly name: string;
+  readonly from: THREE.Vector3;
+  readonly up: THREE.Vector3;
+}
+
+const SIDE_PX = 720;
+const AXIS_COLOR = "#5cc8ff";
+/** The frame leaves this much beside the scaphoid [m]. */
+const MARGIN_M = 0.004;
+
+/** @return pictures with their captions; an empty list where they cannot be drawn. */
+export async function placementPictures(
+  description: CaseDescription,
+  placement: Placement,
+): Promise<HTMLElement[]> {
+  const scene = await loadCaseScene("/api/scene.glb");
+  const frames = makeFrameMap(description.wrist_from_patient);
+  const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  renderer.setPixelRatio(1);
+  renderer.setSize(SIDE_PX, SIDE_PX, false);
+  renderer.toneMapping = THREE.ACESFilmicToneMapping;
+  renderer.setClearColor("#11171a");
+  const world = new THREE.Scene();
+  const light = studioLight(renderer, world);
+  const patient = new THREE.Group();
+  patient.matrixAutoUpdate = false;
+  patient.matrix.fromArray([...frames.matrix]);
+  world.add(patient);
+  const box = new THREE.Box3();
+  for (const bone of scene.bones) {
+    const scaphoid = bone.name.startsWith("scaphoid");
+    if (!scaphoid) continue;
+    bone.material = glassBoneMaterial();
+    bone.renderOrder = 4;
+    patient.add(bone);
+  }
+  patient.add(...hardware(placement));
+  world.updateMatrixWorld(true);
+  for (const child of patient.children) {
+    if (child.name.startsWith("scaphoid")) box.expandByObject(child);
+  }
+  const pictures = looks(placement, frames, description.side).map((look) =>
+    picture(renderer, world, light, box, look),
+  );
+  light.dispose();
+  renderer.dispose();
+  renderer.forceContextLoss();
+  return pictures;
+}
+
+function looks(placement: Placement, frames: FrameMap, side: "left" | "right"): Look[] {
+  const axis = normalized(subtract(placement.axisProximalMm, placement.axisDistalMm));
+  const along = new THREE.Vector3(...frames.directionToRenderer(axis));
+  const up = new THREE.Vector3(0, 1, 0);
+  const radial = side === "left" ? 1 : -1;
+  return [
+    { name: "From dorsal", from: new THREE.Vector3(0, 0, 1), up },
+    { name: "From radial", from: new THREE.Vector3(radial, 0, 0), up },
+    { name: "Along the axis, from proximal", from: along, up: new THREE.Vector3(0, 0, 1) },
+  ];
+}
+
+function picture(
+  renderer: THREE.WebGLRenderer,
+  world: THREE.Scene,
+  light: ReturnType<typeof studioLight>,
+  box: THREE.Box3,
+  look: Look,
+): HTMLElement {
+  const size = box.getSize(new THREE.Vector3());
+  const half = Math.max(size.x, size.y, size.z) / 2 + MARGIN_M;
+  const centre = box.getCenter(new THREE.Vector3());
+  const camera = new THREE.OrthographicCamera(-half, half, half, -half, 0.01, 1);
+  camera.up.copy(look.up);
+  camera.position.copy(centre).addScaledVector(look.from, 0.3);
+  camera.lookAt(centre);
+  camera.updateMatrixWorld(true);
+  light.follow(camera, centre);
+  renderer.render(world, camera);
+  const canvas = make("canvas", { width: String(SIDE_PX), height: String(SIDE_PX), role: "img" });
+  canvas.setAttribute("aria-label", `Placement in the scaphoid, ${look.name.toLowerCase()}`);
+  canvas.getContext("2d")?.drawImage(renderer.domElement, 0, 0);
+  return make("figure", {}, canvas, make("figcaption", {}, look.name));
+}
+
+function hardware(placement: Placement): THREE.Object3D[] {
+  const objects: THREE.Object3D[] = [axisLine(placement)];
+  const { wire, screw } = placement;
+  if (wire !== undefined) {
+    const shaft = normalized(subtract(wire.entryMm, wire.tipMm));
+    // With 12 mm of what stands out, to show where it came in.
+    const lengthMm = Math.hypot(...subtract(wire.entryMm, wire.tipMm)) + 12;
+    const mesh = new THREE.Mesh(wireGeometry(lengthMm), metalMaterial());
+    alignShaft(mesh, wire.tipMm, shaft);
+    objects.push(mesh);
+  }
+  if (screw !== undefined) {
+    const lengthMm = Math.hypot(...subtract(screw.tailMm, screw.tipMm));
+    const mesh = new THREE.Mesh(
+      screwGeometry({
+        lengthMm,
+        tipDiameterMm: screw.tipDiameterMm,
+        tailDiameterMm: screw.tailDiameterMm,
+      }),
+      metalMaterial("#9fb3c4", 0.3),
+    );
+    alignShaft(mesh, screw.tipMm, normalized(subtract(screw.tailMm, screw.tipMm)));
+    objects.push(mesh);
+  }
+  return objects;
+}
+
+/** The central axis, drawn 3 mm beyond both poles and over everything. */
+function axisLine(placement: Placement): THREE.Object3D {
+  const along = normalized(subtract(placement.axisProximalMm, placement.axisDistalMm));
+  const lengthMm = Math.hypot(...subtract(placement.axisProximalMm, placement.axisDistalMm)) + 6;
+  const geometry = new THREE.CylinderGeometry(0.18, 0.18, lengthMm, 12);
+  geometry.rotateX(Math.PI / 2).translate(0, 0, lengthMm / 2);
+  const material = new THREE.MeshBasicMaterial({
+    color: AXIS_COLOR,
+    depthTest: false,
+    transparent: true,
+    opacity: 0.95,
+    toneMapped: false,
+  });
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.renderOrder = 8;
+  const start: Vec3 = [
+    placement.axisDistalMm[0] - 3 * along[0],
+    placement.axisDistalMm[1] - 3 * along[1],
+    placement.axisDistalMm[2] - 3 * along[2],
+  ];
+  alignShaft(mesh, start, along);
+  return mesh;
+}

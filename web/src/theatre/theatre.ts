@@ -1,0 +1,396 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The operating theatre's 3-D view. It draws the latest snapshot when something changed, predicts
+// nothing, and allocates nothing per frame. All in it but lights and camera is in mm of the Patient
+// frame, under one group that carries the conversion (frames/).
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { FaceNames, FrameMap } from "../frames";
+import type { SnapshotMessage, Vec3 } from "../protocol";
+import { backdrop } from "./backdrop";
+import { BoneNames } from "./bone_names";
+import type { CaseScene } from "./case_scene";
+import { ContactMarker } from "./contact_marker";
+import {
+  alignShaft,
+  screwDriver,
+  screwGeometry,
+  wireDriver,
+  wireGeometry,
+  type ScrewShape,
+} from "./instruments";
+import { studioLight, type StudioLight } from "./light";
+import { metalMaterial } from "./materials";
+import { OrientationCube } from "./orientation_cube";
+import { DrawingPace } from "./drawing_pace_model";
+
+export const VIEWS = ["dorsal", "radial", "volar", "ulnar", "wire"] as const;
+export type ViewId = (typeof VIEWS)[number];
+
+const FIELD_OF_VIEW_DEG = 26;
+const DISTANCE_M = 0.225;
+const CUBE_PX = 88;
+/** A driver that comes towards the viewer more steeply than this would hide what it points at. */
+const HIDE_DRIVER_COSINE = 0.25;
+
+/** Whether WebGL runs on the processor: then the simplest drawing from the start. */
+function drawsInSoftware(renderer: THREE.WebGLRenderer): boolean {
+  const gl = renderer.getContext();
+  const names = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = names === null ? "" : String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
+export class Theatre {
+  readonly canvas: HTMLCanvasElement;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.01, 3);
+  private readonly controls: OrbitControls;
+  private readonly light: StudioLight;
+  private readonly patient = new THREE.Group();
+  private readonly wire = new THREE.Mesh(wireGeometry(), metalMaterial());
+  private readonly driver = wireDriver();
+  private readonly handDriver = screwDriver();
+  private readonly screw = new THREE.Mesh(
+    new THREE.BufferGeometry(),
+    metalMaterial("#9fb3c4", 0.3),
+  );
+  private readonly marker = new ContactMarker();
+  private readonly cube: OrientationCube;
+  private readonly names: BoneNames;
+  private readonly caster = new THREE.Raycaster();
+  private readonly pointer = new THREE.Vector2();
+  private readonly hits: THREE.Intersection[] = [];
+  private readonly home = new THREE.Vector3();
+  private readonly scratch = new THREE.Vector3();
+  private readonly back = new THREE.Vector3();
+  private readonly screwTip: [number, number, number] = [0, 0, 0];
+  private readonly shaft: [number, number, number] = [0, 0, 1];
+  private width = 1;
+  private height = 1;
+  private stale = true;
+  private screwKey = "";
+  private readonly pace = new DrawingPace();
+  private shown: SnapshotMessage | undefined;
+  private readonly observer: ResizeObserver;
+
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly bones: CaseScene,
+    private readonly frames: FrameMap,
+    private readonly facing: FaceNames,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({
+      antialias: true,
+      powerPreference: "high-performance",
+    });
+    this.canvas = this.renderer.domElement;
+    this.canvas.tabIndex = 0;
+    const software = drawsInSoftware(this.renderer);
+    this.renderer.setPixelRatio(software ? 0.75 : Math.min(2, window.devicePixelRatio));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
+    this.renderer.toneMappingExposure = 0.9;
+    this.light = studioLight(this.renderer, this.scene);
+    if (software) {
+      this.light.setShadowPixels(0);
+      this.pace.level = 2;
+    }
+    this.cube = new OrientationCube(facing);
+    this.names = new BoneNames(bones.bones);
+    this.names.canvas.hidden = true;
+    this.build();
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.mouseButtons = { LEFT: null, MIDDLE: THREE.MOUSE.PAN, RIGHT: THREE.MOUSE.ROTATE };
+    this.controls.touches = { ONE: null, TWO: THREE.TOUCH.DOLLY_ROTATE };
+    this.controls.minDistance = 0.05;
+    this.controls.maxDistance = 0.8;
+    this.controls.zoomSpeed = 0.8;
+    this.controls.addEventListener("change", () => {
+      this.stale = true;
+    });
+    this.lookFrom("dorsal");
+    host.append(this.canvas, this.names.canvas);
+    this.observer = new ResizeObserver(() => {
+      this.resize();
+    });
+    this.observer.observe(host);
+    this.resize();
+  }
+
+  private build(): void {
+    this.patient.matrixAutoUpdate = false;
+    this.patient.matrix.fromArray([...this.frames.matrix]);
+    this.patient.add(this.bones.root, this.wire, this.driver, this.handDriver, this.screw);
+    this.patient.add(this.marker.group);
+    this.wire.castShadow = true;
+    for (const object of [this.wire, this.driver, this.handDriver, this.screw])
+      object.visible = false;
+    this.scene.add(backdrop(), this.patient);
+    this.scene.updateMatrixWorld(true);
+    const box = new THREE.Box3();
+    for (const bone of this.bones.bones) {
+      if (bone.name.startsWith("scaphoid") || bone.name === "lunate") box.expandByObject(bone);
+    }
+    if (box.isEmpty()) box.setFromObject(this.bones.root);
+    box.getCenter(this.home);
+  }
+
+  /** Centre of the scaphoid and lunate in Patient [mm]: where the hand begins. */
+  startPointMm(): Vec3 {
+    return this.frames.pointToPatient(this.home.x, this.home.y, this.home.z);
+  }
+
+  show(snapshot: SnapshotMessage): void {
+    this.shown = snapshot;
+    this.stale = true;
+  }
+
+  /** Draws the screw with this shape from now on. */
+  setScrewShape(shape: ScrewShape): void {
+    const key = `${shape.lengthMm} ${shape.tipDiameterMm} ${shape.tailDiameterMm}`;
+    if (key === this.screwKey) return;
+    this.screwKey = key;
+    this.screw.geometry.dispose();
+    this.screw.geometry = screwGeometry(shape);
+    this.stale = true;
+  }
+
+  /** @param opacity 0 none, 1 as on the patient. */
+  setSkin(opacity: number): void {
+    const { skin, skinDepth } = this.bones;
+    if (skin === undefined || skinDepth === undefined) return;
+    skin.visible = skinDepth.visible = opacity > 0;
+    const uniform = skin.material.uniforms["opacity"];
+    if (uniform !== undefined) uniform.value = opacity;
+    this.stale = true;
+  }
+
+  get namesShown(): boolean {
+    return !this.names.canvas.hidden;
+  }
+
+  showNames(on: boolean): void {
+    this.names.canvas.hidden = !on;
+    this.stale = true;
+  }
+
+  lookFrom(view: ViewId): void {
+    const target = this.controls?.target ?? this.home;
+    target.copy(this.home);
+    const at = this.camera.position;
+    const left = this.facing.left === "Radial" ? -1 : 1;
+    switch (view) {
+      case "dorsal":
+        at.set(0, -0.06, 1);
+        break;
+      case "volar":
+        at.set(0, -0.06, -1);
+        break;
+      case "radial":
+        at.set(left, 0, 0.12);
+        break;
+      case "ulnar":
+        at.set(-left, 0, 0.12);
+        break;
+      case "wire":
+        if (this.shown === undefined) return;
+        at.set(...this.frames.directionToRenderer(this.shown.shaft));
+        this.scratch.set(...this.shown.tip_mm).applyMatrix4(this.patient.matrix);
+        target.copy(this.scratch);
+        break;
+    }
+    at.normalize()
+      .multiplyScalar(view === "wire" ? 0.16 : DISTANCE_M)
+      .add(target);
+    this.camera.lookAt(target);
+    this.controls?.update();
+    this.stale = true;
+  }
+
+  /** Turns the view about what it looks at [rad]. */
+  orbit(rightRad: number, upRad: number): void {
+    const offset = this.scratch.copy(this.camera.position).sub(this.controls.target);
+    const spherical = new THREE.Spherical().setFromVector3(offset);
+    spherical.theta -= rightRad;
+    spherical.phi = Math.min(Math.PI - 0.05, Math.max(0.05, spherical.phi + upRad));
+    this.camera.position.setFromSpherical(spherical).add(this.controls.target);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  zoom(factor: number): void {
+    const offset = this.scratch.copy(this.camera.position).sub(this.controls.target);
+    const distance = Math.min(0.8, Math.max(0.05, offset.length() * factor));
+    this.camera.position.copy(this.controls.target).addScaledVector(offset.normalize(), distance);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  /** The point of a bone under the pointer, in Patient [mm]. */
+  bonePointAt(clientX: number, clientY: number): Vec3 | undefined {
+    this.aim(clientX, clientY);
+    this.hits.length = 0;
+    this.caster.intersectObjects(this.bones.bones as THREE.Mesh[], false, this.hits);
+    const hit = this.hits[0]?.point;
+    return hit === undefined ? undefined : this.frames.pointToPatient(hit.x, hit.y, hit.z);
+  }
+
+  /** The point under the pointer at the depth of `nearMm`, in Patient [mm]. */
+  planePointAt(clientX: number, clientY: number, nearMm: Vec3): Vec3 {
+    this.aim(clientX, clientY);
+    this.camera.getWorldDirection(this.back);
+    this.scratch.set(...nearMm).applyMatrix4(this.patient.matrix);
+    const depth = this.scratch.sub(this.camera.position).dot(this.back);
+    const { direction, origin } = this.caster.ray;
+    const along = depth / direction.dot(this.back);
+    const point = this.scratch.copy(origin).addScaledVector(direction, along);
+    return this.frames.pointToPatient(point.x, point.y, point.z);
+  }
+
+  /** The bone's point on the line of sight through `pointMm`, in Patient [mm]. */
+  bonePointBehind(pointMm: Vec3): Vec3 | undefined {
+    this.scratch
+      .set(...pointMm)
+      .applyMatrix4(this.patient.matrix)
+      .project(this.camera);
+    const rect = this.canvas.getBoundingClientRect();
+    return this.bonePointAt(
+      rect.left + (0.5 + 0.5 * this.scratch.x) * rect.width,
+      rect.top + (0.5 - 0.5 * this.scratch.y) * rect.height,
+    );
+  }
+
+  /** Right and up of the screen, in Patient. */
+  screenAxes(): { readonly right: Vec3; readonly up: Vec3 } {
+    const m = this.camera.matrixWorld.elements;
+    return {
+      right: this.frames.directionToPatient(m[0], m[1], m[2]),
+      up: this.frames.directionToPatient(m[4], m[5], m[6]),
+    };
+  }
+
+  /** Where a point of Patient [mm] is on the page [CSS px]. */
+  pagePoint(pointMm: Vec3): { readonly x: number; readonly y: number } {
+    this.scratch
+      .set(...pointMm)
+      .applyMatrix4(this.patient.matrix)
+      .project(this.camera);
+    const rect = this.canvas.getBoundingClientRect();
+    return {
+      x: rect.left + (0.5 + 0.5 * this.scratch.x) * rect.width,
+      y: rect.top + (0.5 - 0.5 * this.scratch.y) * rect.height,
+    };
+  }
+
+  /** Draws if anything changed since the last time. */
+  draw(): void {
+    if (!this.stale || this.width < 2 || this.height < 2) {
+      this.pace.rest();
+      return;
+    }
+    this.stale = false;
+    if (this.pace.drew(performance.now())) this.drawSimpler();
+    this.pose();
+    this.light.follow(this.camera, this.controls.target);
+    this.renderer.setViewport(0, 0, this.width, this.height);
+    this.renderer.render(this.scene, this.camera);
+    this.cube.draw(this.renderer, this.camera, 8, 8, CUBE_PX);
+    if (!this.names.canvas.hidden) {
+      this.names.draw(this.camera, this.patient.matrix, this.width, this.height);
+    }
+  }
+
+  /** On a machine that cannot keep up: first coarser shadows, then none and fewer pixels. */
+  private drawSimpler(): void {
+    if (this.pace.level === 1) this.light.setShadowPixels(1024);
+    else {
+      this.light.setShadowPixels(0);
+      this.renderer.setPixelRatio(Math.max(0.75, 0.5 * this.renderer.getPixelRatio()));
+      this.resize();
+    }
+  }
+
+  dispose(): void {
+    this.observer.disconnect();
+    this.controls.dispose();
+    this.light.dispose();
+    this.cube.dispose();
+    this.scene.traverse((node) => {
+      if (node instanceof THREE.Mesh) (node as THREE.Mesh).geometry.dispose();
+    });
+    this.renderer.dispose();
+    this.canvas.remove();
+    this.names.canvas.remove();
+  }
+
+  private pose(): void {
+    const s = this.shown;
+    if (s === undefined) return;
+    const inBone = s.wire_engaged;
+    const hasScrew = s.screw_index >= 0;
+    this.wire.visible = s.instrument !== "none" || inBone;
+    if (inBone) {
+      this.setShaft(s.wire_direction, -1);
+      alignShaft(this.wire, s.wire_tip_mm, this.shaft);
+    } else {
+      alignShaft(this.wire, s.tip_mm, s.shaft);
+    }
+    this.driver.visible = s.instrument === "guide_wire" && !this.comesAtViewer(s.shaft);
+    this.driver.position.copy(this.wire.position);
+    this.driver.quaternion.copy(this.wire.quaternion);
+    this.screw.visible = hasScrew;
+    this.handDriver.visible = s.instrument === "screw_driver" && !this.comesAtViewer(s.shaft);
+    if (hasScrew) {
+      for (let i = 0; i < 3; ++i) {
+        this.screwTip[i] =
+          (s.wire_entry_mm[i] ?? 0) + s.screw_advance_mm * (s.wire_direction[i] ?? 0);
+      }
+      this.setShaft(s.wire_direction, -1);
+      alignShaft(this.screw, this.screwTip, this.shaft);
+      this.handDriver.quaternion.copy(this.screw.quaternion);
+      this.handDriver.position
+        .set(this.shaft[0], this.shaft[1], this.shaft[2])
+        .multiplyScalar(s.screw_length_mm)
+        .add(this.screw.position);
+    }
+    if (s.touching) this.marker.show(s.tip_mm, s.contact_normal, s.force_n);
+    else this.marker.hide();
+  }
+
+  private setShaft(direction: Vec3, sign: number): void {
+    for (let i = 0; i < 3; ++i) this.shaft[i] = sign * (direction[i] ?? 0);
+  }
+
+  private comesAtViewer(shaft: Vec3): boolean {
+    this.camera.getWorldDirection(this.back);
+    const direction = this.scratch.set(shaft[0], shaft[1], shaft[2]);
+    direction.transformDirection(this.patient.matrix);
+    // `back` is the way the camera looks.
+    return -direction.dot(this.back) > HIDE_DRIVER_COSINE;
+  }
+
+  private aim(clientX: number, clientY: number): void {
+    const rect = this.canvas.getBoundingClientRect();
+    this.pointer.set(
+      (2 * (clientX - rect.left)) / rect.width - 1,
+      1 - (2 * (clientY - rect.top)) / rect.height,
+    );
+    this.camera.updateMatrixWorld();
+    this.caster.setFromCamera(this.pointer, this.camera);
+  }
+
+  private resize(): void {
+    this.width = this.host.clientWidth;
+    this.height = this.host.clientHeight;
+    if (this.width < 2 || this.height < 2) return;
+    this.renderer.setSize(this.width, this.height, false);
+    this.names.resize(this.width, this.height, this.renderer.getPixelRatio());
+    this.camera.aspect = this.width / this.height;
+    this.camera.updateProjectionMatrix();
+    this.stale = true;
+  }
+}

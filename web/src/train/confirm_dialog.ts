@@ -1,0 +1,47 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A question with two answers, before what cannot be taken back.
+import { button, make } from "../dom";
+
+export class ConfirmDialog {
+  readonly element: HTMLDialogElement;
+  private readonly yes: HTMLButtonElement;
+
+  constructor(title: string, text: string, yes: string, onYes: () => void) {
+    this.yes = button(
+      yes,
+      "Enter",
+      () => {
+        this.element.close();
+        onYes();
+      },
+      ".primary",
+    );
+    const id = `confirm-${title.toLowerCase().replace(/[^a-z]+/g, "-")}`;
+    this.element = make(
+      "dialog.confirm",
+      { "aria-labelledby": id },
+      make(
+        "div",
+        {},
+        make("h2", { id }, title),
+        make("p", {}, text),
+        make(
+          "div.actions",
+          {},
+          button("Go on operating", "Esc", () => {
+            this.element.close();
+          }),
+          this.yes,
+        ),
+      ),
+    );
+  }
+
+  ask(): void {
+    if (this.element.open) return;
+    this.element.showModal();
+    this.yes.focus();
+  }
+}

@@ -1,0 +1,66 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What runs, on whom, how well: one quiet line.
+import { button, make, setText } from "../dom";
+import type { CaseDescription, SnapshotMessage } from "../protocol";
+
+export interface TopBarHandlers {
+  pause(): void;
+  help(): void;
+  fullScreen(): void;
+}
+
+export class TopBar {
+  readonly element: HTMLElement;
+  private readonly rate = make("span", {}, "– Hz");
+  private readonly p99 = make("span", {}, "p99 –");
+  private readonly late = make("span", {}, "late –");
+  private readonly link = make("span.link-state", { role: "status" });
+  private readonly pauseButton: HTMLButtonElement;
+
+  constructor(description: CaseDescription, handlers: TopBarHandlers) {
+    this.pauseButton = button("Pause", "P", handlers.pause, ".quiet");
+    const patient = make("span.patient", {}, description.pseudonym);
+    if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
+    const timing = make(
+      "span.timing",
+      {},
+      this.rate,
+      this.p99,
+      this.late,
+      make("span", {}, "mouse and keys"),
+    );
+    timing.title =
+      "Ticks of the simulation per second; time that 99 of 100 ticks stay under; ticks that came late; input";
+    this.element = make(
+      "header.top-bar",
+      {},
+      make("strong.brand", {}, "Carpus"),
+      patient,
+      make("span.secondary.procedure", {}, `${description.side} wrist · dorsal scaphoid fixation`),
+      this.link,
+      timing,
+      this.pauseButton,
+      button("Help", "?", handlers.help, ".quiet"),
+      button("Full screen", "", handlers.fullScreen, ".quiet"),
+    );
+  }
+
+  showTiming(s: SnapshotMessage): void {
+    setText(this.rate, `${Math.round(s.tick_rate_hz)} Hz`);
+    setText(
+      this.p99,
+      `p99 ${s.tick_p99_us < 1000 ? `${Math.round(s.tick_p99_us)} µs` : `${(s.tick_p99_us / 1000).toFixed(1)} ms`}`,
+    );
+    setText(this.late, `late ${s.late_ticks}`);
+    const label = this.pauseButton.firstChild;
+    const wanted = s.paused ? "Resume" : "Pause";
+    if (label !== null && label.textContent !== wanted) label.textContent = wanted;
+    this.pauseButton.setAttribute("aria-pressed", String(s.paused));
+  }
+
+  showLink(text: string): void {
+    setText(this.link, text);
+  }
+}

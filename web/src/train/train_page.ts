@@ -1,0 +1,523 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The room Train: joins link, theatre, hand, C-arm and bars. The host owns the truth; this shows it.
+import { CArmPanel } from "../c_arm";
+import { fetchCase, fetchScrews, type Screw } from "../case_data";
+import { button, make, setText } from "../dom";
+import { faceNames, makeFrameMap } from "../frames";
+import { HelpOverlay } from "../help_overlay";
+import { HostLink, openPageSocket, type LinkState } from "../host_link";
+import { onceAction, whyNot, whyStuck, type KeyPress, type OnceAction } from "../operation";
+import {
+  parseViews,
+  type CaseDescription,
+  type HostMessage,
+  type PageMessage,
+  type SnapshotMessage,
+  type Vec3,
+} from "../protocol";
+import { StartDialog, type StartChoice } from "../start_dialog";
+import { loadCaseScene, Theatre, VIEWS, type CaseScene, type ViewId } from "../theatre";
+import { BottomBar } from "./bottom_bar";
+import { ConfirmDialog } from "./confirm_dialog";
+import { Hand } from "./hand";
+import { ScrewList } from "./screw_list";
+import { StepPanel } from "./step_panel";
+import { TopBar } from "./top_bar";
+import "./train.css";
+import { ViewBar } from "./view_bar";
+
+/** Readings are for eyes: ten times a second is enough. */
+const READINGS_MS = 100;
+/** At most this often the hand is sent [1/s]. */
+const SEND_PER_S = 60;
+const NOTICE_MS = 9000;
+
+/** Shows the room in `app`; the returned function leaves it. */
+export function mountTrain(app: HTMLElement): () => void {
+  const waiting = make("main.waiting", {}, make("p", { role: "status" }, "Loading the case…"));
+  app.replaceChildren(waiting);
+  let page: TrainPage | undefined;
+  let left = false;
+  void (async () => {
+    try {
+      const [description, screws, scene] = await Promise.all([
+        fetchCase(),
+        fetchScrews(),
+        loadCaseScene("/api/scene.glb"),
+      ]);
+      if (!left) page = new TrainPage(app, description, screws, scene);
+    } catch (error) {
+      const why = error instanceof Error ? error.message : String(error);
+      const again = button("Try again", "", () => {
+        location.reload();
+      });
+      waiting.replaceChildren(
+        make("h1", {}, "The case cannot be shown"),
+        make("p", {}, why),
+        again,
+      );
+    }
+  })();
+  return () => {
+    left = true;
+    page?.dispose();
+  };
+}
+
+declare global {
+  interface Window {
+    /** For tests and screenshots: what is shown, never a way to act. */
+    carpus?: {
+      snapshot(): SnapshotMessage | undefined;
+      pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
+      screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
+    };
+  }
+}
+
+class TrainPage {
+  private readonly theatre: Theatre;
+  private readonly hand: Hand;
+  private readonly link: HostLink;
+  private readonly arm: CArmPanel;
+  private readonly top: TopBar;
+  private readonly bottom: BottomBar;
+  private readonly steps = new StepPanel();
+  private readonly start: StartDialog;
+  private readonly help = new HelpOverlay();
+  private readonly tray: ScrewList;
+  private readonly views: ViewBar;
+  private readonly finishQuestion: ConfirmDialog;
+  private readonly restartQuestion: ConfirmDialog;
+  private readonly notice = make("p.notice", { role: "status" });
+  private readonly frozen = make("p.frozen", { role: "alert" });
+  private readonly abort = new AbortController();
+  private latest: SnapshotMessage | undefined;
+  private running = false;
+  private trainee = "";
+  private sequence = 0;
+  private view: ViewId = "dorsal";
+  private noticeTimer = 0;
+  private readonly readingsTimer: number;
+  private frameRequest = 0;
+  private lastSentMs = -Infinity;
+
+  constructor(
+    app: HTMLElement,
+    description: CaseDescription,
+    private readonly screws: readonly Screw[],
+    scene: CaseScene,
+  ) {
+    this.top = new TopBar(description, {
+      pause: () => {
+        this.togglePause();
+      },
+      help: () => {
+        this.help.toggle();
+      },
+      fullScreen: toggleFullScreen,
+    });
+    this.bottom = new BottomBar({
+      measure: () => {
+        this.act({ kind: "measure" });
+      },
+      screws: () => {
+        this.act({ kind: "screws" });
+      },
+      undo: () => {
+        this.act({ kind: "undo" });
+      },
+      restart: () => {
+        this.restartQuestion.ask();
+      },
+      finish: () => {
+        this.act({ kind: "finish" });
+      },
+    });
+    this.arm = new CArmPanel(parseViews(description.views), {
+      takeShot: (rotationDeg, tiltDeg) => {
+        this.tell({ type: "take_shot", rotation_deg: rotationDeg, tilt_deg: tiltDeg });
+      },
+    });
+    this.start = new StartDialog(
+      description,
+      (choice) => {
+        this.begin(choice);
+      },
+      () => {
+        this.resume();
+      },
+    );
+    this.tray = new ScrewList(screws, (screw) => {
+      this.tell({ type: "select_screw", index: screw.index });
+    });
+    this.finishQuestion = new ConfirmDialog(
+      "Finish the operation?",
+      "The placement is measured and stored. After this nothing can be changed.",
+      "Finish and score",
+      () => {
+        this.tell({ type: "finish" });
+      },
+    );
+    this.restartQuestion = new ConfirmDialog(
+      "Start anew?",
+      "What was done so far is stored as unfinished.",
+      "Start anew",
+      () => {
+        this.begin({ trainee: this.trainee });
+      },
+    );
+    this.views = new ViewBar({
+      look: (view) => {
+        this.look(view);
+      },
+      skin: (opacity) => {
+        this.theatre.setSkin(opacity);
+      },
+      names: () => {
+        this.act({ kind: "labels" });
+      },
+    });
+    const stage = make("div.stage", { role: "application", "aria-label": "Theatre, 3-D" });
+    this.frozen.hidden = true;
+    app.replaceChildren(
+      make(
+        "main.train",
+        {},
+        this.top.element,
+        this.steps.element,
+        make(
+          "section.theatre",
+          { "aria-label": "Theatre" },
+          stage,
+          this.frozen,
+          this.views.element,
+          this.notice,
+        ),
+        this.arm.element,
+        this.bottom.element,
+      ),
+      this.start.element,
+      this.help.element,
+      this.tray.element,
+      this.finishQuestion.element,
+      this.restartQuestion.element,
+    );
+    const frames = makeFrameMap(description.wrist_from_patient);
+    this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
+    this.theatre.setSkin(this.views.skinOpacity);
+    this.hand = new Hand(this.theatre, {
+      send: (tool) => {
+        this.sequence = (this.sequence + 1) % 0xffffffff;
+        this.link.send({ type: "tool", sequence: this.sequence, ...tool });
+      },
+      say: (hint) => {
+        this.say(hint);
+      },
+      snapshot: () => this.latest,
+    });
+    this.hand.reset(this.theatre.startPointMm(), frames.directionToPatient(0, -0.55, 0.83));
+    this.listen();
+    this.start.setReady(false, "Connecting to the host…");
+    this.start.open();
+    this.link = new HostLink(openPageSocket, {
+      onState: (state, why) => {
+        this.linkState(state, why);
+      },
+      onMessage: (message) => {
+        this.receive(message);
+      },
+      onPicture: (picture) => {
+        this.arm.add(picture);
+      },
+      onRefused: (reason) => {
+        this.say(`Passed over a message that is none: ${reason}`);
+      },
+    });
+    window.carpus = {
+      snapshot: () => this.latest,
+      pagePoint: (mm) => this.theatre.pagePoint(mm),
+      screenAxes: () => this.theatre.screenAxes(),
+    };
+    this.readingsTimer = window.setInterval(() => {
+      this.showReadings();
+    }, READINGS_MS);
+    const loop = (nowMs: number): void => {
+      this.frameRequest = requestAnimationFrame(loop);
+      this.frame(nowMs);
+    };
+    this.frameRequest = requestAnimationFrame(loop);
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.frameRequest);
+    clearInterval(this.readingsTimer);
+    clearTimeout(this.noticeTimer);
+    this.abort.abort();
+    delete window.carpus;
+    this.link.dispose();
+    this.hand.dispose();
+    this.theatre.dispose();
+  }
+
+  private frame(nowMs: number): void {
+    if (nowMs - this.lastSentMs >= 1000 / SEND_PER_S - 1) {
+      this.lastSentMs = nowMs;
+      this.hand.frame(performance.now());
+    }
+    this.theatre.draw();
+  }
+
+  private listen(): void {
+    const { signal } = this.abort;
+    window.addEventListener(
+      "keydown",
+      (event) => {
+        this.keyDown(event);
+      },
+      { signal },
+    );
+    window.addEventListener(
+      "keyup",
+      (event) => {
+        this.hand.keyUp(event.code, performance.now());
+      },
+      { signal },
+    );
+    // After a click the keys go to the hand again; who came by Tab stays where they are.
+    document.addEventListener(
+      "click",
+      (event) => {
+        if (event.detail === 0 || document.querySelector("dialog[open]") !== null) return;
+        if (event.target instanceof Element && event.target.closest("button") !== null) {
+          this.theatre.canvas.focus({ preventScroll: true });
+        }
+      },
+      { signal },
+    );
+  }
+
+  private keyDown(event: KeyboardEvent): void {
+    if (event.altKey || event.metaKey) return;
+    const press: KeyPress = {
+      key: event.key,
+      code: event.code,
+      shift: event.shiftKey,
+      ctrl: event.ctrlKey,
+    };
+    const once = onceAction(press);
+    if (this.help.element.open && once?.kind === "help") {
+      event.preventDefault();
+      this.help.toggle();
+      return;
+    }
+    if (document.querySelector("dialog[open]") !== null) return;
+    const target = event.target instanceof HTMLElement ? event.target : undefined;
+    if (target instanceof HTMLInputElement) return;
+    if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
+    if (this.hand.keyDown(press, performance.now())) {
+      event.preventDefault();
+      return;
+    }
+    if (once === undefined) return;
+    event.preventDefault();
+    if (!event.repeat || once.kind === "turn_c_arm") this.act(once);
+  }
+
+  private act(action: OnceAction): void {
+    switch (action.kind) {
+      case "shot":
+        this.arm.shoot(action.view);
+        break;
+      case "free_shot":
+        this.arm.shootFree();
+        break;
+      case "turn_c_arm":
+        this.arm.turn(action.rotationDeg, action.tiltDeg);
+        break;
+      case "invert":
+        this.arm.invert();
+        break;
+      case "change_thrust":
+        this.hand.changeThrust(action.byN);
+        break;
+      case "measure":
+        if (!this.refusedBySituation("measure")) this.tell({ type: "measure" });
+        break;
+      case "screws":
+        if (this.latest !== undefined && !this.refusedBySituation("screws")) {
+          this.hand.releaseAll();
+          this.tray.open(this.latest.screw_index, this.latest.measured_mm);
+        }
+        break;
+      case "choose_screw":
+        this.chooseNeighbour(action.by);
+        break;
+      case "undo":
+        this.tell({ type: "undo" });
+        break;
+      case "finish":
+        if (this.running) this.finishQuestion.ask();
+        break;
+      case "pause":
+        this.togglePause();
+        break;
+      case "camera":
+        this.look(VIEWS[(VIEWS.indexOf(this.view) + 1) % VIEWS.length] ?? "dorsal");
+        break;
+      case "skin":
+        this.views.nextSkin();
+        break;
+      case "labels":
+        this.theatre.showNames(!this.theatre.namesShown);
+        this.views.showNames(this.theatre.namesShown);
+        break;
+      case "help":
+        this.hand.releaseAll();
+        this.help.toggle();
+        break;
+      case "full_screen":
+        toggleFullScreen();
+        break;
+      case "zoom_in":
+        this.theatre.zoom(0.85);
+        break;
+      case "zoom_out":
+        this.theatre.zoom(1 / 0.85);
+        break;
+    }
+  }
+
+  private chooseNeighbour(by: number): void {
+    if (this.latest === undefined || this.refusedBySituation("screws")) return;
+    const screw = this.tray.neighbour(this.latest.screw_index, by);
+    if (screw === undefined) return;
+    this.tell({ type: "select_screw", index: screw.index });
+    this.say(`On the driver: ${screw.name}`);
+  }
+
+  private refusedBySituation(action: string): boolean {
+    const hint = this.latest === undefined ? undefined : whyNot(action, this.latest);
+    if (hint !== undefined) this.say(hint);
+    return hint !== undefined;
+  }
+
+  private look(view: ViewId): void {
+    this.view = view;
+    this.theatre.lookFrom(view);
+    this.views.showView(view);
+  }
+
+  private begin(choice: StartChoice): void {
+    this.trainee = choice.trainee;
+    const sent = this.link.send({
+      type: "start",
+      trainee: choice.trainee,
+      procedure: "dorsal_scaphoid_fixation",
+      input_device: "mouse",
+      seed: crypto.getRandomValues(new Uint32Array(1))[0] ?? 1,
+    });
+    if (!sent) return;
+    this.start.close();
+    this.running = true;
+    this.steps.clearLog();
+    this.arm.clear();
+    this.say("Press ? for mouse and keys.");
+    this.hand.setEnabled(true);
+    this.theatre.canvas.focus({ preventScroll: true });
+  }
+
+  private resume(): void {
+    this.running = true;
+    this.start.close();
+    if (this.latest !== undefined) this.hand.takeOver(this.latest);
+    this.hand.setEnabled(true);
+    this.theatre.canvas.focus({ preventScroll: true });
+  }
+
+  private togglePause(): void {
+    if (this.latest !== undefined) this.tell({ type: "pause", on: !this.latest.paused });
+  }
+
+  private tell(message: PageMessage): void {
+    if (!this.link.send(message))
+      this.say("Not connected: nothing was sent. Wait for the connection.");
+  }
+
+  private linkState(state: LinkState, why: string): void {
+    const open = state === "open";
+    const text =
+      state === "busy"
+        ? `${why === "" ? "Another page operates here." : why} This page gets in when the other one is closed.`
+        : state === "lost"
+          ? "The connection is lost; the scene is frozen. Trying again by itself…"
+          : "";
+    this.frozen.hidden = open || !this.running;
+    setText(this.frozen, text);
+    this.top.showLink(state === "lost" ? "not connected" : state === "busy" ? "busy" : "");
+    this.start.setReady(open, open ? "" : text);
+    this.hand.setEnabled(open && this.running);
+  }
+
+  private receive(message: HostMessage): void {
+    switch (message.type) {
+      case "snapshot":
+        this.takeSnapshot(message);
+        break;
+      case "event":
+        this.steps.addLog(message.tick, message.text);
+        break;
+      case "score":
+        this.running = false;
+        location.hash = `#/attempts/${message.attempt_id}`;
+        break;
+      case "error":
+        this.say(
+          message.what_to_do === "" ? message.reason : `${message.reason} ${message.what_to_do}`,
+        );
+        break;
+      case "welcome":
+        this.start.offerResume(message.running && !this.running);
+        break;
+      case "busy":
+        break;
+    }
+  }
+
+  private takeSnapshot(s: SnapshotMessage): void {
+    const screw = this.screws.find((one) => one.index === s.screw_index);
+    if (screw !== undefined && s.screw_index !== this.latest?.screw_index)
+      this.theatre.setScrewShape(screw);
+    this.latest = s;
+    this.theatre.show(s);
+    this.bottom.sample(s);
+    this.steps.show(s);
+  }
+
+  private showReadings(): void {
+    const s = this.latest;
+    if (s === undefined) return;
+    this.top.showTiming(s);
+    this.bottom.show(s, this.hand.driver, this.hand.thrust);
+    this.arm.showCount(s.shots, s.dose_cgy_cm2);
+    // Where frames are slow or the page is hidden, the host still has to hear of the hand.
+    this.hand.frame(performance.now());
+    const stuck = this.hand.driver === "forward" ? whyStuck(s, this.hand.thrust) : undefined;
+    if (stuck !== undefined) this.say(stuck);
+  }
+
+  private say(text: string): void {
+    setText(this.notice, text);
+    clearTimeout(this.noticeTimer);
+    this.noticeTimer = window.setTimeout(() => {
+      setText(this.notice, "");
+    }, NOTICE_MS);
+  }
+}
+
+function toggleFullScreen(): void {
+  if (document.fullscreenElement !== null) void document.exitFullscreen();
+  else void document.documentElement.requestFullscreen();
+}
