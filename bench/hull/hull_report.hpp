@@ -1,0 +1,28 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hull rows as text and as JSON.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/hull/hull_bench.hpp"
+
+namespace carpus::bench {
+
+/// One line a set: seconds of each engine, how many times faster `fast` is than the best peer.
+[[nodiscard]] std::string text_of(const std::vector<HullRow>& rows);
+
+/// How time grows with n (least squares of the logarithms) for each distribution and engine that
+/// ran on three sizes or more.
+[[nodiscard]] std::string growth_of(const std::vector<HullRow>& rows);
+
+/// docs/json.md, hull benchmark.
+/// @throws IoError when the file cannot be written.
+void write_json(const std::filesystem::path& file,
+                const std::string& table,
+                const std::vector<HullRow>& rows);
+
+}  // namespace carpus::bench

@@ -1,0 +1,184 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// carpus-bench: our algorithms against the best peers on this machine. `carpus bench` starts it.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "bench/hull/bone_points.hpp"
+#include "bench/hull/hull_bench.hpp"
+#include "bench/hull/hull_report.hpp"
+#include "bench/hull/plot.hpp"
+#include "bench/hull/thesis_tables.hpp"
+#include "bench/provenance.hpp"
+#include "core/error.hpp"
+
+namespace carpus::bench {
+namespace {
+
+struct HullArguments {
+  std::string table = "bones";
+  std::filesystem::path json;
+  std::filesystem::path plot;
+  std::filesystem::path bones;
+  std::size_t max_points = 100'000;
+  double budget_seconds = 0.4;
+  unsigned cap_seconds = 60;
+  std::size_t cap_gib = 8;
+};
+
+std::vector<HullEngine> all_engines() {
+  std::vector<HullEngine> engines = own_hull_engines();
+  for (HullEngine& peer : peer_hull_engines()) engines.push_back(std::move(peer));
+  return engines;
+}
+
+void append(std::vector<HullRow>& rows,
+            const PointSet& set,
+            const std::vector<HullEngine>& engines,
+            const HullBenchOptions& options) {
+  std::fprintf(stderr, "%s, %zu points\n", set.name.c_str(), set.points.size());
+  const std::vector<HullRow> more = measure_hulls(set, engines, options);
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+/// The thesis's bones at the thesis's vertex counts: from a folder of surfaces, or of the model.
+PointSet thesis_bone(const ThesisRow& row, const HullArguments& a) {
+  const std::filesystem::path file = a.bones / (std::string(name_of(row.model)) + ".ply");
+  PointSet set = !a.bones.empty() && std::filesystem::exists(file)
+                     ? thinned_bone(file, row.vertices)
+                     : model_bone(row.model, row.vertices);
+  set.name = row.name;
+  return set;
+}
+
+void print_thesis_table(std::span<const ThesisRow> table, const std::vector<HullRow>& rows) {
+  const auto find = [&](std::string_view set, std::string_view engine) -> const HullRow* {
+    for (const HullRow& row : rows) {
+      if (row.set == set && row.engine == engine && row.ran) return &row;
+    }
+    return nullptr;
+  };
+  std::printf(
+      "\nBeside the thesis (its seconds include display; its machine is of 2008):\n%-16s %22s %22s "
+      "%26s %26s\n",
+      "bone", "hull vertices, facets", "removed by stage 1", "hybrid / gift wrapping",
+      "hybrid / quickhull");
+  std::printf("%-16s %11s %10s %11s %10s %13s %12s %13s %12s\n", "", "here", "thesis", "here",
+              "thesis", "here", "thesis", "here", "thesis");
+  for (const ThesisRow& t : table) {
+    const HullRow* hybrid = find(t.name, "hybrid");
+    const HullRow* wrapping = find(t.name, "gift_wrapping");
+    const HullRow* quick = find(t.name, "quickhull");
+    if (hybrid == nullptr || wrapping == nullptr || quick == nullptr) continue;
+    const bool is_misprint = t.hull_facets != 2 * t.hull_vertices - 4;
+    const char* removed = t.name == "3rd Metacarpal" ? "17 %"
+                          : t.name == "Scaphoid"     ? "12 %"
+                          : t.name == "Fibula"       ? "2 %"
+                          : t.name == "Femur"        ? "6 %"
+                                                     : "-";
+    std::printf("%-16.*s %5zu %5zu %5zu %5zu%s %9.1f %% %9s %13.2f %12.2f %13.2f %12.2f\n",
+                static_cast<int>(t.name.size()), t.name.data(), hybrid->h, hybrid->facets,
+                t.hull_vertices, t.hull_facets, is_misprint ? "*" : " ",
+                100 * hybrid->discarded_share, removed, hybrid->seconds / wrapping->seconds,
+                t.hybrid / t.gift_wrapping, hybrid->seconds / quick->seconds,
+                t.hybrid / t.quickhull);
+  }
+  std::printf("*: misprinted in the thesis, F = 2V - 4 does not hold\n");
+}
+
+void save_plots(const HullArguments& a,
+                const std::string& title,
+                const std::vector<HullRow>& rows) {
+  for (const auto& [suffix, axis] :
+       {std::pair{"_n.svg", PlotAxis::Points}, std::pair{"_h.svg", PlotAxis::HullVertices}}) {
+    const std::string file = a.plot.string() + suffix;
+    std::ofstream out(file);
+    out << plot_svg(title, rows, axis);
+    out.flush();
+    if (!out) throw IoError(file + ": could not be written; check the folder and the disk");
+  }
+}
+
+void run_hull(const HullArguments& a) {
+  HullBenchOptions options;
+  options.caps = {a.cap_gib << 30U, a.cap_seconds};
+  options.budget_seconds = a.budget_seconds;
+  const std::vector<HullEngine> engines = all_engines();
+  std::vector<HullRow> rows;
+  const bool is_thesis = a.table == "4.1" || a.table == "4.2";
+  const auto thesis = a.table == "4.1" ? thesis_table_4_1() : thesis_table_4_2();
+  if (is_thesis) {
+    for (const ThesisRow& row : thesis) append(rows, thesis_bone(row, a), engines, options);
+  } else if (a.table == "bones") {
+    if (!a.bones.empty()) {
+      for (const PointSet& set : bones_in(a.bones)) append(rows, set, engines, options);
+    } else {
+      for (const BoneId bone : kAllBones) append(rows, model_bone(bone, 4500), engines, options);
+    }
+  } else {
+    for (const std::string& name : distributions()) {
+      for (std::size_t n = 10'000; n <= a.max_points; n *= 10)
+        append(rows, make_point_set(name, n, 1), engines, options);
+    }
+    for (std::size_t n = 10'000; n <= std::min<std::size_t>(a.max_points, 1'000'000); n *= 10) {
+      PointSet bone = model_bone(BoneId::Scaphoid, n);
+      append(rows, bone, engines, options);
+    }
+  }
+  const Provenance p = provenance();
+  std::printf(
+      "%s\n%s; %s; commit %s\nmedian processor time of repeated runs, one thread, hull alone\n\n",
+      p.machine.c_str(), p.compiler.c_str(), p.flags.c_str(), p.commit.c_str());
+  std::fputs(text_of(rows).c_str(), stdout);
+  if (is_thesis) print_thesis_table(thesis, rows);
+  if (a.table == "distributions") std::printf("\n%s", growth_of(rows).c_str());
+  if (!a.json.empty()) write_json(a.json, a.table, rows);
+  if (!a.plot.empty()) save_plots(a, "Convex hulls, table " + a.table, rows);
+}
+
+void add_hull(CLI::App& app, HullArguments& a) {
+  CLI::App* hull = app.add_subcommand("hull", "Convex hulls: ours against Qhull, CGAL and Bullet");
+  hull->add_option("--table", a.table,
+                   "bones: 15 bones; distributions: ball, sphere, ...; 4.1, 4.2: the thesis's")
+      ->check(CLI::IsMember({"bones", "distributions", "4.1", "4.2"}))
+      ->capture_default_str();
+  hull->add_option(
+      "--bones", a.bones,
+      "Folder of <bone>.ply, e.g. cases/demo/bones; default: the parametric wrist (simulated)");
+  hull->add_option("--json", a.json, "Also write the rows here");
+  hull->add_option("--plot", a.plot, "Also draw PREFIX_n.svg and PREFIX_h.svg");
+  hull->add_option("--max-points", a.max_points, "Of the distributions; up to 10000000")
+      ->check(CLI::Range(10'000, 10'000'000))
+      ->capture_default_str();
+  hull->add_option("--budget-seconds", a.budget_seconds, "Time for repeating one engine on one set")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  hull->add_option("--cap-seconds", a.cap_seconds, "Longer than this: not run")
+      ->capture_default_str();
+  hull->add_option("--cap-gib", a.cap_gib, "More memory than this: not run")->capture_default_str();
+  hull->callback([&a] { run_hull(a); });
+}
+
+}  // namespace
+}  // namespace carpus::bench
+
+int main(int argc, char** argv) {
+  CLI::App app{"carpus-bench: our algorithms against the best peers, in one run"};
+  app.require_subcommand(1);
+  carpus::bench::HullArguments hull;
+  carpus::bench::add_hull(app, hull);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "carpus-bench: %s\n", error.what());
+    return 1;
+  }
+}
