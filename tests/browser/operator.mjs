@@ -1,0 +1,215 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Operates the page as a person does: with the mouse over the theatre and with keys. It reads where
+// things are shown (window.carpus, which shows and cannot act) and knows the true axis from the case
+// folder, as a practised eye would.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+const add = (a, b, f = 1) => a.map((v, i) => v + f * b[i]);
+const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
+const unit = (a) => a.map((v) => v / Math.sqrt(dot(a, a)));
+
+/** Degrees that one pixel of Shift + drag turns the shaft (web/README.md). */
+const DEG_PER_PX = 0.25;
+const MAX_DRAG_PX = 160;
+
+export function readAxis(caseFolder) {
+  const data = JSON.parse(readFileSync(join(caseFolder, "case.json"), "utf8"));
+  const { proximal_mm: proximal, distal_mm: distal } =
+    data.scaphoid.central_axis;
+  return { proximal, distal, toHand: unit(add(proximal, distal, -1)) };
+}
+
+export class Operator {
+  constructor(page) {
+    this.page = page;
+  }
+
+  snapshot() {
+    return this.page.evaluate(() => window.carpus?.snapshot());
+  }
+
+  /** Waits until the snapshot satisfies `holds`. Asked from here: the page forbids eval. */
+  async until(holds, what, timeout = 60_000) {
+    const end = Date.now() + timeout;
+    for (;;) {
+      const now = await this.snapshot();
+      if (now !== undefined && holds(now)) return now;
+      if (Date.now() > end)
+        throw new Error(
+          `waited in vain for: ${what}; now ${JSON.stringify(now)}`,
+        );
+      await new Promise((done) => setTimeout(done, 50));
+    }
+  }
+
+  /** Lets the page draw and send what was done. */
+  async settle(frames = 2) {
+    await this.page.evaluate(
+      (n) =>
+        new Promise((done) => {
+          const next = (left) =>
+            left === 0 ? done() : requestAnimationFrame(() => next(left - 1));
+          next(n);
+        }),
+      frames,
+    );
+    await this.page.waitForTimeout(120);
+  }
+
+  async start(url, trainee) {
+    await this.page.goto(url);
+    await this.page
+      .locator("dialog.start button[type=submit]:not([disabled])")
+      .waitFor({ timeout: 90_000 });
+    await this.page.fill("#trainee-name", trainee);
+    await this.page.click("dialog.start button[type=submit]");
+    await this.until((s) => s.tick > 0, "the first ticks");
+  }
+
+  /** Turns the shaft by Shift + drag, then by Shift + arrows, until it lies along `toHand`. */
+  async turnShaft(toHand, withinDeg = 1.5) {
+    const box = await this.page.locator(".stage canvas").first().boundingBox();
+    const from = { x: box.x + box.width * 0.5, y: box.y + box.height * 0.5 };
+    let angle = 180;
+    for (let round = 0; round < 12 && angle > withinDeg; ++round) {
+      const { shaft } = await this.snapshot();
+      angle =
+        (180 / Math.PI) * Math.acos(Math.min(1, dot(unit(shaft), toHand)));
+      if (angle <= withinDeg) break;
+      const { right, up } = await this.page.evaluate(() =>
+        window.carpus.screenAxes(),
+      );
+      const wanted = add(toHand, shaft, -dot(toHand, shaft));
+      const across = [dot(wanted, right), dot(wanted, up)];
+      const size = Math.hypot(...across);
+      if (angle > 4) {
+        const pixels = Math.min(MAX_DRAG_PX, angle / DEG_PER_PX);
+        await this.page.keyboard.down("Shift");
+        await this.page.mouse.move(from.x, from.y);
+        await this.page.mouse.down();
+        await this.page.mouse.move(
+          from.x + (pixels * across[0]) / size,
+          from.y - (pixels * across[1]) / size,
+          { steps: 3 },
+        );
+        await this.page.mouse.up();
+        await this.page.keyboard.up("Shift");
+      } else {
+        const key =
+          Math.abs(across[0]) > Math.abs(across[1])
+            ? across[0] > 0
+              ? "ArrowRight"
+              : "ArrowLeft"
+            : across[1] > 0
+              ? "ArrowUp"
+              : "ArrowDown";
+        for (let tap = 0; tap < Math.max(1, Math.floor(angle)); ++tap)
+          await this.page.keyboard.press(`Shift+${key}`);
+      }
+      await this.settle();
+      await this.page.waitForTimeout(400);
+    }
+    return angle;
+  }
+
+  /** Drags the tip onto the point of the bone that is shown at `pointMm`. */
+  async dragTipTo(pointMm) {
+    const at = await this.page.evaluate(
+      (mm) => window.carpus.pagePoint(mm),
+      pointMm,
+    );
+    await this.page.mouse.move(at.x - 30, at.y + 10);
+    await this.page.mouse.down();
+    await this.page.mouse.move(at.x, at.y, { steps: 4 });
+    await this.settle();
+    await this.page.mouse.up();
+    await this.settle();
+  }
+
+  /** Holds a key until the snapshot satisfies `holds`. */
+  async holdKey(key, holds, what, timeout = 60_000) {
+    await this.page.keyboard.down(key);
+    try {
+      await this.until(holds, what, timeout);
+    } finally {
+      await this.page.keyboard.up(key);
+    }
+    await this.settle();
+  }
+
+  async push(key, ms) {
+    await this.page.keyboard.down(key);
+    await this.page.waitForTimeout(ms);
+    await this.page.keyboard.up(key);
+    await this.settle(1);
+  }
+
+  /** Short pushes, strong through the near cortex, then light, with more where the wire stops. */
+  async driveWireTo(depthMm) {
+    const { page } = this;
+    for (let i = 0; i < 4; ++i) await page.keyboard.press("BracketRight");
+    let isLight = false;
+    let last = -1;
+    for (let push = 0; push < 250; ++push) {
+      const { wire_depth_mm: depth, wire_engaged: isEngaged } =
+        await this.snapshot();
+      if (isEngaged && depth >= depthMm) return;
+      if (!isLight && isEngaged && depth >= 0.5) {
+        isLight = true;
+        for (let i = 0; i < 6; ++i) await page.keyboard.press("BracketLeft");
+      } else if (isLight && depth - last < 0.05) {
+        await page.keyboard.press("BracketRight");
+      }
+      last = depth;
+      await this.push("Space", 40);
+    }
+    throw new Error("the wire does not reach its depth");
+  }
+
+  async shot(key) {
+    const before = (await this.snapshot()).shots;
+    await this.page.keyboard.press(key);
+    await this.until((s) => s.shots > before, `picture by key ${key}`, 30_000);
+    const shown = this.page.locator(
+      `.c-arm-strip button[aria-label*="shot ${before + 1},"]`,
+    );
+    await shown.waitFor({ timeout: 60_000 });
+    await this.settle();
+  }
+
+  /** Mean and standard deviation of the middle of the shown picture. */
+  picture() {
+    return this.page.evaluate(() => {
+      const canvas = document.querySelector("canvas.c-arm-picture");
+      const side = canvas.width;
+      const data = canvas
+        .getContext("2d")
+        .getImageData(side / 4, side / 4, side / 2, side / 2).data;
+      let sum = 0;
+      let squares = 0;
+      const count = data.length / 4;
+      for (let i = 0; i < data.length; i += 4) {
+        sum += data[i];
+        squares += data[i] * data[i];
+      }
+      return {
+        mean: sum / count,
+        deviation: Math.sqrt(squares / count - (sum / count) ** 2),
+      };
+    });
+  }
+
+  /** Entry, aim, drive: the wire lies in the scaphoid, a little before its far end. */
+  async placeWire(axis) {
+    const angle = await this.turnShaft(axis.toHand);
+    // Looking along the wire the entry point is in front of everything else that matters.
+    await this.page.getByRole("button", { name: "Along wire" }).click();
+    await this.settle();
+    await this.dragTipTo(axis.proximal);
+    await this.until((s) => s.touching, "the tip touches");
+    return angle;
+  }
+}

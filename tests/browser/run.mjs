@@ -1,0 +1,342 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The real page on the real station in a real browser: the wire is placed with mouse and keyboard,
+// driven and measured, pictures are taken, a screw goes in, the score is shown and the attempt is in
+// the list. Then what goes wrong: a second page, broken messages, a lost connection.
+// Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
+import { startBrowser } from "./browser.mjs";
+import { Operator, readAxis } from "./operator.mjs";
+import { startStation } from "./station.mjs";
+
+const TRAINEE = "Browser test";
+const VIEWPORT = { width: 1120, height: 680 };
+/** Of grey levels: a blank picture with noise stays under this. */
+const LEAST_DEVIATION = 12;
+
+let passed = 0;
+let failed = 0;
+
+async function check(name, run) {
+  const start = Date.now();
+  try {
+    await run();
+    ++passed;
+    console.log(
+      `ok      ${name}  (${((Date.now() - start) / 1000).toFixed(1)} s)`,
+    );
+    return true;
+  } catch (error) {
+    ++failed;
+    console.log(
+      `FAILED  ${name}\n        ${error instanceof Error ? error.message : error}`,
+    );
+    return false;
+  }
+}
+
+function expect(holds, what) {
+  if (!holds) throw new Error(what);
+}
+
+/** What a page may not do: errors in the console, exceptions. */
+function watch(page, problems) {
+  page.on("console", (message) => {
+    if (message.type() === "error") problems.push(message.text());
+  });
+  page.on("pageerror", (error) => problems.push(String(error)));
+}
+
+/** Names for everything that can be used, one main, no two elements of one id. */
+function accessibilityFaults(page) {
+  return page.evaluate(() => {
+    const faults = [];
+    const shown = (e) => e.getClientRects().length > 0;
+    const labelled = (e) =>
+      (e.getAttribute("aria-label") ?? "").trim() !== "" ||
+      e.hasAttribute("aria-labelledby") ||
+      (e.textContent ?? "").trim() !== "" ||
+      (e.id !== "" &&
+        document.querySelector(`label[for="${e.id}"]`) !== null) ||
+      e.closest("label") !== null;
+    for (const e of document.querySelectorAll(
+      "button, a[href], input, select, dialog[open]",
+    )) {
+      if (shown(e) && !labelled(e))
+        faults.push(`without a name: ${e.outerHTML.slice(0, 90)}`);
+    }
+    for (const e of document.querySelectorAll("img:not([alt])"))
+      faults.push(`image without alt: ${e.outerHTML}`);
+    const ids = [...document.querySelectorAll("[id]")].map((e) => e.id);
+    for (const id of ids)
+      if (ids.indexOf(id) !== ids.lastIndexOf(id))
+        faults.push(`id twice: ${id}`);
+    if (document.querySelectorAll("main").length !== 1)
+      faults.push("not one main");
+    if (document.documentElement.lang === "") faults.push("no language");
+    return faults;
+  });
+}
+
+async function expectAccessible(page) {
+  const faults = await accessibilityFaults(page);
+  expect(faults.length === 0, faults.join("; "));
+}
+
+async function operate(page, station, problems) {
+  const operator = new Operator(page);
+  const axis = readAxis(station.caseFolder);
+  const went = await check(
+    "the start dialog says whom one operates on, and starts",
+    async () => {
+      await operator.start(station.url, TRAINEE);
+      const patient = await page.textContent(".top-bar .patient");
+      const described = await (await fetch(`${station.url}/api/case`)).json();
+      expect(
+        patient.includes(described.pseudonym),
+        `the bar names '${patient}'`,
+      );
+      expect(
+        !described.simulated || patient.includes("simulated"),
+        "simulated is not said",
+      );
+    },
+  );
+  if (!went) return;
+  await check("the page can be used by names and keyboard", () =>
+    expectAccessible(page),
+  );
+  await check("the help opens by ? and closes", async () => {
+    await page.keyboard.press("?");
+    await page.locator("dialog.help[open]").waitFor({ timeout: 5000 });
+    await page.keyboard.press("Escape");
+    await page
+      .locator("dialog.help:not([open])")
+      .waitFor({ state: "attached", timeout: 5000 });
+  });
+  await check("two views show bone, not a blank picture", async () => {
+    for (const key of ["1", "2"]) {
+      await operator.shot(key);
+      const { deviation } = await operator.picture();
+      expect(
+        deviation > LEAST_DEVIATION,
+        `deviation of the grey is ${deviation.toFixed(1)}`,
+      );
+    }
+  });
+  await check(
+    "the wire's tip is placed on the scaphoid by mouse, the shaft along its axis",
+    async () => {
+      const angle = await operator.placeWire(axis);
+      expect(angle < 3, `the shaft is ${angle.toFixed(1)} degrees off`);
+      const { touched_bone: bone } = await operator.snapshot();
+      expect(bone.startsWith("scaphoid"), `it touches the ${bone}`);
+    },
+  );
+  await check(
+    "an arrow key moves the tip by a tenth of a millimetre",
+    async () => {
+      const before = (await operator.snapshot()).tip_mm;
+      await page.keyboard.press("ArrowLeft");
+      await page.keyboard.press("ArrowLeft");
+      await operator.settle();
+      await page.waitForTimeout(300);
+      const after = (await operator.snapshot()).tip_mm;
+      const moved = Math.hypot(...after.map((v, i) => v - before[i]));
+      expect(
+        moved > 0.05 && moved < 0.6,
+        `two taps moved it by ${moved.toFixed(3)} mm`,
+      );
+      await page.keyboard.press("ArrowRight");
+      await page.keyboard.press("ArrowRight");
+      await operator.settle();
+    },
+  );
+  const length = Math.hypot(...axis.proximal.map((v, i) => v - axis.distal[i]));
+  const drove = await check(
+    "Space drives the wire into the scaphoid",
+    async () => {
+      await operator.driveWireTo(length - 4);
+      const s = await operator.snapshot();
+      expect(s.wire_depth_mm < length + 4, `it ran to ${s.wire_depth_mm} mm`);
+      await page.keyboard.press("3");
+      await operator.settle();
+    },
+  );
+  if (!drove) return;
+  await check("M reads the gauge", async () => {
+    await page.keyboard.press("m");
+    await operator.until((s) => s.measured_mm > 0, "a reading");
+    const s = await operator.snapshot();
+    expect(
+      Math.abs(s.measured_mm - s.wire_depth_mm) <= 0.6,
+      `gauge ${s.measured_mm}, wire ${s.wire_depth_mm}`,
+    );
+  });
+  await check("a screw is chosen from the list by keys", async () => {
+    await page.keyboard.press("c");
+    await page
+      .locator("dialog.screws[open] input:checked")
+      .waitFor({ timeout: 5000 });
+    const { measured_mm: measured } = await operator.snapshot();
+    const { screws } = await (await fetch(`${station.url}/api/screws`)).json();
+    const fitting = screws.filter((s) => s.length_mm <= measured - 4);
+    expect(fitting.length > 0, `no screw for ${measured} mm`);
+    const longest = fitting.reduce((a, b) =>
+      b.length_mm > a.length_mm ? b : a,
+    );
+    for (let i = 0; i < longest.index; ++i)
+      await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await operator.until(
+      (s) => s.screw_index === longest.index,
+      "the screw on the driver",
+      10_000,
+    );
+  });
+  await check("Space buries the screw", async () => {
+    await operator.holdKey(
+      "Space",
+      (s) => s.screw_buried_mm >= 1.5,
+      "the screw buried",
+      120_000,
+    );
+    for (const key of ["1", "2", "3"]) await operator.shot(key);
+    const { deviation } = await operator.picture();
+    expect(deviation > LEAST_DEVIATION, "the last picture is blank");
+  });
+  await check(
+    "broken messages are passed over and the exercise goes on",
+    async () => {
+      const before = (await operator.snapshot()).tick;
+      brokenFrames.toPage();
+      await page
+        .locator(".notice", { hasText: "Passed over" })
+        .waitFor({ timeout: 10_000 });
+      brokenFrames.toHost();
+      await page
+        .locator(".notice:not(:empty)", { hasNotText: "Passed over" })
+        .waitFor({ timeout: 10_000 });
+      await operator.until(
+        (s) => s.tick > before + 100,
+        "ticks after the broken messages",
+        20_000,
+      );
+    },
+  );
+  await check("a second page is told that another one operates", async () => {
+    const second = await page.context().newPage();
+    watch(second, problems);
+    await second.goto(station.url);
+    await second
+      .locator(".start-note:not([hidden])")
+      .waitFor({ timeout: 90_000 });
+    await second
+      .locator(".start-note", { hasText: "operates" })
+      .waitFor({ timeout: 30_000 });
+    expect(
+      await second.isDisabled("dialog.start button[type=submit]"),
+      "it may start all the same",
+    );
+    await second.close();
+  });
+  await check(
+    "finish asks, then shows the score with its reasons",
+    async () => {
+      await page.keyboard.press("f");
+      await page.locator("dialog.confirm[open]").waitFor({ timeout: 10_000 });
+      await page.keyboard.press("Enter");
+      await page
+        .locator(".score-table tbody tr")
+        .first()
+        .waitFor({ timeout: 60_000 });
+      const rows = await page.locator(".score-table tbody tr").count();
+      expect(rows >= 10, `${rows} rows`);
+      const overall = Number(await page.textContent(".overall strong"));
+      expect(overall > 0 && overall <= 100, `overall '${overall}'`);
+      const angle = await page.textContent(
+        '[data-item="angle_to_central_axis_deg"] .figure',
+      );
+      expect(Number.parseFloat(angle) < 5, `angle to the axis ${angle}`);
+      await page
+        .locator(".placement canvas")
+        .first()
+        .waitFor({ timeout: 90_000 });
+      await expectAccessible(page);
+    },
+  );
+  await check("the attempt is in the list", async () => {
+    await page.getByRole("link", { name: "Past attempts" }).click();
+    const row = page.locator("tbody tr").first();
+    await row.waitFor({ timeout: 20_000 });
+    const text = await row.textContent();
+    expect(
+      text.includes(TRAINEE) && text.includes("of 100"),
+      `the first row is '${text}'`,
+    );
+    await expectAccessible(page);
+  });
+}
+
+/** Puts frames that are none of the protocol's between station and page. */
+const brokenFrames = {
+  socket: undefined,
+  async watch(page) {
+    await page.routeWebSocket(/\/ws$/, (socket) => {
+      const server = socket.connectToServer();
+      brokenFrames.socket = socket;
+      brokenFrames.server = server;
+    });
+  },
+  toPage() {
+    for (const frame of [
+      "",
+      "{",
+      "null",
+      '{"type":"snapshot"}',
+      '{"type":"nothing"}',
+      Buffer.from([1, 2, 3]),
+    ]) {
+      brokenFrames.socket.send(frame);
+    }
+  },
+  toHost() {
+    brokenFrames.server.send("this is no message");
+  },
+};
+
+async function lose(browser, station, problems) {
+  await check("a lost connection freezes the scene and says so", async () => {
+    const page = await browser.newPage({ viewport: VIEWPORT });
+    watch(page, problems);
+    await new Operator(page).start(station.url, TRAINEE);
+    await station.stop();
+    await page.locator(".frozen:not([hidden])").waitFor({ timeout: 20_000 });
+    const text = await page.textContent(".frozen");
+    expect(/lost/.test(text), `it says '${text}'`);
+    await page.close();
+  });
+}
+
+const station = await startStation();
+const browser = await startBrowser();
+const problems = [];
+try {
+  const page = await (
+    await browser.newContext({ viewport: VIEWPORT })
+  ).newPage();
+  watch(page, problems);
+  await brokenFrames.watch(page);
+  await operate(page, station, problems);
+  await check("no errors in the browser's console", () => {
+    expect(problems.length === 0, problems.slice(0, 5).join(" | "));
+  });
+  await page.close();
+  // The browser itself reports each vain attempt to connect; those are no faults of the page.
+  await lose(browser, station, []);
+} finally {
+  await browser.close();
+  await station.stop();
+}
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,88 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Starts the real `carpus serve` on a free port with records of its own, and stops it.
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+const START_MS = 60_000;
+
+function freePort() {
+  return new Promise((done, fail) => {
+    const server = createServer();
+    server.once("error", fail);
+    server.listen(0, "127.0.0.1", () => {
+      const { port } = server.address();
+      server.close(() => done(port));
+    });
+  });
+}
+
+function need(path, how) {
+  if (!existsSync(path)) throw new Error(`${path} is not there. ${how}`);
+  return path;
+}
+
+/** @return {url, caseFolder, stop} */
+export async function startStation() {
+  const program = need(
+    process.env.CARPUS_BIN ?? join(root, "build/release/bin/carpus"),
+    "Build it with ./run --build-only, or set CARPUS_BIN.",
+  );
+  const caseFolder = need(
+    process.env.CARPUS_CASE ?? join(root, "build/system/demo"),
+    "Make it with tests/system/end_to_end, or set CARPUS_CASE to a case folder.",
+  );
+  const page = need(
+    join(root, "web/dist"),
+    "Build the page with: npm --prefix web run build",
+  );
+  const records = mkdtempSync(join(tmpdir(), "carpus-browser-"));
+  const port = await freePort();
+  const output = [];
+  const child = spawn(
+    program,
+    [
+      "serve",
+      "--case",
+      caseFolder,
+      "--records",
+      join(records, "attempts.sqlite"),
+    ].concat(["--web", page, "--port", String(port)]),
+    { stdio: ["ignore", "pipe", "pipe"] },
+  );
+  let ended = false;
+  child.on("exit", () => (ended = true));
+  for (const stream of [child.stdout, child.stderr])
+    stream.on("data", (text) => output.push(text));
+  const url = `http://127.0.0.1:${port}`;
+  const until = Date.now() + START_MS;
+  for (;;) {
+    if (ended || Date.now() > until) {
+      throw new Error(`carpus serve did not start:\n${output.join("")}`);
+    }
+    const answer = await fetch(`${url}/api/case`).catch(() => undefined);
+    if (answer?.ok) break;
+    await new Promise((done) => setTimeout(done, 200));
+  }
+  return {
+    url,
+    caseFolder,
+    output,
+    async stop() {
+      if (!ended) {
+        const gone = new Promise((done) => child.once("exit", done));
+        child.kill("SIGTERM");
+        const timer = setTimeout(() => child.kill("SIGKILL"), 10_000);
+        await gone;
+        clearTimeout(timer);
+      }
+      rmSync(records, { recursive: true, force: true });
+    },
+  };
+}

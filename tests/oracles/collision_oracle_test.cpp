@@ -1,0 +1,222 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "collision/hull_collider.hpp"
+#include "core/rng.hpp"
+#include "hull/quickhull.hpp"
+#include "oracles/separating_axes.hpp"
+
+namespace carpus {
+namespace {
+
+using collision::HullCollider;
+using collision::HullContact;
+using collision::LpObjective;
+using collision::LpStatus;
+using BoneFromTool = Pose<frame::Bone, frame::Tool>;
+
+ConvexPolytope hull_of(const std::vector<Vec3>& points) {
+  hull::HullResult result = hull::build_convex_hull(points);
+  EXPECT_EQ(result.status, hull::HullStatus::Ok);
+  return std::move(result.polytope);
+}
+
+/// Solids whose symmetries make ties: parallel facets, cospherical corners, right angles.
+ConvexPolytope special_solid(std::uint64_t which) {
+  std::vector<Vec3> points;
+  const auto add = [&](double x, double y, double z) {
+    for (int i = 0; i < 8; ++i) {
+      points.push_back({(i & 1) != 0 ? x : -x, (i & 2) != 0 ? y : -y, (i & 4) != 0 ? z : -z});
+    }
+  };
+  if (which == 0) add(4, 4, 4);
+  if (which == 1) {
+    add(5, 0, 0);
+    add(0, 5, 0);
+    add(0, 0, 5);
+  }
+  if (which == 2) add(1, 1, 12);  // a bar
+  if (which == 3) {
+    add(2, 3, 6);
+    add(6, 2, 3);
+    add(3, 6, 2);
+  }
+  return hull_of(points);
+}
+
+ConvexPolytope integer_body(Rng& rng) {
+  if (rng.below(3) == 0) return special_solid(rng.below(4));
+  while (true) {
+    std::vector<Vec3> points;
+    const std::uint64_t count = 4 + rng.below(16);
+    const std::uint64_t range = 3 + rng.below(14);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const auto c = [&] { return static_cast<double>(rng.below(range)); };
+      points.push_back({c(), c(), c()});
+    }
+    hull::HullResult result = hull::build_convex_hull(points);
+    if (result.status == hull::HullStatus::Ok) return std::move(result.polytope);
+  }
+}
+
+/// One of the 24 rotations that permute the axes: exact in doubles.
+Mat3 axis_rotation(Rng& rng) {
+  while (true) {
+    Mat3 m{};
+    const std::uint64_t shift = rng.below(3);
+    const bool swap = rng.below(2) == 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      m.rows[i] = {};
+      std::size_t j = (i + shift) % 3;
+      if (swap && j != 0) j = 3 - j;
+      m.rows[i][j] = rng.below(2) == 0 ? 1 : -1;
+    }
+    if (m.determinant() > 0) return m;
+  }
+}
+
+/// The normal really separates: the bone lies below the tool along it.
+void expect_separates(const ConvexPolytope& bone,
+                      const ConvexPolytope& tool,
+                      const BoneFromTool& pose,
+                      const Vec3& normal) {
+  double high = -1e300;
+  double low = 1e300;
+  for (const Vec3& v : bone.vertices) high = std::max(high, dot(normal, v));
+  for (const Vec3& v : tool.vertices) {
+    low = std::min(low, dot(normal, pose.rotation * v + pose.translation));
+  }
+  EXPECT_GT(low - high, -1e-7);
+}
+
+void expect_common_point(const ConvexPolytope& bone,
+                         const ConvexPolytope& tool,
+                         const BoneFromTool& pose,
+                         const Vec3& point) {
+  const Vec3 in_tool = pose.rotation.transposed() * (point - pose.translation);
+  for (const Plane& p : bone.planes) EXPECT_LE(p.signed_distance(point), 1e-8);
+  for (const Plane& p : tool.planes) EXPECT_LE(p.signed_distance(in_tool), 1e-8);
+}
+
+TEST(CollisionOracle, AgreesWithIntegerArithmeticOnTouchingNestedAndSeparatedPairs) {
+  std::array<int, 3> seen{};  // overlapping, touching, apart
+  for (const LpObjective objective : {LpObjective::FollowBasis, LpObjective::Sum}) {
+    std::uint64_t pivot_limits = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+      Rng rng(seed);
+      const ConvexPolytope bone = integer_body(rng);
+      const ConvexPolytope tool = integer_body(rng);
+      HullCollider collider({&bone, 1}, tool, objective);
+      const auto exact_bone = oracles::body_of<long long>(bone, Mat3::identity(), {});
+      for (int step = 0; step < 12; ++step) {  // the state of one answer starts the next
+        BoneFromTool pose;
+        if (step % 3 == 0) collider.forget();
+        pose.rotation = axis_rotation(rng);
+        const auto c = [&] { return static_cast<double>(rng.below(30)) - 12; };
+        pose.translation = {c(), c(), c()};
+        const auto exact_tool = oracles::body_of<long long>(tool, pose.rotation, pose.translation);
+        const long long gap = oracles::separation(exact_bone, exact_tool);
+        const HullContact contact = collider.query(0, pose);
+        ASSERT_EQ(contact.has_contact(), gap <= 0) << "seed " << seed << " step " << step;
+        ASSERT_NE(contact.status, LpStatus::PivotLimit);
+        if (contact.has_contact()) {
+          expect_common_point(bone, tool, pose, contact.common_point.v);
+        } else {
+          expect_separates(bone, tool, pose, contact.separating_normal.v);
+        }
+        ++seen[static_cast<std::size_t>(gap + 1)];
+      }
+      pivot_limits += collider.counts().pivot_limits;
+    }
+    EXPECT_EQ(pivot_limits, 0U);
+  }
+  EXPECT_GT(seen[0], 1000);
+  EXPECT_GT(seen[1], 200);
+  EXPECT_GT(seen[2], 1000);
+}
+
+/// A bone-like hull: points of an ellipsoid, some 200 facets.
+ConvexPolytope pebble(Rng& rng, int points) {
+  std::vector<Vec3> cloud;
+  for (int i = 0; i < points; ++i) {
+    const Vec3 p = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
+    cloud.push_back({9 * p.x, 6 * p.y, 5 * p.z});
+  }
+  return hull_of(cloud);
+}
+
+TEST(CollisionOracle, AgreesAlongTrajectoriesOfAWireOverBones) {
+  int contacts = 0;
+  int scored = 0;
+  int memory = 0;
+  for (const LpObjective objective : {LpObjective::FollowBasis, LpObjective::Sum}) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      Rng rng(seed);
+      const ConvexPolytope bone = pebble(rng, 60);
+      const ConvexPolytope wire =
+          hull_of(collision::wire_corners({.radius_mm = 0.57, .length_mm = 60, .sides = 6}));
+      HullCollider collider({&bone, 1}, wire, objective);
+      const auto oracle_bone = oracles::body_of<long double>(bone, Mat3::identity(), {});
+      BoneFromTool pose;
+      const Vec3 axis = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
+      pose.rotation = rotation_about(axis, rng.uniform(0, 6));
+      pose.translation = {rng.uniform(-14, 14), rng.uniform(-14, 14), rng.uniform(-14, 14)};
+      for (int tick = 0; tick < 40; ++tick) {
+        pose.rotation = rotation_about(axis, rng.uniform(-0.01, 0.01)) * pose.rotation;
+        pose.translation += Vec3{rng.normal(), rng.normal(), rng.normal()} * 0.15;
+        if (rng.below(5) == 0) pose.translation *= 0.9;  // drawn towards the bone
+        const auto oracle_wire =
+            oracles::body_of<long double>(wire, pose.rotation, pose.translation);
+        const long double gap = oracles::separation(oracle_bone, oracle_wire);
+        const HullContact contact = collider.query(0, pose);
+        ASSERT_NE(contact.status, LpStatus::PivotLimit);
+        if (std::abs(gap) < 1e-7L) continue;  // within what the planes' rounding may decide
+        ASSERT_EQ(contact.has_contact(), gap < 0) << "seed " << seed << " tick " << tick;
+        if (!contact.has_contact()) {
+          expect_separates(bone, wire, pose, contact.separating_normal.v);
+        }
+        ++scored;
+        contacts += contact.has_contact();
+        memory += contact.decided_by_memory;
+      }
+    }
+  }
+  EXPECT_GT(scored, 900);
+  EXPECT_GT(contacts, 150);
+  EXPECT_LT(contacts, scored - 150);
+  EXPECT_GT(memory, 50);
+}
+
+TEST(CollisionOracle, FindsTheZeroOfAClosingGap) {
+  // Two bodies approach along x until they touch; bisect the contact and compare with the oracle.
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Rng rng(seed);
+    const ConvexPolytope bone = pebble(rng, 40);
+    const ConvexPolytope tool = pebble(rng, 12);
+    HullCollider collider({&bone, 1}, tool);
+    BoneFromTool pose;
+    pose.rotation = rotation_about(normalized_or({rng.normal(), rng.normal(), 1}, {}), 1.0);
+    double touching = 0;
+    double apart = 40;
+    for (int i = 0; i < 60; ++i) {
+      pose.translation = {(touching + apart) / 2, 0.3, -0.2};
+      (collider.query(0, pose).has_contact() ? touching : apart) = pose.translation.x;
+    }
+    const auto gap_at = [&](double x) {
+      return oracles::separation(
+          oracles::body_of<long double>(bone, Mat3::identity(), {}),
+          oracles::body_of<long double>(tool, pose.rotation, {x, 0.3, -0.2}));
+    };
+    EXPECT_LT(gap_at(touching - 1e-6), 0) << seed;
+    EXPECT_GT(gap_at(apart + 1e-6), 0) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace carpus
