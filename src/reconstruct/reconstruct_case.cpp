@@ -11,7 +11,7 @@
 #include "anatomy/bone_naming.hpp"
 #include "cases/posture.hpp"
 #include "cases/scaphoid_landmarks.hpp"
-#include "collision/distance_field.hpp"
+#include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "hull/quickhull.hpp"

@@ -9,7 +9,7 @@
 
 #include "cases/posture.hpp"
 #include "cases/synthetic_case_test_support.hpp"
-#include "collision/distance_field.hpp"
+#include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/units.hpp"

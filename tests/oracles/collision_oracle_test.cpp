@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/hull_collider.hpp"
+#include "collision/lp/hull_collider.hpp"
 #include "core/rng.hpp"
 #include "hull/quickhull.hpp"
 #include "oracles/separating_axes.hpp"

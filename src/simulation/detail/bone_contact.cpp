@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "collision/distance_field.hpp"
+#include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
 #include "hull/quickhull.hpp"
 #include "instruments/guide_wire.hpp"

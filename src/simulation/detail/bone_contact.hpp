@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
-#include "collision/hull_collider.hpp"
+#include "collision/lp/hull_collider.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/vec3.hpp"
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "collision/distance_field.hpp"
+#include "collision/surface/distance_field.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/triangle_tree.hpp"
+#include "collision/surface/triangle_tree.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Examples and limits; tests/oracles compares thousands of pairs with an exact oracle.
-#include "collision/hull_collider.hpp"
+#include "collision/lp/hull_collider.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "collision/lp_collision.hpp"
+#include "collision/lp/lp_collision.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/pose.hpp"

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "collision/hull_collider.hpp"
+#include "collision/lp/hull_collider.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "collision/distance_field.hpp"
+#include "collision/surface/distance_field.hpp"
 
 namespace carpus::collision {
 

@@ -8,7 +8,7 @@
 // out. Whether a row meets a triangle is decided by exact orientations with a symbolic shift of the
 // row off vertices and edges, so that crossings always pair up. (Signs from the nearest triangle's
 // normal [baerentzen2005signed] would do on perfect meshes; they fail on slivers.)
-#include "collision/distance_field.hpp"
+#include "collision/surface/distance_field.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/triangle_tree.hpp"
+#include "collision/surface/triangle_tree.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "geometry/aabb.hpp"

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "collision/triangle_tree.hpp"
+#include "collision/surface/triangle_tree.hpp"
 
 #include <algorithm>
 #include <cstddef>

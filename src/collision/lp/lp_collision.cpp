@@ -9,7 +9,7 @@
 // 3. Write the entering normal as a combination of the three. If no weight is positive the dual is
 //    unbounded along it: no common point, and the four rows prove it.
 // 4. Otherwise the row with the smallest pi / weight leaves.
-#include "collision/lp_collision.hpp"
+#include "collision/lp/lp_collision.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,24 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The one list of methods: a new one is a line here.
+#include <algorithm>
+#include <array>
+
+#include "collision/pair_query.hpp"
+
+namespace carpus::collision {
+
+std::span<const Method> all_methods() {
+  static const std::array<Method, 0> kMethods{};
+  return kMethods;
+}
+
+const Method* find_method(std::string_view name) {
+  const std::span<const Method> methods = all_methods();
+  const auto found =
+      std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
+  return found == methods.end() ? nullptr : &*found;
+}
+
+}  // namespace carpus::collision

@@ -1,0 +1,90 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The contract behind which every method of the module stands, so that a researcher can compare
+// them: do two convex bodies meet, how far apart are they, how deep do they overlap?
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "collision/convex_body.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/vec3.hpp"
+
+namespace carpus::collision {
+
+/// Where the second body of a pair lies in the first one's frame. It is taken as given: the second
+/// body is { rotation * v + translation }, exactly, even where the matrix is a little off a
+/// rotation.
+namespace pair_frame {
+struct First;
+struct Second;
+}  // namespace pair_frame
+using PairPose = Pose<pair_frame::First, pair_frame::Second>;
+
+/// Bodies are closed: touching is meeting.
+enum class Verdict : std::uint8_t {
+  Unknown,  ///< the method could not tell (its limits, or a pose that is not finite)
+  Apart,
+  Meet,
+};
+
+/// The nearest points of two bodies that do not meet, in the first one's frame.
+struct Closest {
+  double distance_mm = 0;
+  Vec3 on_first;
+  Vec3 on_second;
+  Vec3 normal;  ///< unit, from the first to the second
+};
+
+/// The shortest translation of the second body that makes two bodies that meet just touch.
+struct Penetration {
+  double depth_mm = 0;
+  Vec3 direction;  ///< unit, in the first one's frame: moving the second by depth_mm along it parts
+                   ///< them
+  Vec3 on_first;   ///< deepest points, which coincide after that move
+  Vec3 on_second;
+};
+
+/// One method for one pair of bodies, with what it remembers from query to query. What is
+/// remembered changes the cost, never the answer beyond the method's stated tolerance.
+/// Real-time: queries are noexcept and allocate nothing after construction.
+class PairQuery {
+ public:
+  PairQuery() = default;
+  PairQuery(const PairQuery&) = delete;
+  PairQuery& operator=(const PairQuery&) = delete;
+  virtual ~PairQuery() = default;
+
+  [[nodiscard]] virtual Verdict meets(const PairPose& first_from_second) noexcept = 0;
+  /// Empty where the bodies meet, or where the method does not answer this or could not.
+  [[nodiscard]] virtual std::optional<Closest> closest(const PairPose& first_from_second) noexcept;
+  /// Empty where the bodies are apart, or where the method does not answer this or could not.
+  [[nodiscard]] virtual std::optional<Penetration> penetration(
+      const PairPose& first_from_second) noexcept;
+  /// Forgets earlier queries: the next one is cold.
+  virtual void forget() noexcept = 0;
+};
+
+/// A method by its plain name, as tables and the command line call it.
+struct Method {
+  std::string_view name;    ///< `lp_growth`, `gjk`, `v_clip`, ...
+  std::string_view source;  ///< key in docs/bibliography.bib
+  bool gives_distance = false;
+  bool gives_depth = false;
+  /// Where it is known to fail or to be approximate; empty: nowhere.
+  std::string_view limits;
+  /// Both bodies must outlive the query.
+  std::unique_ptr<PairQuery> (*make)(const ConvexBody& first, const ConvexBody& second);
+};
+
+/// Every method, in the order of the tables.
+[[nodiscard]] std::span<const Method> all_methods();
+/// Null where there is no such method.
+[[nodiscard]] const Method* find_method(std::string_view name);
+
+}  // namespace carpus::collision
