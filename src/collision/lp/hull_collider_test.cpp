@@ -7,26 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
+#include "collision/allocation_test_support.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
-
-namespace {
-thread_local bool g_count_allocations = false;
-thread_local int g_allocations = 0;
-}  // namespace
-
-// Not inlined: the compiler would take malloc and free for a mismatch of new and free.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (g_count_allocations) ++g_allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace carpus::collision {
 namespace {
@@ -114,13 +99,12 @@ TEST(HullCollider, NeverAnswersContactForAPoseThatIsNotANumber) {
 TEST(HullCollider, DoesNotAllocateInAQuery) {
   const ConvexPolytope bone = box({5, 5, 5});
   HullCollider collider({&bone, 1}, box({0.5, 0.5, 40}));
-  g_count_allocations = true;
+  test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
     const BoneFromTool pose{rotation_about({0, 1, 0}, 0.03 * i), {0.05 * i, 0, 3}};
     (void)collider.query(0, pose);
   }
-  g_count_allocations = false;
-  EXPECT_EQ(g_allocations, 0);
+  EXPECT_EQ(test::stop_counting_allocations(), 0);
   EXPECT_GT(collider.counts().pivots, 0U);
 }
 

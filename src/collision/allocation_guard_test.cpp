@@ -1,0 +1,59 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include "collision/allocation_test_support.hpp"
+
+namespace {
+thread_local bool g_count_allocations = false;
+thread_local int g_allocations = 0;
+
+void* counted(void* memory) {
+  if (g_count_allocations) ++g_allocations;
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+// Not inlined: the compiler would take malloc and free for a mismatch of new and free.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  return counted(std::malloc(size == 0 ? 1 : size));
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto step = static_cast<std::size_t>(alignment);
+  return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace carpus::collision {
+
+namespace test {
+void start_counting_allocations() noexcept {
+  g_allocations = 0;
+  g_count_allocations = true;
+}
+int stop_counting_allocations() noexcept {
+  g_count_allocations = false;
+  return g_allocations;
+}
+}  // namespace test
+
+TEST(AllocationGuard, CountsAnAllocation) {
+  test::start_counting_allocations();
+  auto* volatile number = new int(3);
+  EXPECT_EQ(test::stop_counting_allocations(), 1);
+  delete number;
+}
+
+}  // namespace carpus::collision
