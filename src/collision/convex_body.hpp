@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/aabb.hpp"
@@ -51,6 +53,18 @@ class ConvexBody {
   [[nodiscard]] double radius_mm() const noexcept { return radius_mm_; }
   [[nodiscard]] const Aabb& box() const noexcept { return box_; }
 
+  /// What a method derives from the body, T(body), made at the first request and shared by all
+  /// queries of the body. For set-up: allocates, and not from two threads at once.
+  template <typename T>
+  [[nodiscard]] const T& derived() const {
+    static constexpr char kKey = 0;  // its address names T
+    for (const auto& [key, value] : derived_) {
+      if (key == &kKey) return *static_cast<const T*>(value.get());
+    }
+    derived_.emplace_back(&kKey, std::make_shared<const T>(*this));
+    return *static_cast<const T*>(derived_.back().second.get());
+  }
+
  private:
   ConvexPolytope polytope_;
   std::vector<hull::PolygonalFace> faces_;
@@ -60,6 +74,7 @@ class ConvexBody {
   Vec3 interior_point_;
   double radius_mm_ = 0;
   Aabb box_;
+  mutable std::vector<std::pair<const char*, std::shared_ptr<const void>>> derived_;
 };
 
 }  // namespace carpus::collision

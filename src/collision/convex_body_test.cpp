@@ -51,6 +51,22 @@ TEST(ConvexBody, GoesCounterClockwiseAboutEachVertex) {
   }
 }
 
+struct CornerCount {
+  explicit CornerCount(const ConvexBody& body) : count(body.vertices().size()) {}
+  std::size_t count;
+};
+struct FaceCount {
+  explicit FaceCount(const ConvexBody& body) : count(body.faces().size()) {}
+  std::size_t count;
+};
+
+TEST(ConvexBody, MakesWhatMethodsDeriveFromItOnce) {
+  const ConvexBody body = box({1, 2, 3});
+  EXPECT_EQ(body.derived<CornerCount>().count, 8U);
+  EXPECT_EQ(body.derived<FaceCount>().count, 6U);
+  EXPECT_EQ(&body.derived<CornerCount>(), &body.derived<CornerCount>());
+}
+
 TEST(ConvexBody, RefusesWhatIsNoBody) { EXPECT_THROW(ConvexBody{ConvexPolytope{}}, InvalidInput); }
 
 }  // namespace
