@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <array>
 
+#include "collision/closest/gjk.hpp"
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
 
 std::span<const Method> all_methods() {
-  static const std::array<Method, 0> kMethods{};
+  static const std::array kMethods{
+      Method{"gjk", "gilbert1988distance", true, false, "", make_gjk},
+      Method{"gjk_table", "cameron1997enhancing", true, false, "", make_gjk_table},
+  };
   return kMethods;
 }
 

@@ -1,0 +1,91 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/closest/gjk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "collision/allocation_test_support.hpp"
+#include "collision/closest/detail/checks.hpp"
+
+namespace carpus::collision {
+namespace {
+
+constexpr double kToleranceMm = 1e-9;
+
+void judge(const test::Judge& judge,
+           const ConvexBody& first,
+           const ConvexBody& second,
+           const PairPose& pose) {
+  for (const ClimbStart start : {ClimbStart::LastCorner, ClimbStart::Table}) {
+    Gjk query(first, second, start);
+    judge.expect_verdict(query.meets(pose));
+    query.forget();
+    judge.expect_closest(query.closest(pose));
+    judge.expect_verdict(query.meets(pose));
+  }
+}
+
+TEST(Gjk, AgreesWithTheOraclesOnAllSolids) {
+  Rng rng(11);
+  const auto& solids = test::small_solids();
+  for (std::uint64_t i = 0; i < test::cases(600); ++i) {
+    const test::Solid& first = solids[rng.below(solids.size())];
+    const test::Solid& second = solids[rng.below(solids.size())];
+    const PairPose pose = test::random_pose(rng, 5);
+    SCOPED_TRACE(first.name + " on " + second.name + ", case " + std::to_string(i));
+    judge({first.body, second.body, pose, kToleranceMm}, first.body, second.body, pose);
+  }
+}
+
+void expect_warm_as_cold(ClimbStart start) {
+  Rng rng(12);
+  const ConvexBody first = test::body_of(test::round_points(rng, 300, {20, 12, 10}));
+  const ConvexBody second = test::body_of(test::round_points(rng, 200, {8, 9, 15}));
+  Gjk warm(first, second, start);
+  Gjk warm_verdicts(first, second, start);
+  Gjk cold(first, second, start);
+  for (std::uint64_t i = 0; i < test::cases(2000); ++i) {
+    const PairPose pose = test::pose_on_a_course(0.01 * static_cast<double>(i), 24);
+    cold.forget();
+    const Verdict verdict = cold.meets(pose);
+    EXPECT_EQ(warm_verdicts.meets(pose), verdict);
+    cold.forget();
+    test::expect_same(cold.closest(pose), warm.closest(pose), verdict == Verdict::Apart);
+  }
+}
+
+TEST(Gjk, AnswersWarmAsCold) {
+  expect_warm_as_cold(ClimbStart::LastCorner);
+  expect_warm_as_cold(ClimbStart::Table);
+}
+
+TEST(Gjk, DoesNotAllocateInAQuery) {
+  const ConvexBody body = test::body_of(test::lattice_ball_points(5));
+  Gjk query(body, body, ClimbStart::Table);
+  Rng rng(13);
+  test::start_counting_allocations();
+  for (int i = 0; i < 200; ++i) {
+    const PairPose pose = test::random_pose(rng, 12);
+    (void)query.meets(pose);
+    (void)query.closest(pose);
+  }
+  EXPECT_EQ(test::stop_counting_allocations(), 0);
+}
+
+TEST(Gjk, SaysUnknownForAPoseThatIsNotANumberAndRecovers) {
+  const ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
+  Gjk query(body, body, ClimbStart::LastCorner);
+  PairPose pose;
+  pose.translation.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(query.meets(pose), Verdict::Unknown);
+  EXPECT_FALSE(query.closest(pose).has_value());
+  pose = {};
+  pose.rotation.rows[1].z = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(query.meets(pose), Verdict::Unknown);
+  EXPECT_EQ(query.meets({}), Verdict::Meet);
+}
+
+}  // namespace
+}  // namespace carpus::collision
