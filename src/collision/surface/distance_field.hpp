@@ -30,7 +30,8 @@ inline constexpr std::size_t kMaxFieldVoxels = std::size_t{1} << 28U;
 [[nodiscard]] Grid<float> build_distance_field(const TriangleMesh& mesh,
                                                const DistanceFieldOptions& options = {});
 
-/// What the field says at a point.
+/// What the field says at a point. Between voxels it is off the (clamped) distance by at most
+/// sqrt(3) / 2 of the spacing; contact_field.hpp proves that and a second, tighter bound.
 struct DistanceSample {
   double distance_mm = 0.0;  ///< signed; trilinear between voxels
   Vec3 gradient;  ///< of that interpolation [mm/mm], outwards; about a unit vector within
