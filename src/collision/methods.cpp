@@ -9,11 +9,17 @@
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
+namespace {
+
+/// Of methods that decide by rounded products of coordinates.
+constexpr std::string_view kToRounding = "bodies that touch up to rounding may be called either";
+
+}  // namespace
 
 std::span<const Method> all_methods() {
   static const std::array kMethods{
-      Method{"gjk", "gilbert1988distance", true, false, "", make_gjk},
-      Method{"gjk_table", "cameron1997enhancing", true, false, "", make_gjk_table},
+      Method{"gjk", "gilbert1988distance", true, false, kToRounding, make_gjk},
+      Method{"gjk_table", "cameron1997enhancing", true, false, kToRounding, make_gjk_table},
   };
   return kMethods;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geometry/convex_polytope.hpp"
+#include "geometry/mat3.hpp"
 
 namespace carpus::oracles {
 

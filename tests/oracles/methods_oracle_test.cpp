@@ -1,0 +1,214 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every method between convex bodies against exact arithmetic, warm and cold, on seeded pairs of
+// all kinds (pair_generator.hpp). A method that names no limits must never be wrong; one that
+// names some may be where the bodies all but touch. CARPUS_LONG=1 runs 1 000 000 posed pairs,
+// CARPUS_QUICK=1 some hundreds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collision/pair_query.hpp"
+#include "oracles/exact_meet.hpp"
+#include "oracles/pair_generator.hpp"
+#include "oracles/separating_axes.hpp"
+
+namespace carpus::oracles {
+namespace {
+
+using collision::Closest;
+using collision::ConvexBody;
+using collision::Method;
+using collision::PairPose;
+using collision::PairQuery;
+using collision::Penetration;
+using collision::Verdict;
+
+constexpr std::uint64_t kPosesPerPair = 10;
+
+bool is_set(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+  return value != nullptr && std::string(value) == "1";
+}
+std::uint64_t pair_count() {
+  if (is_set("CARPUS_LONG")) return 100'000;
+  return is_set("CARPUS_QUICK") ? 30 : 300;
+}
+
+struct Tally {
+  std::uint64_t asked = 0;
+  std::uint64_t wrong = 0;
+  std::uint64_t wrong_near = 0;  ///< of those, where the bodies touch up to rounding
+  std::uint64_t unknown = 0;
+  std::uint64_t first_wrong_seed = 0;
+  void add(Verdict verdict, bool meet, bool is_near, std::uint64_t seed) {
+    ++asked;
+    if (verdict == Verdict::Unknown) ++unknown;
+    if (verdict == Verdict::Unknown || (verdict == Verdict::Meet) == meet) return;
+    if (wrong == 0) first_wrong_seed = seed;
+    ++wrong;
+    wrong_near += is_near;
+  }
+};
+
+TEST(MethodsOracle, NoVerdictDiffersFromExactArithmetic) {
+  const auto methods = collision::all_methods();
+  std::vector<Tally> tallies(methods.size());
+  std::uint64_t meeting = 0;
+  std::uint64_t by_integers = 0;
+  for (std::uint64_t seed = 0; seed < pair_count(); ++seed) {
+    PairGenerator pairs(seed);
+    ExactMeet exact(pairs.first.vertices, pairs.second.vertices);
+    const ConvexBody first(pairs.first);
+    const ConvexBody second(pairs.second);
+    std::vector<std::unique_ptr<PairQuery>> queries;
+    for (const Method& m : methods) queries.push_back(m.make(first, second));
+    for (std::uint64_t i = 0; i < kPosesPerPair; ++i) {
+      const Placement p = pairs.next();
+      const ExactMeet::Answer answer = exact.query(p.rotation, p.translation);
+      meeting += answer.meet;
+      by_integers += answer.needed_integers;
+      for (std::size_t k = 0; k < queries.size(); ++k) {
+        if (i % 4 == 0) queries[k]->forget();
+        tallies[k].add(queries[k]->meets({p.rotation, p.translation}), answer.meet,
+                       p.is_near || answer.needed_integers, seed);
+      }
+    }
+  }
+  const std::uint64_t asked = pair_count() * kPosesPerPair;
+  EXPECT_GT(meeting, asked / 5);
+  EXPECT_GT(asked - meeting, asked / 5);
+  EXPECT_GT(by_integers, asked / 20);
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    const Tally& t = tallies[k];
+    std::cout << methods[k].name << ": " << t.asked << " asked, " << t.wrong << " wrong ("
+              << t.wrong_near << " of them touching up to rounding), " << t.unknown << " unknown\n";
+    const bool is_exact = methods[k].limits.empty();
+    EXPECT_EQ(is_exact ? t.wrong + t.unknown : t.wrong - t.wrong_near, 0U)
+        << methods[k].name << ", first at seed " << t.first_wrong_seed;
+  }
+}
+
+/// Lowest and highest value along n of the vertices of a body, in long double.
+struct Interval {
+  long double low = 1e300L;
+  long double high = -1e300L;
+};
+Interval extent_along(const Body<long double>& body, const Vec3& n) {
+  Interval e;
+  for (const auto& v : body.vertices) {
+    const long double s = dot_of<long double>({n.x, n.y, n.z}, v);
+    e.low = std::min(e.low, s);
+    e.high = std::max(e.high, s);
+  }
+  return e;
+}
+
+/// How far a point is outside a body, by its facets.
+long double outside(const Body<long double>& body, const Vec3& p, const ConvexPolytope& shape) {
+  long double most = -1e300L;
+  for (std::size_t f = 0; f < shape.facets.size(); ++f) {
+    const auto& n = body.normals[f];
+    const long double size = std::sqrt(dot_of(n, n));
+    if (!(size > 0)) continue;
+    const auto& a = body.vertices[shape.facets[f][0]];
+    most = std::max(most, dot_of(n, minus<long double>({p.x, p.y, p.z}, a)) / size);
+  }
+  return most;
+}
+
+/// By how much the answer fails to prove itself: the points lie in the bodies (an upper bound) and
+/// a slab parts them (a lower one).
+long double error_of(const Closest& c,
+                     const PairGenerator& pairs,
+                     const Body<long double>& first,
+                     const Body<long double>& second) {
+  const long double slab = extent_along(second, c.normal).low - extent_along(first, c.normal).high;
+  return std::max(
+      {outside(first, c.on_first, pairs.first), outside(second, c.on_second, pairs.second),
+       std::abs(static_cast<long double>(distance(c.on_first, c.on_second)) - c.distance_mm),
+       c.distance_mm - slab});
+}
+
+/// Against the least overlap along any axis; moving the second by the answer must part the bodies.
+long double error_of(const Penetration& p,
+                     const Body<long double>& first,
+                     const Body<long double>& second) {
+  const long double along =
+      extent_along(first, p.direction).high - extent_along(second, p.direction).low;
+  return std::max(std::abs(along - p.depth_mm), std::abs(p.depth_mm + separation(first, second)));
+}
+
+struct Errors {
+  std::uint64_t distances = 0;
+  std::uint64_t depths = 0;
+  std::uint64_t missing = 0;  ///< no answer where there is one, or one where there is none
+  long double largest = 0;    ///< of the coordinates' size
+  std::uint64_t worst_seed = 0;
+  void add(long double error, std::uint64_t seed) {
+    if (error > largest) {
+      largest = error;
+      worst_seed = seed;
+    }
+  }
+};
+
+TEST(MethodsOracle, DistancesAndDepthsProveThemselves) {
+  const auto methods = collision::all_methods();
+  constexpr long double kToleranceOfSize = 1e-9L;
+  std::vector<Errors> errors(methods.size());
+  for (std::uint64_t seed = 0; seed < pair_count() / 10; ++seed) {
+    PairGenerator pairs(seed);
+    ExactMeet exact(pairs.first.vertices, pairs.second.vertices);
+    const ConvexBody first(pairs.first);
+    const ConvexBody second(pairs.second);
+    const auto first_oracle = body_of<long double>(pairs.first, Mat3::identity(), {});
+    std::vector<std::unique_ptr<PairQuery>> queries;
+    for (const Method& m : methods) queries.push_back(m.make(first, second));
+    for (std::uint64_t i = 0; i < kPosesPerPair; ++i) {
+      const Placement p = pairs.next();
+      const PairPose pose{p.rotation, p.translation};
+      const ExactMeet::Answer answer = exact.query(p.rotation, p.translation);
+      if (p.is_near || answer.needed_integers) continue;
+      const auto second_oracle = body_of<long double>(pairs.second, p.rotation, p.translation);
+      double reach = pairs.size_mm + length(p.translation);
+      for (const Vec3& v : pairs.first.vertices) reach = std::max(reach, length(v));
+      for (std::size_t k = 0; k < methods.size(); ++k) {
+        Errors& e = errors[k];
+        if (methods[k].gives_distance) {
+          const auto closest = queries[k]->closest(pose);
+          ++e.distances;
+          e.missing += closest.has_value() == answer.meet;
+          if (closest && !answer.meet) {
+            e.add(error_of(*closest, pairs, first_oracle, second_oracle) / reach, seed);
+          }
+        }
+        if (methods[k].gives_depth) {
+          const auto depth = queries[k]->penetration(pose);
+          ++e.depths;
+          e.missing += depth.has_value() != answer.meet;
+          if (depth && answer.meet)
+            e.add(error_of(*depth, first_oracle, second_oracle) / reach, seed);
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    const Errors& e = errors[k];
+    if (e.distances + e.depths == 0) continue;
+    std::cout << methods[k].name << ": " << e.distances << " distances, " << e.depths
+              << " depths, largest error " << static_cast<double>(e.largest)
+              << " of the coordinates, " << e.missing << " missing\n";
+    EXPECT_EQ(e.missing, 0U) << methods[k].name;
+    EXPECT_LT(e.largest, kToleranceOfSize) << methods[k].name << ", seed " << e.worst_seed;
+  }
+}
+
+}  // namespace
+}  // namespace carpus::oracles
