@@ -6,6 +6,7 @@
 #include <array>
 
 #include "collision/closest/gjk.hpp"
+#include "collision/ivri/ivri_cd.hpp"
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
@@ -20,6 +21,9 @@ std::span<const Method> all_methods() {
   static const std::array kMethods{
       Method{"gjk", "gilbert1988distance", true, false, kToRounding, make_gjk},
       Method{"gjk_table", "cameron1997enhancing", true, false, kToRounding, make_gjk_table},
+      Method{"ivri", "yaacoub2008", false, false,
+             "approximate: gaps below 1e-9 mm count as contact; bodies of 1e-3 to 1e5 mm",
+             make_ivri_query},
   };
   return kMethods;
 }
