@@ -42,4 +42,9 @@ inline constexpr double kLeastLpWeight = 1e-11;
 /// in the offsets would move it by more than kContactToleranceMm.
 inline constexpr double kLeastBasisDeterminant = 1e-7;
 
+/// Boxes of moved bodies grow by this times the sizes that enter: (9 + 7) u for the rounded pose of
+/// one body as another sees it (collision::relative_pose), 8 u for the box's own sums of six
+/// products, and as much again for bodies far from the origin.
+inline constexpr double kMovedBoxRounding = 32 * kRoundoff;
+
 }  // namespace carpus
