@@ -7,6 +7,7 @@
 
 #include "collision/closest/gjk.hpp"
 #include "collision/ivri/ivri_cd.hpp"
+#include "collision/lp/growth.hpp"
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
@@ -19,6 +20,7 @@ constexpr std::string_view kToRounding = "bodies that touch up to rounding may b
 
 std::span<const Method> all_methods() {
   static const std::array kMethods{
+      Method{"lp_growth", "ong1996growth", false, false, "", make_growth_query},
       Method{"gjk", "gilbert1988distance", true, false, kToRounding, make_gjk},
       Method{"gjk_table", "cameron1997enhancing", true, false, kToRounding, make_gjk_table},
       Method{"ivri", "yaacoub2008", false, false,

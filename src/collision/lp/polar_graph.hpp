@@ -5,6 +5,7 @@
 // graph that finds the facet through which the ray towards a point leaves the body.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -99,20 +100,6 @@ class PolarGraph {
     return triangles_[first_triangle_[face]][0];
   }
 
-  /// Neighbouring faces.
-  template <typename Visit>
-  void for_neighbours(const PolarRow& row, const Visit& visit) const noexcept {
-    if ((row.links & PolarRow::kHasList) == 0) {
-      visit(static_cast<std::uint32_t>(row.links & PolarRow::kIdMask));
-      visit(static_cast<std::uint32_t>(row.links >> PolarRow::kIdBits & PolarRow::kIdMask));
-      visit(static_cast<std::uint32_t>(row.links >> 2 * PolarRow::kIdBits & PolarRow::kIdMask));
-      return;
-    }
-    const auto start = static_cast<std::uint32_t>(row.links);
-    const auto count = static_cast<std::uint32_t>(row.links >> 32U & 0xFFFFFFU);
-    for (std::uint32_t i = 0; i < count; ++i) visit(lists_[start + i]);
-  }
-
  private:
   void set_rows(const ConvexBody& body, const std::vector<std::uint32_t>& order);
   void set_links(const ConvexBody& body, const std::vector<std::uint32_t>& order);
@@ -160,15 +147,16 @@ inline std::size_t PolarGraph::cell_of(const Vec3& d) const noexcept {
     v = d.x;
     side = 2;
   }
-  if (!(std::abs(major) > 0)) return 0;  // no direction
+  if (!(std::abs(major) > 1e-280 && std::abs(major) < 1e280)) return 0;  // no direction
   if (major < 0) ++side;
-  // In [0, 2 * scale], so that only the last cell needs a clamp.
   const double scale = table_scale_ / std::abs(major);
-  const auto last = static_cast<std::int32_t>(table_side_) - 1;
-  const std::int32_t i = std::min(last, static_cast<std::int32_t>(u * scale + table_scale_));
-  const std::int32_t j = std::min(last, static_cast<std::int32_t>(v * scale + table_scale_));
-  return (side * table_side_ + static_cast<std::size_t>(i)) * table_side_ +
-         static_cast<std::size_t>(j);
+  const double last = 2 * table_scale_ - 1;
+  // min and max in this order also make a cell of what is not a number.
+  const auto place = [&](double w) {
+    return static_cast<std::size_t>(
+        static_cast<std::int32_t>(std::max(0.0, std::min(last, w * scale + table_scale_))));
+  };
+  return (side * table_side_ + place(u)) * table_side_ + place(v);
 }
 
 inline std::uint32_t PolarGraph::start_for(const Vec3& d) const noexcept {
@@ -178,16 +166,35 @@ inline std::uint32_t PolarGraph::start_for(const Vec3& d) const noexcept {
 inline PolarTop PolarGraph::climb(std::uint32_t start, const Vec3& d) const noexcept {
   PolarTop best{start, 0, rows_[start].gauge(d)};
   while (true) {
-    const PolarRow& here = rows_[best.face];
+    const std::uint64_t links = rows_[best.face].links;
     const std::uint32_t from = best.face;
-    for_neighbours(here, [&](std::uint32_t face) {
-      const double gauge = rows_[face].gauge(d);
-      if (gauge > best.gauge) {
-        best.gauge = gauge;
-        best.face = face;
+    if ((links & PolarRow::kHasList) == 0) {
+      const auto i = static_cast<std::uint32_t>(links & PolarRow::kIdMask);
+      const auto j = static_cast<std::uint32_t>(links >> PolarRow::kIdBits & PolarRow::kIdMask);
+      const auto k = static_cast<std::uint32_t>(links >> 2 * PolarRow::kIdBits & PolarRow::kIdMask);
+      const double gi = rows_[i].gauge(d);
+      const double gj = rows_[j].gauge(d);
+      const double gk = rows_[k].gauge(d);
+      const bool is_j = gj > gi;
+      const double gij = is_j ? gj : gi;
+      const std::uint32_t ij = is_j ? j : i;
+      const bool is_k = gk > gij;
+      const double gijk = is_k ? gk : gij;
+      if (!(gijk > best.gauge)) return best;
+      best.gauge = gijk;
+      best.face = is_k ? k : ij;
+    } else {
+      const auto first = static_cast<std::uint32_t>(links);
+      const auto last = first + static_cast<std::uint32_t>(links >> 32U & 0xFFFFFFU);
+      for (std::uint32_t i = first; i < last; ++i) {
+        const double gauge = rows_[lists_[i]].gauge(d);
+        if (gauge > best.gauge) {
+          best.gauge = gauge;
+          best.face = lists_[i];
+        }
       }
-    });
-    if (best.face == from) return best;
+      if (best.face == from) return best;
+    }
     ++best.steps;
   }
 }

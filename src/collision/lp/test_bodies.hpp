@@ -16,7 +16,7 @@
 #include "geometry/mat3.hpp"
 #include "hull/quickhull.hpp"
 
-namespace carpus::collision::test {
+namespace carpus::collision::lp_test {
 
 [[nodiscard]] inline ConvexBody body_of(const std::vector<Vec3>& points) {
   return ConvexBody(hull::build_convex_hull(points).polytope);
@@ -82,4 +82,4 @@ namespace carpus::collision::test {
   return body_of(points);
 }
 
-}  // namespace carpus::collision::test
+}  // namespace carpus::collision::lp_test

@@ -1,0 +1,78 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/lp/growth.hpp"
+
+#include <cmath>
+
+namespace carpus::collision {
+
+GrowthQuery::GrowthQuery(const ConvexBody& first, const ConvexBody& second)
+    : first_(&first),
+      second_(&second),
+      program_(first.derived<PolarGraph>(), second.derived<PolarGraph>()),
+      second_radius_mm_(program_.second().outer_radius_mm()),
+      is_usable_(program_.first().is_usable() && program_.second().is_usable()) {}
+
+Verdict GrowthQuery::decide(const RelativePose& pose) noexcept {
+  // Spheres first, where there is nothing to go on from.
+  if (!memory_.has_basis) {
+    const double reach = program_.first().outer_radius_mm() + second_radius_mm_;
+    const Vec3& d = pose.offset;
+    SeparationProof spheres;
+    spheres.n = normalized_or(d, {});
+    spheres.m = -pose.into_second(spheres.n);
+    spheres.size = 1 + 16 * kRoundoff;
+    spheres.first_reach = program_.first().outer_radius_mm() * spheres.size;
+    spheres.second_reach = second_radius_mm_ * length(spheres.m) * spheres.size;
+    if (squared_length(d) > reach * reach && spheres.holds(pose, second_radius_mm_)) {
+      memory_.separation = spheres;
+      memory_.last = Verdict::Apart;
+      ++counts_.by_spheres;
+      return Verdict::Apart;
+    }
+  }
+  return program_.decide(pose, memory_, counts_);
+}
+
+Verdict GrowthQuery::decide_exactly(const PairPose& first_from_second) noexcept {
+  ExactHint hint;
+  if (is_usable_) {
+    hint.direction = memory_.separation.n;
+    for (const GrowthRow& row : memory_.rows) {
+      if (row.face == GrowthRow::kNoFace) continue;
+      if (row.is_second) {
+        hint.second_vertex = program_.second().corner_of(row.face);
+      } else {
+        hint.first_vertex = program_.first().corner_of(row.face);
+      }
+    }
+  }
+  const ExactAnswer answer =
+      exactly_meet({first_, Mat3::identity(), {}},
+                   {second_, first_from_second.rotation, first_from_second.translation}, hint);
+  ++counts_.exact;
+  counts_.exact_rounds += answer.rounds;
+  memory_.last = Verdict::Unknown;
+  return answer.verdict;
+}
+
+std::optional<GrowthAnswer> GrowthQuery::growth(const PairPose& first_from_second) noexcept {
+  RelativePose pose;
+  if (!is_usable_ || !relative_pose(program_.first(), program_.second(), first_from_second, pose)) {
+    return std::nullopt;
+  }
+  const GrowthOptimum best = program_.optimum(pose, memory_, counts_);
+  GrowthAnswer answer;
+  answer.lower_bound = best.lower;
+  answer.upper_bound = best.upper;
+  answer.growth = best.lower + (best.upper - best.lower) / 2;
+  answer.point = best.point + program_.first().origin();
+  answer.direction = normalized_or(best.proof.n, {1, 0, 0});
+  return answer;
+}
+
+std::unique_ptr<PairQuery> make_growth_query(const ConvexBody& first, const ConvexBody& second) {
+  return std::make_unique<GrowthQuery>(first, second);
+}
+
+}  // namespace carpus::collision

@@ -1,0 +1,114 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What proves, in doubles with their rounding bounded, that two bodies meet or are apart. A proof
+// does not trust how its contents were found, and can be tried again at the next pose.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/lp/polar_graph.hpp"
+#include "collision/lp/relative_pose.hpp"
+#include "geometry/tolerance.hpp"
+#include "geometry/vec3.hpp"
+
+namespace carpus::collision {
+
+/// Sums of rows with weights >= 0: the first body lies in n . x <= first_reach, the second in
+/// m . s <= second_reach, each about its origin. Where m is -n turned into the second's frame the
+/// two half-spaces face each other.
+struct SeparationProof {
+  Vec3 n;
+  double first_reach = 0;
+  Vec3 m;
+  double second_reach = 0;
+  double size = 0;  ///< at least |n| [1/mm]
+
+  /// Adds a row; the proof's arithmetic is covered by PolarGraph::reach() for up to four rows.
+  void add_first(const Vec3& row, double weight, double reach) noexcept {
+    n += row * weight;
+    first_reach += weight * reach;
+  }
+  void add_second(const Vec3& row, double weight, double reach) noexcept {
+    m += row * weight;
+    second_reach += weight * reach;
+  }
+  void finish() noexcept { size = length(n) * (1 + 8 * kRoundoff); }
+
+  /// A lower bound of the bodies' distance times size: positive means apart. What m differs from -n
+  /// in the second body's frame, by turning or by rounding, costs that body's radius.
+  [[nodiscard]] double margin(const RelativePose& pose, double second_radius_mm) const noexcept {
+    return gap(pose, second_radius_mm) -
+           std::sqrt(turned_squared(pose)) * (1 + 8 * kRoundoff) * second_radius_mm;
+  }
+  /// The sign of margin(), without its root.
+  [[nodiscard]] bool holds(const RelativePose& pose, double second_radius_mm) const noexcept {
+    const double g = gap(pose, second_radius_mm);
+    return g > 0 && g * g > turned_squared(pose) * (1 + 32 * kRoundoff) * second_radius_mm *
+                                second_radius_mm;
+  }
+
+ private:
+  [[nodiscard]] double turned_squared(const RelativePose& pose) const noexcept {
+    return squared_length(pose.into_second(n) + m);
+  }
+  [[nodiscard]] double gap(const RelativePose& pose, double second_radius_mm) const noexcept {
+    const double reach = first_reach + second_reach;
+    const double rounding = size * (pose.offset_error_mm + 8 * kRoundoff * taxicab(pose.offset) +
+                                    (16 * kRoundoff + pose.rotation_error) * second_radius_mm) +
+                            8 * kRoundoff * reach;
+    return dot(n, pose.offset) - reach - rounding;
+  }
+};
+
+/// A point of the second body, and a ball about where it was in the first one that lies in that.
+struct CommonBallProof {
+  Vec3 in_second;  ///< about the second's origin, inside the second body
+  Vec3 in_first;   ///< the ball's centre, about the first's origin
+  double radius_mm = -1;
+
+  /// How far the point may still move [mm]; >= 0 means the bodies meet.
+  [[nodiscard]] double margin(const RelativePose& pose) const noexcept {
+    const Vec3 x = pose.rotation * in_second + pose.offset;
+    return radius_mm - rounding(pose) -
+           std::sqrt(squared_length(x - in_first)) * (1 + 8 * kRoundoff);
+  }
+  /// The sign of margin(), without its root.
+  [[nodiscard]] bool holds(const RelativePose& pose) const noexcept {
+    const Vec3 x = pose.rotation * in_second + pose.offset;
+    const double r = radius_mm - rounding(pose);
+    return r >= 0 && r * r >= squared_length(x - in_first) * (1 + 32 * kRoundoff);
+  }
+
+ private:
+  [[nodiscard]] double rounding(const RelativePose& pose) const noexcept {
+    const double reach = taxicab(in_second);
+    return pose.offset_error_mm + pose.rotation_error * reach +
+           16 * kRoundoff * (reach + taxicab(pose.offset) + taxicab(in_first));
+  }
+};
+
+/// Tries a point near both bodies, given about the first's origin with the faces that the walks
+/// found for it. True, and `proof` with it, if the point is proven to be in both.
+[[nodiscard]] inline bool prove_common_point(const PolarGraph& first,
+                                             const PolarGraph& second,
+                                             const RelativePose& pose,
+                                             const Vec3& in_second,
+                                             std::uint32_t first_face,
+                                             std::uint32_t second_face,
+                                             CommonBallProof& proof) noexcept {
+  if (!(second.gauge_bound(second_face, in_second) <= 1)) return false;
+  const Vec3 x = pose.rotation * in_second + pose.offset;
+  const double gauge = first.gauge_bound(first_face, x);
+  // x + the ball of (1 - gauge) * inner radius lies in the first body, which is convex.
+  CommonBallProof found;
+  found.in_second = in_second;
+  found.in_first = x;
+  found.radius_mm = ((1 - gauge) * first.inner_radius_mm() * (1 - 4 * kRoundoff));
+  if (!found.holds(pose)) return false;
+  proof = found;
+  return true;
+}
+
+}  // namespace carpus::collision
