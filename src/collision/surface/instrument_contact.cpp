@@ -1,0 +1,372 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Along the axis the field is a cubic within each cell, and the radius is linear: the gap's minimum
+// and its crossings of zero are those of a cubic, exactly. Cells are skipped only where the gap
+// cannot reach what matters (a lower minimum, the edge of a stretch): the field changes by no more
+// than steepest() times the way by axes. So the minimum is the field's own, however the axis is
+// walked.
+#include "collision/surface/instrument_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace carpus::collision {
+namespace {
+
+/// Least advance [mm]: gets the walk over a cell's border when rounding leaves it on the near side.
+/// The gap that it may miss is below 2e-7 mm.
+constexpr double kLeastStepMm = 1e-7;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kBisections = 24;  ///< a cell's 0.7 mm to less than 1e-7 mm
+
+/// The gap along the axis within one cell, from the cell's entry [mm].
+struct GapCubic {
+  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
+
+  [[nodiscard]] double at(double s) const noexcept { return c0 + s * (c1 + s * (c2 + s * c3)); }
+
+  /// Where in [0, end] it is least.
+  [[nodiscard]] double minimum(double end, double at_end) const noexcept {
+    double best = at_end < c0 ? end : 0.0;
+    double least = std::min(c0, at_end);
+    const auto consider = [&](double s) {
+      if (!(s > 0 && s < end)) return;  // false for NaN
+      if (const double value = at(s); value < least) {
+        least = value;
+        best = s;
+      }
+    };
+    // Both roots of c1 + 2 c2 s + 3 c3 s^2 without cancellation.
+    const double discriminant = c2 * c2 - 3 * c3 * c1;
+    if (discriminant >= 0) {
+      const double root = std::sqrt(discriminant);
+      const double q = -(c2 + (c2 < 0 ? -root : root));
+      consider(q / (3 * c3));
+      consider(c1 / q);
+    }
+    return best;
+  }
+
+  /// Between a place where it is at most `level` and one where it is above it.
+  [[nodiscard]] double crossing(double below, double above, double level) const noexcept {
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = 0.5 * (below + above);
+      (at(middle) <= level ? below : above) = middle;
+    }
+    return below;
+  }
+};
+
+/// The part of a cell where the gap is at most some level; empty if from > to.
+struct Span {
+  double from = 1;
+  double to = 0;
+  [[nodiscard]] double length() const noexcept { return to > from ? to - from : 0.0; }
+};
+
+Span span_below(const GapCubic& gap, double end, double at_end, double lowest, double level) {
+  if (!(gap.at(lowest) <= level)) return {};
+  return {gap.c0 <= level ? 0.0 : gap.crossing(lowest, 0, level),
+          at_end <= level ? end : gap.crossing(lowest, end, level)};
+}
+
+/// Balls of the axis between two knots.
+struct Piece {
+  double from = 0;
+  double to = 0;
+  double radius = 0;  ///< at `from`
+  double slope = 0;
+};
+
+/// A place of the axis with what the field says there.
+struct AxisPlace {
+  double gap = 0;
+  double z = 0;
+  Vec3 gradient{};  ///< mm/mm
+};
+
+class AxisWalk {
+ public:
+  AxisWalk(const ContactField& field,
+           const InstrumentShape& shape,
+           const Pose<frame::Bone, frame::Tool>& bone_from_tool,
+           double cap)
+      : field_(field), shape_(shape), pose_(bone_from_tool) {
+    const Vec3 axis = pose_.rotation.column(2);
+    front_ = field.cells_from_point(pose_.translation);
+    along_ = axis * field.per_spacing();
+    steepest_ = field.steepest() * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+    products_ = {along_.y * along_.z, along_.x * along_.z, along_.x * along_.y};
+    const auto& cells = field.cell_count();
+    steps_left_ = 64 + 4 * (cells[0] + cells[1] + cells[2]);
+    core_level_ =
+        shape.thread() ? -shape.thread()->depth_mm : -std::numeric_limits<double>::infinity();
+    best_.gap = cap;
+  }
+
+  /// False if the walk exceeded its bound.
+  bool run() noexcept {
+    const auto knots = shape_.knots();
+    if (knots.size() == 1) walk({knots[0].z_mm, knots[0].z_mm, knots[0].radius_mm, 0});
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+      const double length = knots[i].z_mm - knots[i - 1].z_mm;
+      const double rise = knots[i].radius_mm - knots[i - 1].radius_mm;
+      walk({knots[i - 1].z_mm, knots[i].z_mm, knots[i - 1].radius_mm,
+            length > 0 ? rise / length : 0.0});
+    }
+    if (is_open_) close();
+    return steps_left_ > 0;
+  }
+
+  [[nodiscard]] const AxisPlace& best() const noexcept { return best_; }
+  [[nodiscard]] bool found() const noexcept { return found_; }
+  [[nodiscard]] const ContactPatch& patch() const noexcept { return patch_; }
+
+  [[nodiscard]] Direction<frame::Bone> normal_at(const AxisPlace& place) const noexcept {
+    return {normalized_or(place.gradient, {0, 0, 0})};
+  }
+  [[nodiscard]] Point<frame::Bone> surface_at(const AxisPlace& place) const noexcept {
+    const double distance = place.gap + shape_.radius_at(place.z);
+    return {pose_.translation + pose_.rotation.column(2) * place.z - normal_at(place).v * distance};
+  }
+
+  /// Sums become figures.
+  void finish() noexcept {
+    patch_.centre_z_mm = weight_ > 0 ? weighted_z_ / weight_ : best_.z;
+    if (shape_.kind() == ShapeKind::Sphere && best_.gap < 0) {
+      const double depth = std::min(-best_.gap, shape_.greatest_radius_mm());
+      patch_.area_mm2 = kPi * depth * (2 * shape_.greatest_radius_mm() - depth);
+    }
+    if (shape_.thread()) patch_.thread_turns = patch_.length_mm / shape_.thread()->pitch_mm;
+  }
+
+ private:
+  /// What one stop of the walk knows.
+  struct Stop {
+    double z = 0;
+    double step = 0;    ///< to the cell's far border
+    double radius = 0;  ///< of the ball at z
+    double slope = 0;   ///< of the radius
+    Vec3 place;         ///< in the cell, 0 to 1
+    CellPolynomial polynomial;
+    GapCubic gap;
+  };
+
+  bool clip(Piece& piece) const noexcept {
+    const double start = piece.from;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double last = field_.cell_count()[a];
+      if (std::abs(along_[a]) < 1e-12) {
+        if (!(front_[a] >= 0 && front_[a] <= last)) return false;
+        continue;
+      }
+      const double at_low = -front_[a] / along_[a];
+      const double at_high = (last - front_[a]) / along_[a];
+      piece.from = std::max(piece.from, std::min(at_low, at_high));
+      piece.to = std::min(piece.to, std::max(at_low, at_high));
+    }
+    piece.radius += piece.slope * (piece.from - start);
+    return piece.from <= piece.to;
+  }
+
+  void walk(Piece piece) noexcept {
+    if (!clip(piece)) return;
+    const double steepest = steepest_ + std::abs(piece.slope);
+    double z = piece.from;
+    while (steps_left_ > 0) {
+      --steps_left_;
+      Stop stop = stop_at(z, piece);
+      const double stride = free_way(stop.gap.c0) / steepest;
+      if (stride > stop.step) {
+        stop.step = std::min(stride, piece.to - z);
+        pass_over(stop);
+      } else {
+        stop.step = std::min(stop.step, piece.to - z);
+        search(stop, steepest);
+      }
+      z += stop.step;
+      if (!(z < piece.to)) return;
+    }
+  }
+
+  [[nodiscard]] Stop stop_at(double z, const Piece& piece) const noexcept {
+    Stop stop;
+    stop.z = z;
+    stop.radius = piece.radius + piece.slope * (z - piece.from);
+    stop.slope = piece.slope;
+    stop.step = std::numeric_limits<double>::infinity();
+    std::array<int, 3> cell{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double x = front_[a] + along_[a] * z;
+      const int last = field_.cell_count()[a] - 1;
+      int i = std::clamp(static_cast<int>(x), 0, last);
+      if (along_[a] < 0 && x <= i && i > 0) --i;
+      cell[a] = i;
+      stop.place[a] = x - i;
+      if (along_[a] > 0) stop.step = std::min(stop.step, (1 - stop.place[a]) / along_[a]);
+      if (along_[a] < 0) stop.step = std::min(stop.step, -stop.place[a] / along_[a]);
+    }
+    stop.step = std::max(stop.step, kLeastStepMm);
+    (void)field_.load({cell[0], cell[1], cell[2]}, stop.polynomial);
+    const CellPolynomial& p = stop.polynomial;
+    stop.gap.c0 = p.value(stop.place) - stop.radius;
+    stop.gap.c1 = dot(p.slope(stop.place), along_) - stop.slope;
+    stop.gap.c2 = p.yz * products_.x + p.xz * products_.y + p.xy * products_.z +
+                  p.xyz * dot(stop.place, products_);
+    stop.gap.c3 = p.xyz * products_.x * along_.x;
+    return stop;
+  }
+
+  /// By how much the gap may change before it concerns the answer.
+  [[nodiscard]] double free_way(double gap) const noexcept {
+    if (gap > 0) return gap - std::max(best_.gap, 0.0);
+    return std::min({-gap, is_open_ ? gap - deepest_.gap : 0.0, std::abs(gap - core_level_)});
+  }
+
+  /// The rest of the stride is like its start: clear, or in contact at a depth of no interest.
+  void pass_over(const Stop& stop) noexcept {
+    if (stop.gap.c0 > 0) {
+      if (is_open_) close();
+      return;
+    }
+    touch(stop, {0, stop.step}, stop.gap.c0);
+    if (stop.gap.c0 <= core_level_) patch_.core_length_mm += stop.step;
+  }
+
+  void search(const Stop& stop, double steepest) noexcept {
+    const double at_end = stop.gap.at(stop.step);
+    const double lowest = 0.5 * (stop.gap.c0 + at_end - steepest * stop.step);
+    if (!is_open_ && lowest > std::max(best_.gap, 0.0)) return;
+    const double s = stop.gap.minimum(stop.step, at_end);
+    const double least = stop.gap.at(s);
+    if (least < best_.gap) {
+      best_ = place_in(stop, s, least);
+      found_ = true;
+    }
+    const Span span = span_below(stop.gap, stop.step, at_end, s, 0);
+    if (!(span.from <= span.to)) {
+      if (is_open_) close();
+      return;
+    }
+    if (!is_open_) open(stop.z + span.from);
+    if (least < deepest_.gap) deepest_ = place_in(stop, s, least);
+    touch(stop, span, stop.gap.at(0.5 * (span.from + span.to)));
+    patch_.core_length_mm += span_below(stop.gap, stop.step, at_end, s, core_level_).length();
+    if (span.to < stop.step) close();
+  }
+
+  [[nodiscard]] AxisPlace place_in(const Stop& stop, double s, double gap) const noexcept {
+    return {gap, stop.z + s, stop.polynomial.slope(stop.place + along_ * s) * field_.per_spacing()};
+  }
+
+  void touch(const Stop& stop, const Span& span, double gap_at_middle) noexcept {
+    const double length = span.length();
+    const double depth = std::max(-gap_at_middle, 0.0);
+    const double middle = 0.5 * (span.from + span.to);
+    const double radius = stop.radius + stop.slope * middle;
+    const double chord = depth < radius ? 2 * std::sqrt(depth * (2 * radius - depth)) : 2 * radius;
+    patch_.length_mm += length;
+    patch_.area_mm2 += length * chord;
+    weight_ += length * depth;
+    weighted_z_ += length * depth * (stop.z + middle);
+    to_ = stop.z + span.to;
+  }
+
+  void open(double z) noexcept {
+    is_open_ = true;
+    from_ = z;
+    deepest_ = {std::numeric_limits<double>::infinity(), z, {}};
+  }
+
+  void close() noexcept {
+    is_open_ = false;
+    ++patch_.stretches_found;
+    auto& kept = patch_.stretches;
+    std::size_t count = patch_.stretch_count;
+    if (count == kept.size()) {  // the shallowest goes, if it is not the new one
+      const auto shallowest =
+          std::min_element(kept.begin(), kept.end(),
+                           [](const auto& a, const auto& b) { return a.depth_mm < b.depth_mm; });
+      if (!(shallowest->depth_mm < -deepest_.gap)) return;
+      std::move(shallowest + 1, kept.end(), shallowest);
+      --count;
+    }
+    kept[count] = {
+        from_, to_, deepest_.z, -deepest_.gap, surface_at(deepest_), normal_at(deepest_)};
+    patch_.stretch_count = static_cast<std::uint8_t>(count + 1);
+  }
+
+  const ContactField& field_;
+  const InstrumentShape& shape_;
+  const Pose<frame::Bone, frame::Tool>& pose_;
+  Vec3 front_;     ///< the tool's origin in cells
+  Vec3 along_;     ///< its +z, cells per mm
+  Vec3 products_;  ///< of along_: yz, xz, xy
+  double steepest_ = 0;
+  double core_level_ = 0;
+  int steps_left_ = 0;
+
+  AxisPlace best_;
+  bool found_ = false;
+  bool is_open_ = false;  ///< a stretch is being walked
+  double from_ = 0;       ///< of that stretch
+  double to_ = 0;
+  AxisPlace deepest_;  ///< of that stretch
+  double weight_ = 0;
+  double weighted_z_ = 0;
+  ContactPatch patch_;
+};
+
+/// The least true gap where the field's gap is at least `gap` all along: bound (1) does not depend
+/// on the radius, bound (2) is weakest for the thinnest ball.
+double lowest_gap(const ContactField& field, const InstrumentShape& shape, double gap) noexcept {
+  const double radius = shape.least_radius_mm();
+  return field.lowest_distance(gap + radius) - radius;
+}
+
+}  // namespace
+
+SurfaceContact find_contact(const ContactField& field,
+                            const InstrumentShape& shape,
+                            const Pose<frame::Bone, frame::Tool>& bone_from_tool,
+                            double within_mm) noexcept {
+  SurfaceContact result;
+  const double greatest = greatest_gap_mm(field, shape);
+  const bool is_pose_finite =
+      is_finite(bone_from_tool.translation) && is_finite(bone_from_tool.rotation.column(2));
+  if (!(greatest > 0 && is_pose_finite)) return result;
+  const double cap = within_mm > 0 ? std::min(within_mm, greatest) : 0.0;
+  AxisWalk walk(field, shape, bone_from_tool, cap);
+  if (!walk.run()) return result;
+
+  const AxisPlace& best = walk.best();
+  result.gap_mm = best.gap;
+  result.lowest_gap_mm = lowest_gap(field, shape, best.gap);
+  if (!walk.found()) {
+    result.outcome = ContactOutcome::Far;
+    result.gap_mm = result.lowest_gap_mm;
+    result.highest_gap_mm = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  walk.finish();
+  const double radius = shape.radius_at(best.z);
+  const double sample = best.gap + radius;
+  result.highest_gap_mm = field.highest_distance(sample) - radius;
+  result.z_mm = best.z;
+  result.point = walk.surface_at(best);
+  result.normal = walk.normal_at(best);
+  result.steepness = length(best.gradient);
+  result.patch = walk.patch();
+  result.outcome = best.gap > 0 ? ContactOutcome::Near : ContactOutcome::Touching;
+  if (sample <= -field.band_mm() * (1 - 1e-4)) {
+    result.outcome = ContactOutcome::Buried;
+    result.lowest_gap_mm = -std::numeric_limits<double>::infinity();
+  }
+  return result;
+}
+
+}  // namespace carpus::collision
