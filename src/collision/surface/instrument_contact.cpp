@@ -321,14 +321,14 @@ class AxisWalk {
   ContactPatch patch_;
 };
 
-/// The least true gap where the field's gap is at least `gap` all along: bound (1) does not depend
-/// on the radius, bound (2) is weakest for the thinnest ball.
-double lowest_gap(const ContactField& field, const InstrumentShape& shape, double gap) noexcept {
-  const double radius = shape.least_radius_mm();
-  return field.lowest_distance(gap + radius) - radius;
-}
-
 }  // namespace
+
+double lowest_gap_mm(const ContactField& field,
+                     const InstrumentShape& shape,
+                     double field_gap_mm) noexcept {
+  const double radius = shape.least_radius_mm();
+  return field.lowest_distance(field_gap_mm + radius) - radius;
+}
 
 SurfaceContact find_contact(const ContactField& field,
                             const InstrumentShape& shape,
@@ -345,7 +345,7 @@ SurfaceContact find_contact(const ContactField& field,
 
   const AxisPlace& best = walk.best();
   result.gap_mm = best.gap;
-  result.lowest_gap_mm = lowest_gap(field, shape, best.gap);
+  result.lowest_gap_mm = lowest_gap_mm(field, shape, best.gap);
   if (!walk.found()) {
     result.outcome = ContactOutcome::Far;
     result.gap_mm = result.lowest_gap_mm;

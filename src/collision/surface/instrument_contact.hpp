@@ -82,6 +82,12 @@ struct SurfaceContact {
   return field.reach_mm() - field.error_mm() - shape.greatest_radius_mm();
 }
 
+/// The least true gap where the field's gap is at least `field_gap_mm` all along the shape: bound
+/// (1) does not depend on the radius, bound (2) is weakest for the thinnest ball.
+[[nodiscard]] double lowest_gap_mm(const ContactField& field,
+                                   const InstrumentShape& shape,
+                                   double field_gap_mm) noexcept;
+
 /// @param within_mm  gaps up to this are told as Near; at most greatest_gap_mm().
 /// Depends on its arguments alone. Real-time: no allocation, only + - * / and sqrt. Cost: one
 /// polynomial for each cell that the axis meets near the surface, strides of the field's value
