@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "collision/allocation_test_support.hpp"
@@ -315,23 +314,6 @@ TEST(InstrumentContact, AllocatesNothing) {
     }
   }
   EXPECT_EQ(test::stop_counting_allocations(), 0);
-}
-
-TEST(InstrumentContact, LiesWithinItsBoundsOnReferenceBones) {
-  Rng rng(8);
-  for (const std::string name : {"scaphoid", "hamate", "radius"}) {
-    const TriangleMesh mesh = test::reference_bone(name);
-    if (mesh.facets.empty()) {
-      GTEST_SKIP() << "no reference wrist; set CARPUS_REFERENCE_WRIST to its folder";
-    }
-    if (name != "scaphoid" && amount(0, 0, 1) == 0) continue;
-    const Body body(mesh);
-    for (const InstrumentShape& shape : instruments()) {
-      for (int i = 0; i < amount(2, 10, 1000); ++i) {
-        expect_true_contact(body, shape, pose_near(body, shape, rng));
-      }
-    }
-  }
 }
 
 }  // namespace

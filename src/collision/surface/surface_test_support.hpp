@@ -4,12 +4,9 @@
 // Closed test surfaces with hollows, and poses, for the tests of contact with true surfaces.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -96,35 +93,6 @@ inline constexpr double kPi = 3.14159265358979323846;
   }
   mesh.facets = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-/// A bone of the reference wrist as 32-bit floats give it; empty where that is absent
-/// ($CARPUS_REFERENCE_WRIST, default ../shared/reference-wrist). Reads what those files hold and no
-/// other PLY.
-[[nodiscard]] inline TriangleMesh reference_bone(const std::string& name) {
-  const char* set = std::getenv("CARPUS_REFERENCE_WRIST");  // NOLINT(concurrency-mt-unsafe)
-  const std::string folder = set != nullptr ? set : "../shared/reference-wrist";
-  std::ifstream file(folder + "/meshes/" + name + ".ply", std::ios::binary);
-  std::size_t vertices = 0;
-  std::size_t facets = 0;
-  for (std::string line; std::getline(file, line) && line != "end_header";) {
-    if (line.starts_with("element vertex ")) vertices = std::stoul(line.substr(15));
-    if (line.starts_with("element face ")) facets = std::stoul(line.substr(13));
-  }
-  TriangleMesh mesh;
-  for (std::size_t i = 0; i < vertices; ++i) {
-    std::array<float, 3> v{};
-    file.read(reinterpret_cast<char*>(v.data()), sizeof v);
-    mesh.vertices.push_back({v[0], v[1], v[2]});
-  }
-  for (std::size_t i = 0; i < facets; ++i) {
-    std::array<std::int32_t, 3> t{};
-    file.get();
-    file.read(reinterpret_cast<char*>(t.data()), sizeof t);
-    mesh.facets.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
-                           static_cast<std::uint32_t>(t[2])});
-  }
   return mesh;
 }
 
