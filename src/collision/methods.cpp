@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "collision/closest/active_set.hpp"
 #include "collision/closest/gjk.hpp"
 #include "collision/ivri/ivri_cd.hpp"
 #include "collision/lp/growth.hpp"
@@ -26,6 +27,9 @@ std::span<const Method> all_methods() {
       Method{"ivri", "yaacoub2008", false, false,
              "approximate: gaps below 1e-9 mm count as contact; bodies of 1e-3 to 1e5 mm",
              make_ivri_query},
+      Method{"closest_active_set", "wolfe1976nearest", true, false, "", make_closest_active_set},
+      Method{"gjk", "gilbert1988distance", true, false, "", make_gjk},
+      Method{"gjk_table", "cameron1997enhancing", true, false, "", make_gjk_table},
   };
   return kMethods;
 }

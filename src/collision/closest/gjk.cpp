@@ -54,7 +54,7 @@ bool GjkWalk::last_axis_separates(const PosedPair& pair) noexcept {
   return dot(highest_.at, v) > pair.rounding_mm() * length(v);
 }
 
-Verdict GjkWalk::iterate(const PosedPair& pair, Goal goal) noexcept {
+Verdict GjkWalk::iterate(const PosedPair& pair, Goal goal, double gap_mm) noexcept {
   if (!pair.is_usable()) return Verdict::Unknown;
   if (goal == Goal::Verdict && last_axis_separates(pair)) return Verdict::Apart;
   has_axis_ = false;
@@ -77,22 +77,20 @@ Verdict GjkWalk::iterate(const PosedPair& pair, Goal goal) noexcept {
     has_axis_ = away > rounding;
     highest_ = p;
     if (goal == Goal::Verdict && has_axis_) return Verdict::Apart;
-    const double gap = std::sqrt(squared) - away;
-    if (gap <= rounding + 16 * kRoundoff * away) return Verdict::Apart;
-    is_stuck = is_stuck || has(p);
-    if (is_stuck) {
-      // Rounding hides the next step. What is far from both verdicts is certain all the same.
-      return away > rounding ? Verdict::Apart : Verdict::Unknown;
-    }
+    gap_mm_ = std::sqrt(squared) - away;
+    if (gap_mm_ <= gap_mm) return Verdict::Apart;
+    if (is_stuck || has(p)) return Verdict::Unknown;
     points_[count_++] = p;
   }
   return Verdict::Unknown;
 }
 
-Verdict GjkWalk::decide(const PosedPair& pair) noexcept { return iterate(pair, Goal::Verdict); }
+Verdict GjkWalk::decide(const PosedPair& pair) noexcept {
+  return iterate(pair, Goal::Verdict, pair.rounding_mm());
+}
 
-Verdict GjkWalk::find_nearest(const PosedPair& pair) noexcept {
-  return iterate(pair, Goal::Distance);
+Verdict GjkWalk::find_nearest(const PosedPair& pair, double gap_mm) noexcept {
+  return iterate(pair, Goal::Distance, gap_mm);
 }
 
 Closest closest_of(const PosedPair& pair,
@@ -120,7 +118,12 @@ Verdict Gjk::meets(const PairPose& first_from_second) noexcept {
 
 std::optional<Closest> Gjk::closest(const PairPose& first_from_second) noexcept {
   const PosedPair pair(first_, second_, first_from_second);
-  if (walk_.find_nearest(pair) != Verdict::Apart) return std::nullopt;
+  const Verdict verdict = walk_.find_nearest(pair, pair.rounding_mm());
+  // Where rounding ends the search, the last point is the best that this method has.
+  const bool is_apart =
+      verdict == Verdict::Apart || (verdict == Verdict::Unknown && walk_.count() > 0 &&
+                                    walk_.gap_mm() < length(walk_.nearest().point));
+  if (!is_apart) return std::nullopt;
   return closest_of(pair, walk_.points(), walk_.nearest());
 }
 

@@ -28,8 +28,9 @@ class GjkWalk {
   /// Ends as soon as a plane separates the bodies or a tetrahedron of the difference holds the
   /// origin. Meet also if the origin is within the rounding of the difference's boundary.
   [[nodiscard]] Verdict decide(const PosedPair& pair) noexcept;
-  /// Ends with the nearest point of the difference, to a few roundings of the bodies' size.
-  [[nodiscard]] Verdict find_nearest(const PosedPair& pair) noexcept;
+  /// Ends with the nearest point of the difference: Apart if it is proven to within `gap_mm`, or
+  /// Unknown if rounding hides the next step; then gap_mm() says what is proven.
+  [[nodiscard]] Verdict find_nearest(const PosedPair& pair, double gap_mm) noexcept;
   void forget() noexcept {
     count_ = 0;
     has_axis_ = false;
@@ -40,10 +41,19 @@ class GjkWalk {
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
   /// After Apart: the nearest point of points().
   [[nodiscard]] const SimplexNearest<Vec3>& nearest() const noexcept { return nearest_; }
+  /// How much nearer than that the difference could be, at most: a plane across the nearest point,
+  /// moved towards the origin by this much, has the whole difference behind it.
+  [[nodiscard]] double gap_mm() const noexcept { return gap_mm_; }
+
+  /// Goes on from other corners.
+  void set_points(const std::array<DifferencePoint, 4>& points, std::size_t count) noexcept {
+    points_ = points;
+    count_ = count;
+  }
 
  private:
   enum class Goal : bool { Verdict, Distance };
-  [[nodiscard]] Verdict iterate(const PosedPair& pair, Goal goal) noexcept;
+  [[nodiscard]] Verdict iterate(const PosedPair& pair, Goal goal, double gap_mm) noexcept;
   void place_last(const PosedPair& pair) noexcept;
   void keep_used() noexcept;
   [[nodiscard]] bool has(const DifferencePoint& point) const noexcept;
@@ -53,7 +63,8 @@ class GjkWalk {
   std::size_t count_ = 0;
   SimplexNearest<Vec3> nearest_;
   DifferencePoint highest_;  ///< where the last walks ended
-  bool has_axis_ = false;    ///< nearest_.point separated the bodies last time
+  double gap_mm_ = 0;
+  bool has_axis_ = false;  ///< nearest_.point separated the bodies last time
   ClimbStart start_;
 };
 

@@ -2,19 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/closest/posed_pair.hpp"
 
+#include <cmath>
+
 #include "collision/closest/double_double.hpp"
 
 namespace carpus::collision {
 namespace {
 
+/// Frames' origins farther from the bodies than this times their size: coordinates cancel, and
+/// their difference is computed with twice the digits (some 100 ns).
+constexpr double kFarAway = 32;
+
 /// row . v + t - c, rounded once.
-double offset_along(const Vec3& row, const Vec3& v, double t, double c) noexcept {
+double wide_offset(const Vec3& row, const Vec3& v, double t, double c) noexcept {
   DoubleDouble sum = DoubleDouble::sum(t, -c);
   sum = sum + DoubleDouble::product(row.x, v.x);
   sum = sum + DoubleDouble::product(row.y, v.y);
   sum = sum + DoubleDouble::product(row.z, v.z);
   return sum.high;
 }
+
+double size_of(const Vec3& v) noexcept { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 }  // namespace
 
@@ -24,15 +32,23 @@ PosedPair::PosedPair(const SupportGraph& first,
     : first_(first), second_(second), rotation_(pose.rotation) {
   const Vec3& from = second.centre();
   const Vec3& to = first.centre();
-  offset_ = {offset_along(rotation_.rows[0], from, pose.translation.x, to.x),
-             offset_along(rotation_.rows[1], from, pose.translation.y, to.y),
-             offset_along(rotation_.rows[2], from, pose.translation.z, to.z)};
-  // The matrix is used as it is given; its Frobenius norm bounds what it does to lengths (and is
-  // not a number where one of its entries is not).
+  const double bodies = first.radius_mm() + second.radius_mm();
+  double cancelled = size_of(from) + size_of(to) + size_of(pose.translation);
+  if (cancelled <= kFarAway * bodies) {
+    offset_ = rotation_ * from + (pose.translation - to);
+  } else {
+    offset_ = {wide_offset(rotation_.rows[0], from, pose.translation.x, to.x),
+               wide_offset(rotation_.rows[1], from, pose.translation.y, to.y),
+               wide_offset(rotation_.rows[2], from, pose.translation.z, to.z)};
+    cancelled = 0;
+  }
+  // The matrix is used as it is given. (1 + F^2) / 2 >= F, its Frobenius norm, which bounds what it
+  // does to lengths (and is not a number where one of its entries is not).
   const double stretch =
-      std::sqrt(squared_length(rotation_.rows[0]) + squared_length(rotation_.rows[1]) +
-                squared_length(rotation_.rows[2]));
-  scale_mm_ = first.radius_mm() + stretch * second.radius_mm() + length(offset_);
+      0.5 + 0.5 * (squared_length(rotation_.rows[0]) + squared_length(rotation_.rows[1]) +
+                   squared_length(rotation_.rows[2]));
+  scale_mm_ = first.radius_mm() + stretch * second.radius_mm() + size_of(offset_);
+  rounding_mm_ = 16 * kRoundoff * scale_mm_ + 4 * kRoundoff * cancelled;
 }
 
 }  // namespace carpus::collision

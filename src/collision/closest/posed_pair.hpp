@@ -42,10 +42,8 @@ class PosedPair {
 
   /// False where the pose is not a number or the scale leaves 1e-30 to 1e30 mm: no answer.
   [[nodiscard]] bool is_usable() const noexcept { return scale_mm_ > 1e-30 && scale_mm_ < 1e30; }
-  /// Of what is computed: both radii and the distance of the centres [mm].
-  [[nodiscard]] double scale_mm() const noexcept { return scale_mm_; }
-  /// Rounding of one height of a corner [mm]: 16 roundings of the scale.
-  [[nodiscard]] double rounding_mm() const noexcept { return 16 * kRoundoff * scale_mm_; }
+  /// Rounding of one height of a corner [mm], a bound.
+  [[nodiscard]] double rounding_mm() const noexcept { return rounding_mm_; }
 
   /// The second body's centre [mm].
   [[nodiscard]] const Vec3& offset() const noexcept { return offset_; }
@@ -87,7 +85,8 @@ class PosedPair {
   const SupportGraph& second_;
   Mat3 rotation_;
   Vec3 offset_;
-  double scale_mm_;
+  double scale_mm_;  // of what is computed: both radii and the distance of the centres
+  double rounding_mm_;
 };
 
 }  // namespace carpus::collision

@@ -54,6 +54,10 @@ class Judge {
 
   /// Negative where the bodies are apart.
   [[nodiscard]] double depth_mm() const { return static_cast<double>(depth_); }
+  /// Where they are.
+  [[nodiscard]] double distance_mm() const {
+    return static_cast<double>(exhaustive_distance(a_, b_));
+  }
   [[nodiscard]] bool is_apart() const { return depth_ < -tolerance_mm_; }
   [[nodiscard]] bool is_meeting() const { return depth_ > tolerance_mm_; }
 
@@ -73,8 +77,7 @@ class Judge {
     }
     if (!answer || is_meeting()) return;
     if (is_apart()) {
-      EXPECT_NEAR(answer->distance_mm, static_cast<double>(exhaustive_distance(a_, b_)),
-                  tolerance_mm_);
+      EXPECT_NEAR(answer->distance_mm, distance_mm(), tolerance_mm_);
     }
     EXPECT_NEAR(length(answer->normal), 1, 1e-12);
     expect_on_bodies(answer->on_first, answer->on_second);
