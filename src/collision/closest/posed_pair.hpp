@@ -37,6 +37,13 @@ class PosedPair {
  public:
   PosedPair(const SupportGraph& first, const SupportGraph& second, const PairPose& pose) noexcept;
 
+  /// The same with the second body moved by `step` [mm].
+  [[nodiscard]] PosedPair moved_by(const Vec3& step) const noexcept {
+    PosedPair result = *this;
+    result.offset_ += step;
+    return result;
+  }
+
   [[nodiscard]] const SupportGraph& first() const noexcept { return first_; }
   [[nodiscard]] const SupportGraph& second() const noexcept { return second_; }
 

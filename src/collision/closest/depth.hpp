@@ -1,0 +1,81 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact penetration depth: the nearest facet of the Minkowski difference, with proof, warm.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "collision/closest/expanding_polytope.hpp"
+#include "collision/closest/gjk.hpp"
+#include "collision/closest/lowest_facet.hpp"
+
+namespace carpus::collision {
+
+/// Corners that the polytope may have; beyond, all facets are gone through.
+inline constexpr std::size_t kMostDepthCorners = 160;
+
+/// How the queries of a pair were answered.
+struct DepthCounts {
+  std::uint64_t warm = 0;        ///< by the polytope of the query before
+  std::uint64_t cold = 0;        ///< by a new one
+  std::uint64_t enumerated = 0;  ///< by all facets: the polytope was full or rounding broke it
+  std::uint64_t growths = 0;     ///< corners added in all
+};
+
+/// The depth lies between two bounds: each supporting plane of the difference bounds it from above
+/// (moving by its height parts the bodies), and a ball inside the difference from below. The
+/// polytope grows at its triangle nearest to the origin until that triangle's plane supports the
+/// difference: both bounds agree to 1e-12 of the bodies' size, and the nearest facet is found
+/// exactly, ties and symmetric bodies included. The surface is kept; at the next pose its corners
+/// are moved, and often nothing but the two bounds is left to be computed. Where that ends without
+/// proof - more facets all but tie than there is room for, or slivers - all facets are gone through
+/// (lowest_facet.hpp). Depths of bodies up to 1 m: right to 1e-9 mm.
+/// Cost: 1 to 3 us warm, 5 to 15 us cold; below a millisecond where all facets tie.
+/// Sources: [vandenbergen2001depth]; the proof by winding and the fallback are ours.
+class DepthExact final : public PairQuery {
+ public:
+  DepthExact(const ConvexBody& first, const ConvexBody& second)
+      : first_(first),
+        second_(second),
+        first_graph_(first.derived<SupportGraph>()),
+        second_graph_(second.derived<SupportGraph>()),
+        walk_(ClimbStart::Table),
+        polytope_(kMostDepthCorners) {}
+
+  [[nodiscard]] Verdict meets(const PairPose& first_from_second) noexcept override;
+  [[nodiscard]] std::optional<Penetration> penetration(
+      const PairPose& first_from_second) noexcept override;
+  void forget() noexcept override {
+    walk_.forget();
+    polytope_.clear();
+  }
+
+  [[nodiscard]] const DepthCounts& counts() const noexcept { return counts_; }
+
+ private:
+  struct Facet {
+    Vec3 normal;
+    double height_mm = 0;
+    std::array<DifferencePoint, 4> corners{};  // three
+  };
+
+  [[nodiscard]] std::optional<Facet> grow_to_facet(const PosedPair& pair, double gap_mm) noexcept;
+  [[nodiscard]] std::optional<Facet> warm_facet(const PosedPair& pair, double gap_mm) noexcept;
+
+  const ConvexBody& first_;
+  const ConvexBody& second_;
+  const SupportGraph& first_graph_;
+  const SupportGraph& second_graph_;
+  GjkWalk walk_;
+  ExpandingPolytope polytope_;
+  LowestFacet best_;  // of the query: the lowest supporting plane so far
+  DepthCounts counts_;
+};
+
+[[nodiscard]] std::unique_ptr<PairQuery> make_depth_exact(const ConvexBody& first,
+                                                          const ConvexBody& second);
+
+}  // namespace carpus::collision

@@ -1,0 +1,94 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/closest/epa.hpp"
+
+#include <cmath>
+
+namespace carpus::collision {
+namespace {
+
+/// The farther one of the farthest points along d and -d from the plane or line through `origin`.
+DifferencePoint farther(const PosedPair& pair,
+                        const Vec3& d,
+                        const DifferencePoint& origin) noexcept {
+  const DifferencePoint p = pair.farthest(d, origin, ClimbStart::Table);
+  const DifferencePoint q = pair.farthest(-d, origin, ClimbStart::Table);
+  return dot(p.at - origin.at, d) >= dot(origin.at - q.at, d) ? p : q;
+}
+
+}  // namespace
+
+std::array<DifferencePoint, 4> spanning_points(const PosedPair& pair,
+                                               const Vec3& direction) noexcept {
+  const Vec3 n = normalized_or(direction, {1, 0, 0});
+  std::array<DifferencePoint, 4> p;
+  p[0] = pair.farthest(n, {}, ClimbStart::Table);
+  p[1] = pair.farthest(-n, p[0], ClimbStart::Table);
+  const Vec3 line = normalized_or(p[1].at - p[0].at, -n);
+  // Across the line: of two directions at right angles, one sees the body's width.
+  const Vec3 u = any_perpendicular(line);
+  const Vec3 w = cross(line, u);
+  const DifferencePoint a = farther(pair, u, p[0]);
+  const DifferencePoint b = farther(pair, w, p[0]);
+  const bool is_a = length(cross(a.at - p[0].at, line)) >= length(cross(b.at - p[0].at, line));
+  p[2] = is_a ? a : b;
+  p[3] = farther(pair, normalized_or(cross(line, p[2].at - p[0].at), n), p[0]);
+  return p;
+}
+
+bool start_polytope(ExpandingPolytope& polytope,
+                    const PosedPair& pair,
+                    const GjkWalk& walk) noexcept {
+  if (walk.count() == 4 && polytope.start(walk.points())) return true;
+  return polytope.start(spanning_points(pair, -pair.offset()));
+}
+
+Penetration penetration_of(const PosedPair& pair,
+                           const Vec3& normal,
+                           double height_mm,
+                           const std::array<DifferencePoint, 4>& near,
+                           std::size_t near_count) noexcept {
+  Penetration result;
+  result.depth_mm = height_mm > 0 ? height_mm : 0;
+  result.direction = -normal;
+  // After the move the foot of the plane is at the origin: there the bodies touch, and GJK, begun
+  // at the facet, names weights of its corners.
+  GjkWalk walk(ClimbStart::LastCorner);
+  walk.set_points(near, near_count);
+  const Verdict verdict = walk.find_nearest(pair.moved_by(normal * -height_mm), pair.rounding_mm());
+  (void)verdict;  // touching within rounding is either one
+  const Closest touch = closest_of(pair, walk.points(), walk.nearest());
+  result.on_first = touch.on_first;
+  result.on_second = touch.on_second;
+  return result;
+}
+
+Verdict Epa::meets(const PairPose& first_from_second) noexcept {
+  return walk_.decide({first_, second_, first_from_second});
+}
+
+std::optional<Penetration> Epa::penetration(const PairPose& first_from_second) noexcept {
+  const PosedPair pair(first_, second_, first_from_second);
+  if (walk_.decide(pair) != Verdict::Meet) return std::nullopt;
+  if (!start_polytope(polytope_, pair, walk_)) return std::nullopt;
+  while (true) {  // ends: each turn takes a corner, and their number is bounded
+    const std::uint16_t t = polytope_.lowest();
+    const ExpandingPolytope::Triangle& facet = polytope_.triangle(t);
+    const DifferencePoint near = polytope_.corner(facet.corners[0]);
+    const DifferencePoint p = pair.farthest(facet.normal, near, ClimbStart::Table);
+    const double height = dot(p.at, facet.normal);
+    const bool is_done = height - facet.height <= kEpaToleranceMm;
+    if (is_done || polytope_.grow(p, t, pair.rounding_mm()) != ExpandingPolytope::Growth::Grown) {
+      return penetration_of(pair, facet.normal, height,
+                            {polytope_.corner(facet.corners[0]), polytope_.corner(facet.corners[1]),
+                             polytope_.corner(facet.corners[2])},
+                            3);
+    }
+  }
+}
+
+std::unique_ptr<PairQuery> make_epa(const ConvexBody& first, const ConvexBody& second) {
+  return std::make_unique<Epa>(first, second);
+}
+
+}  // namespace carpus::collision
