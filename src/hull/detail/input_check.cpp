@@ -1,9 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// 1. the extreme points of each axis, of which the farthest two; 2. the point farthest from their
-// line; 3. the point farthest from the plane. "Farthest" is rounded and only a good choice; that
-// the choice is not degenerate is checked exactly, and any point that is not is searched otherwise.
+// 1. The farthest two of the axes' extremes; 2. the extreme farthest from their line; 3. the
+// extreme farthest from the plane. "Farthest" is rounded and only a good choice; that the choice is
+// not degenerate is checked exactly, and any point that is not is searched otherwise.
 #include "hull/detail/input_check.hpp"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "geometry/aabb.hpp"
 #include "geometry/predicates.hpp"
+#include "hull/detail/extreme_points.hpp"
 #include "hull/detail/orientation.hpp"
 
 namespace carpus::hull {
@@ -23,66 +23,41 @@ HullStatus name_bad_coordinate(std::span<const Vec3> points) {
                                                               : HullStatus::NotFinite;
 }
 
-HullStatus check_coordinates(std::span<const Vec3> points) {
-  if (points.size() < 4) return HullStatus::TooFewPoints;
-  const auto is_in_range = [](double c) {  // false for NaN
-    const double size = std::abs(c);
-    return (size <= kLargestCoordinate) & ((size >= kSmallestCoordinate) | (c == 0));
-  };
-  bool all_in_range = true;
-  for (const Vec3& p : points) {
-    all_in_range &= is_in_range(p.x) & is_in_range(p.y) & is_in_range(p.z);
-  }
-  return all_in_range ? HullStatus::Ok : name_bad_coordinate(points);
-}
+using Extremes = std::array<std::uint32_t, 14>;
 
-/// Index of the first point with the largest `measure`.
+/// The extreme with the largest `measure`.
 template <typename Measure>
-std::uint32_t index_of_max(std::span<const Vec3> points, Measure measure) {
-  std::uint32_t best = 0;
-  double best_value = measure(points[0]);
-  for (std::uint32_t i = 1; i < points.size(); ++i) {
-    const double value = measure(points[i]);
-    if (value > best_value) {
-      best_value = value;
-      best = i;
-    }
-  }
-  return best;
+std::uint32_t extreme_of_max(std::span<const Vec3> points,
+                             const Extremes& extremes,
+                             const Measure& measure) {
+  return *std::max_element(extremes.begin(), extremes.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return measure(points[i]) < measure(points[j]);
+  });
 }
 
-std::pair<std::uint32_t, std::uint32_t> far_pair(std::span<const Vec3> points) {
-  std::array<std::uint32_t, 6> extremes{};
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (points[i][axis] < points[extremes[2 * axis]][axis]) extremes[2 * axis] = i;
-      if (points[i][axis] > points[extremes[2 * axis + 1]][axis]) extremes[2 * axis + 1] = i;
-    }
-  }
-  std::pair<std::uint32_t, std::uint32_t> best{extremes[0], extremes[1]};
-  double best_span = -1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::uint32_t a = extremes[2 * axis];
-    const std::uint32_t b = extremes[2 * axis + 1];
-    if (const double span = points[b][axis] - points[a][axis]; span > best_span) {
-      best_span = span;
-      best = {a, b};
-    }
-  }
-  return best;
+/// The ends of the longest axis.
+std::pair<std::uint32_t, std::uint32_t> far_pair(const Extremes& extremes, const Vec3& extent) {
+  const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                           : extent.y >= extent.z                       ? 1
+                                                                        : 2;
+  return {extremes[2 * axis], extremes[2 * axis + 1]};
 }
 
 }  // namespace
 
 StartSimplex find_start_simplex(std::span<const Vec3> points, HullStatistics& statistics) {
   StartSimplex result;
-  result.status = check_coordinates(points);
-  if (result.status != HullStatus::Ok) return result;
-
-  const auto [ia, ib] = far_pair(points);
+  if (points.size() < 4) return result;
+  const ExtremePoints found = find_extremes(points);
+  if (!found.are_in_range) {
+    result.status = name_bad_coordinate(points);
+    return result;
+  }
+  result.extremes = found.index;
+  result.extent = (found.high - found.low) * (1 + 4 * kRoundoff);
+  const auto [ia, ib] = far_pair(result.extremes, result.extent);
   const Vec3 a = points[ia];
   const Vec3 b = points[ib];
-  result.extent = bounds_of(points).extent() * (1 + 4 * kRoundoff);
   const double size = std::max({result.extent.x, result.extent.y, result.extent.z});
   if (size == 0) {
     result.status = HullStatus::Collinear;
@@ -90,22 +65,24 @@ StartSimplex find_start_simplex(std::span<const Vec3> points, HullStatistics& st
   }
   const double scale = 1 / size;  // so that products neither overflow nor underflow
   const Vec3 line = (b - a) * scale;
-  std::uint32_t ic = index_of_max(
-      points, [&](const Vec3& p) { return squared_length(cross(line, (p - a) * scale)); });
+  std::uint32_t ic = extreme_of_max(points, result.extremes, [&](const Vec3& p) {
+    return squared_length(cross(line, (p - a) * scale));
+  });
   if (are_collinear(a, b, points[ic])) {
-    const auto found = std::find_if(points.begin(), points.end(),
+    const auto other = std::find_if(points.begin(), points.end(),
                                     [&](const Vec3& p) { return !are_collinear(a, b, p); });
-    if (found == points.end()) {
+    if (other == points.end()) {
       result.status = HullStatus::Collinear;
       return result;
     }
-    ic = static_cast<std::uint32_t>(found - points.begin());
+    ic = static_cast<std::uint32_t>(other - points.begin());
   }
 
   const Vec3 c = points[ic];
   const Vec3 normal = cross(line, (c - a) * scale);
-  std::uint32_t id =
-      index_of_max(points, [&](const Vec3& p) { return std::abs(dot(normal, (p - a) * scale)); });
+  std::uint32_t id = extreme_of_max(points, result.extremes, [&](const Vec3& p) {
+    return std::abs(dot(normal, (p - a) * scale));
+  });
   int side = counted_orient3d(a, b, c, points[id], statistics);
   for (std::uint32_t i = 0; side == 0 && i < points.size(); ++i) {
     side = counted_orient3d(a, b, c, points[i], statistics);
@@ -115,6 +92,7 @@ StartSimplex find_start_simplex(std::span<const Vec3> points, HullStatistics& st
     result.status = HullStatus::Coplanar;
     return result;
   }
+  result.status = HullStatus::Ok;
   result.corners = side < 0 ? std::array{ia, ib, ic, id} : std::array{ia, ic, ib, id};
   return result;
 }

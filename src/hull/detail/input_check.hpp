@@ -19,9 +19,12 @@ struct StartSimplex {
   HullStatus status = HullStatus::TooFewPoints;
   std::array<std::uint32_t, 4> corners{};
   Vec3 extent;  ///< a bound on the coordinate differences of any two points, per axis
+  /// The points that are farthest along the axes and the diagonals of the octants; some repeated.
+  std::array<std::uint32_t, 14> extremes{};
 };
 
-/// Checks the coordinates and chooses far-apart points; O(n).
+/// Checks the coordinates and chooses far-apart points; O(n), in one sweep unless the points are
+/// nearly flat.
 [[nodiscard]] StartSimplex find_start_simplex(std::span<const Vec3> points,
                                               HullStatistics& statistics);
 

@@ -1,0 +1,149 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vertices are numbered in input order by counting the bits of a set below them; facets are put in
+// order by counting, since each vertex is the lowest of a few only.
+#include "hull/detail/number_hull.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hull/detail/finish_hull.hpp"
+#include "hull/detail/whole_faces.hpp"
+
+namespace carpus::hull {
+namespace {
+
+/// Above this many facets of one lowest vertex they are sorted, not inserted one by one.
+constexpr std::uint32_t kMostInserted = 24;
+
+/// A set of input indices that knows how many members are below one.
+class IndexSet {
+ public:
+  explicit IndexSet(std::size_t size) : words_(size / 64 + 1), below_(size / 64 + 1) {}
+  void insert(std::uint32_t i) { words_[i / 64] |= std::uint64_t{1} << (i % 64); }
+  /// To be called once, after the last insertion.
+  std::uint32_t count() {
+    std::uint32_t sum = 0;
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      below_[w] = sum;
+      sum += static_cast<std::uint32_t>(std::popcount(words_[w]));
+    }
+    return sum;
+  }
+  [[nodiscard]] std::uint32_t rank(std::uint32_t i) const {
+    const std::uint64_t lower = words_[i / 64] & ((std::uint64_t{1} << (i % 64)) - 1);
+    return below_[i / 64] + static_cast<std::uint32_t>(std::popcount(lower));
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+  std::vector<std::uint32_t> below_;
+};
+
+/// Numbers the vertices that facets have, and renames the facets' corners.
+void number_vertices(std::span<const Vec3> points,
+                     const GrownHull& hull,
+                     std::vector<FinalFacet>& facets,
+                     ConvexPolytope& polytope) {
+  std::vector<std::uint32_t> renamed(hull.vertices.size(), kNone);
+  for (const FinalFacet& facet : facets) {
+    for (const std::uint32_t v : facet.corners) renamed[v] = 0;
+  }
+  IndexSet used(points.size());
+  for (std::size_t v = 0; v < renamed.size(); ++v) {
+    if (renamed[v] != kNone) used.insert(hull.input_indices[v]);
+  }
+  const std::uint32_t count = used.count();
+  polytope.vertices.resize(count);
+  polytope.input_indices.resize(count);
+  for (std::size_t v = 0; v < renamed.size(); ++v) {
+    if (renamed[v] == kNone) continue;
+    const std::uint32_t rank = used.rank(hull.input_indices[v]);
+    renamed[v] = rank;
+    polytope.vertices[rank] = hull.vertices[v];
+    polytope.input_indices[rank] = hull.input_indices[v];
+  }
+  for (FinalFacet& facet : facets) {
+    for (std::uint32_t& v : facet.corners) v = renamed[v];
+  }
+}
+
+/// Turns each facet to begin with its lowest vertex.
+void turn_to_lowest(std::vector<FinalFacet>& facets) {
+  for (FinalFacet& facet : facets) {
+    const auto [a, b, c] = facet.corners;
+    const auto [x, y, z] = facet.neighbours;
+    if (b < a && b < c) {
+      facet = {{b, c, a}, {y, z, x}};
+    } else if (c < a && c < b) {
+      facet = {{c, a, b}, {z, x, y}};
+    }
+  }
+}
+
+/// The facets' order by their corners.
+std::vector<std::uint32_t> sorted_order(const std::vector<FinalFacet>& facets,
+                                        std::size_t vertex_count) {
+  std::vector<std::uint32_t> end(vertex_count + 1, 0);
+  for (const FinalFacet& facet : facets) ++end[facet.corners[0] + 1];
+  for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
+  struct Entry {
+    std::uint32_t second;
+    std::uint32_t facet;
+  };
+  std::vector<Entry> entries(facets.size());
+  for (std::uint32_t f = 0; f < facets.size(); ++f)
+    entries[end[facets[f].corners[0]]++] = {facets[f].corners[1], f};
+  // Now end[v] is where the facets of v end; those of v - 1 end where they begin.
+  const auto is_before = [](const Entry& a, const Entry& b) { return a.second < b.second; };
+  std::uint32_t begin = 0;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (end[v] - begin > kMostInserted) {
+      std::sort(entries.begin() + begin, entries.begin() + end[v], is_before);
+    }
+    for (std::uint32_t i = begin + 1; i < end[v] && end[v] - begin <= kMostInserted; ++i) {
+      const Entry moving = entries[i];
+      std::uint32_t at = i;
+      for (; at > begin && moving.second < entries[at - 1].second; --at)
+        entries[at] = entries[at - 1];
+      entries[at] = moving;
+    }
+    begin = end[v];
+  }
+  std::vector<std::uint32_t> order(facets.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].facet;
+  return order;
+}
+
+}  // namespace
+
+ConvexPolytope number_hull(std::span<const Vec3> points,
+                           const GrownHull& hull,
+                           HullStatistics& statistics) {
+  ConvexPolytope polytope;
+  std::vector<FinalFacet> facets = whole_faces(hull, statistics);
+  number_vertices(points, hull, facets, polytope);
+  turn_to_lowest(facets);
+  const std::vector<std::uint32_t> order = sorted_order(facets, polytope.vertices.size());
+  std::vector<std::uint32_t> place(facets.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  polytope.facets.resize(facets.size());
+  polytope.neighbours.resize(facets.size());
+  polytope.planes.resize(facets.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const FinalFacet& facet = facets[order[i]];
+    const auto& [a, b, c] = facet.neighbours;
+    const Triangle& t = facet.corners;
+    polytope.facets[i] = t;
+    polytope.neighbours[i] = {place[a], place[b], place[c]};
+    polytope.planes[i] = facet_plane(polytope.vertices[t[0]], polytope.vertices[t[1]],
+                                     polytope.vertices[t[2]], true);
+  }
+  return polytope;
+}
+
+}  // namespace carpus::hull
