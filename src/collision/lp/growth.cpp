@@ -35,18 +35,7 @@ Verdict GrowthQuery::decide(const RelativePose& pose) noexcept {
 }
 
 Verdict GrowthQuery::decide_exactly(const PairPose& first_from_second) noexcept {
-  ExactHint hint;
-  if (is_usable_) {
-    hint.direction = memory_.separation.n;
-    for (const GrowthRow& row : memory_.rows) {
-      if (row.face == GrowthRow::kNoFace) continue;
-      if (row.is_second) {
-        hint.second_vertex = program_.second().corner_of(row.face);
-      } else {
-        hint.first_vertex = program_.first().corner_of(row.face);
-      }
-    }
-  }
+  const ExactHint hint = is_usable_ ? program_.hint(memory_) : ExactHint{};
   const ExactAnswer answer =
       exactly_meet({first_, Mat3::identity(), {}},
                    {second_, first_from_second.rotation, first_from_second.translation}, hint);

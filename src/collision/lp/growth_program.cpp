@@ -260,6 +260,20 @@ Verdict GrowthProgram::decide(const RelativePose& pose,
   return Run(*this, pose, memory, counts).decide();
 }
 
+ExactHint GrowthProgram::hint(const GrowthMemory& memory) const noexcept {
+  ExactHint hint;
+  hint.direction = memory.separation.n;
+  for (const GrowthRow& row : memory.rows) {
+    if (row.face == GrowthRow::kNoFace) continue;
+    if (row.is_second) {
+      hint.second_vertex = second_->corner_of(row.face);
+    } else {
+      hint.first_vertex = first_->corner_of(row.face);
+    }
+  }
+  return hint;
+}
+
 GrowthOptimum GrowthProgram::optimum(const RelativePose& pose,
                                      GrowthMemory& memory,
                                      GrowthCounts& counts) const noexcept {

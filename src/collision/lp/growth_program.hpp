@@ -9,8 +9,11 @@
 // while any point bounds it from above: the query stops as soon as either is on one side of 1.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 
+#include "collision/lp/exact_meeting.hpp"
 #include "collision/lp/growth_basis.hpp"
 #include "collision/lp/pair_proofs.hpp"
 #include "collision/lp/polar_graph.hpp"
@@ -73,6 +76,8 @@ class GrowthProgram {
   [[nodiscard]] Verdict decide(const RelativePose& pose,
                                GrowthMemory& memory,
                                GrowthCounts& counts) const noexcept;
+  /// Where exact arithmetic may begin: at the rows that doubles ended on.
+  [[nodiscard]] ExactHint hint(const GrowthMemory& memory) const noexcept;
   /// Runs to the optimum.
   [[nodiscard]] GrowthOptimum optimum(const RelativePose& pose,
                                       GrowthMemory& memory,
