@@ -177,6 +177,10 @@ std::string get_runs(Reader& in, std::vector<InputRun>& runs) {
   }
 }
 
+void add_vector(StateHash& hash, const Vec3& v) {
+  for (std::size_t i = 0; i < 3; ++i) hash.add(v[i]);
+}
+
 void add_grid_geometry(StateHash& hash, const GridGeometry& geometry) {
   for (const int n : geometry.size) hash.add(static_cast<std::uint64_t>(n));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -240,17 +244,22 @@ std::uint64_t fingerprint_of(const cases::CaseData& posed_case) {
              [](std::int16_t v) { return std::uint64_t{static_cast<std::uint16_t>(v)}; });
   for (const cases::Bone& bone : posed_case.bones) {
     hash.add(static_cast<std::uint64_t>(bone.label));
-    for (const Vec3& v : bone.surface.vertices) {
-      for (std::size_t i = 0; i < 3; ++i) hash.add(v[i]);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      hash.add(bone.patient_from_bone.translation[i]);
-      for (std::size_t j = 0; j < 3; ++j) hash.add(bone.patient_from_bone.rotation.rows[i][j]);
-    }
+    for (const Vec3& v : bone.surface.vertices) add_vector(hash, v);
+    add_vector(hash, bone.patient_from_bone.translation);
+    for (const Vec3& row : bone.patient_from_bone.rotation.rows) add_vector(hash, row);
     add_grid_geometry(hash, bone.distance_field.geometry());
     add_values(hash, bone.distance_field.values(),
                [](float v) { return std::uint64_t{std::bit_cast<std::uint32_t>(v)}; });
   }
+  add_vector(hash, posed_case.wrist_from_patient.translation);
+  for (const Vec3& row : posed_case.wrist_from_patient.rotation.rows) add_vector(hash, row);
+  const cases::ScaphoidLandmarks& scaphoid = posed_case.scaphoid;
+  for (const Vec3& end :
+       {scaphoid.central_axis.proximal, scaphoid.central_axis.distal,
+        scaphoid.longest_line.proximal, scaphoid.longest_line.distal, scaphoid.waist}) {
+    add_vector(hash, end);
+  }
+  hash.add(scaphoid.central_radius_mm);
   return hash.value();
 }
 

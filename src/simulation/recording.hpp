@@ -67,7 +67,8 @@ class Recorder {
   Recording recording_;
 };
 
-/// What identifies a posed case to a recording: CT, surfaces, poses and fields, to the bit.
+/// What identifies a posed case to a recording: CT, surfaces, poses,
+/// fields, wrist frame and landmarks, to the bit.
 [[nodiscard]] std::uint64_t fingerprint_of(const cases::CaseData& posed_case);
 
 [[nodiscard]] std::vector<std::byte> encode(const Recording& recording);
