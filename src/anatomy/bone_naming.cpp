@@ -20,10 +20,10 @@ namespace {
 using detail::Naming;
 
 /// Fragments of one bone lie closer than this; nonunion gaps are 1 to 3 mm.
-constexpr double kFragmentGap_mm = 4.0;
+constexpr double kFragmentGapMm = 4.0;
 /// Two pieces together are no larger than this in a wrist of the model's size, whose largest carpal
 /// bone, the capitate, has 2548 mm^3.
-constexpr double kFragmentVolume_mm3 = 4500.0;
+constexpr double kFragmentVolumeMm3 = 4500.0;
 /// Fewer named bones than this is not a wrist that anyone operates on.
 constexpr std::size_t kLeastBones = 8;
 
@@ -49,8 +49,8 @@ Account account_of(const std::vector<BodyShape>& shapes,
 
 bool could_be_fragments(const BodyShape& a, const BodyShape& b, double scale) {
   return !a.is_cut && !b.is_cut &&
-         a.volume_mm3 + b.volume_mm3 < kFragmentVolume_mm3 * scale * scale * scale &&
-         a.bounds.grown(kFragmentGap_mm).overlaps(b.bounds) && gap_between(a, b) < kFragmentGap_mm;
+         a.volume_mm3 + b.volume_mm3 < kFragmentVolumeMm3 * scale * scale * scale &&
+         a.bounds.grown(kFragmentGapMm).overlaps(b.bounds) && gap_between(a, b) < kFragmentGapMm;
 }
 
 /// The cheapest account with one broken bone, or none if whole bones explain the regions better.
@@ -89,13 +89,16 @@ void fit_frame(const Account& account, BoneNaming& result) {
 void tell_parts_apart(const std::vector<BodyShape>& shapes,
                       const std::vector<std::size_t>& regions,
                       BoneNaming& result) {
-  if (regions.size() != 2 || result.regions[regions[0]]->bone != BoneId::Scaphoid) return;
+  if (regions.size() != 2) return;
+  std::optional<RegionName>& first = result.regions[regions[0]];
+  std::optional<RegionName>& second = result.regions[regions[1]];
+  if (!first || !second || first->bone != BoneId::Scaphoid) return;
   const auto along = [&](std::size_t i) {
     return (result.wrist_from_patient * Point<frame::Patient>{shapes[i].centroid}).v.x;
   };
   const bool first_is_proximal = along(regions[0]) >= along(regions[1]);
-  result.regions[regions[0]]->part = first_is_proximal ? BonePart::Proximal : BonePart::Distal;
-  result.regions[regions[1]]->part = first_is_proximal ? BonePart::Distal : BonePart::Proximal;
+  first->part = first_is_proximal ? BonePart::Proximal : BonePart::Distal;
+  second->part = first_is_proximal ? BonePart::Distal : BonePart::Proximal;
 }
 
 NamingStatus judge(const BoneNaming& result) {

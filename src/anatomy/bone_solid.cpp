@@ -212,8 +212,9 @@ BoneSolid::BoneSolid(std::span<const TriangleMesh* const> fragments) {
     }
     for (const SurfaceSample& sample : samples) {
       const Vec3 v = closed_.geometry().voxel_from_patient(sample.point);
-      const VoxelIndex nearest{static_cast<int>(v.x + 0.5), static_cast<int>(v.y + 0.5),
-                               static_cast<int>(v.z + 0.5)};
+      const VoxelIndex nearest{static_cast<int>(std::lround(v.x)),
+                               static_cast<int>(std::lround(v.y)),
+                               static_cast<int>(std::lround(v.z))};
       if (depth[nearest] <= kFaceDepthMm && !faces_another(sample, own, masks)) {
         outer_points_.push_back({sample.point, sample.area_mm2});
       }

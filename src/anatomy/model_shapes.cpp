@@ -11,7 +11,7 @@
 namespace carpus::anatomy {
 namespace {
 
-constexpr double kLattice_mm = 0.7;
+constexpr double kLatticeMm = 0.7;
 
 std::size_t index_of(BoneId bone) { return static_cast<std::size_t>(bone) - 1; }
 
@@ -19,9 +19,9 @@ std::size_t index_of(BoneId bone) { return static_cast<std::size_t>(bone) - 1; }
 std::vector<Vec3> points_inside(const WristModel& model, const ModelBone& bone) {
   std::vector<Vec3> points;
   const Aabb& box = bone.bounds;
-  for (double z = box.low.z; z <= box.high.z; z += kLattice_mm) {
-    for (double y = box.low.y; y <= box.high.y; y += kLattice_mm) {
-      for (double x = box.low.x; x <= box.high.x; x += kLattice_mm) {
+  for (double z = box.low.z; z <= box.high.z; z += kLatticeMm) {
+    for (double y = box.low.y; y <= box.high.y; y += kLatticeMm) {
+      for (double x = box.low.x; x <= box.high.x; x += kLatticeMm) {
         if (model.signed_value(bone.bone, {x, y, z}) < 0) points.push_back({x, y, z});
       }
     }
@@ -35,7 +35,7 @@ std::vector<Vec3> joint_end_of(const std::vector<Vec3>& points, const Plane& cut
   double face_count = 0;
   for (const Vec3& p : points) {
     centre += p;
-    if (cut.signed_distance(p) > -kLattice_mm) {
+    if (cut.signed_distance(p) > -kLatticeMm) {
       face_centre += p;
       face_count += 1;
     }
@@ -54,7 +54,7 @@ std::vector<Vec3> joint_end_of(const std::vector<Vec3>& points, const Plane& cut
 
 BodyShape measure_bone(const WristModel& model, const ModelBone& bone) {
   BodyShape shape;
-  shape.piece_mm3 = kLattice_mm * kLattice_mm * kLattice_mm;
+  shape.piece_mm3 = kLatticeMm * kLatticeMm * kLatticeMm;
   shape.bounds = bone.bounds;
   shape.is_cut = bone.cut_plane.has_value();
   const std::vector<Vec3> all = points_inside(model, bone);

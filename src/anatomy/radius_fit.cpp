@@ -13,11 +13,11 @@ namespace carpus::anatomy {
 namespace {
 
 constexpr int kIterations = 40;
-constexpr double kHuber_mm = 1.0;
+constexpr double kHuberMm = 1.0;
 /// Step of the numerical gradient; the model is smooth over millimetres.
-constexpr double kProbe_mm = 0.05;
+constexpr double kProbeMm = 0.05;
 /// Points this close to the model's cut are left out: its face is no bone surface.
-constexpr double kCutMargin_mm = 1.0;
+constexpr double kCutMarginMm = 1.0;
 constexpr ScaleRange kScaleRange{0.7, 1.4};
 /// Levenberg damping relative to the diagonal: the shaft alone leaves sliding along it weak.
 constexpr double kDamping = 1e-3;
@@ -73,17 +73,17 @@ NormalEquations linearise(const WristModel& model,
   NormalEquations e;
   for (const Vec3& p : border) {
     const Vec3 m = model_from_patient(t, p);
-    if (radius.cut_plane && radius.cut_plane->signed_distance(m) > -kCutMargin_mm) continue;
+    if (radius.cut_plane && radius.cut_plane->signed_distance(m) > -kCutMarginMm) continue;
     const auto f = [&](const Vec3& q) { return model.uncut_value(BoneId::Radius, q); };
     const double value = f(m);
-    const Vec3 g{(f(m + Vec3{kProbe_mm, 0, 0}) - f(m - Vec3{kProbe_mm, 0, 0})) / (2 * kProbe_mm),
-                 (f(m + Vec3{0, kProbe_mm, 0}) - f(m - Vec3{0, kProbe_mm, 0})) / (2 * kProbe_mm),
-                 (f(m + Vec3{0, 0, kProbe_mm}) - f(m - Vec3{0, 0, kProbe_mm})) / (2 * kProbe_mm)};
+    const Vec3 g{(f(m + Vec3{kProbeMm, 0, 0}) - f(m - Vec3{kProbeMm, 0, 0})) / (2 * kProbeMm),
+                 (f(m + Vec3{0, kProbeMm, 0}) - f(m - Vec3{0, kProbeMm, 0})) / (2 * kProbeMm),
+                 (f(m + Vec3{0, 0, kProbeMm}) - f(m - Vec3{0, 0, kProbeMm})) / (2 * kProbeMm)};
     const double steepness = length(g);
     if (!(steepness > 0.1) || !std::isfinite(value)) continue;  // deep inside, f is no distance
     const double r = value / steepness;
     const Vec3 n = g / steepness;
-    const double weight = std::abs(r) <= kHuber_mm ? 1.0 : kHuber_mm / std::abs(r);
+    const double weight = std::abs(r) <= kHuberMm ? 1.0 : kHuberMm / std::abs(r);
     const Vec3 turn = cross(m, n);
     const Row row{turn.x, turn.y, turn.z, n.x, n.y, n.z, dot(n, m)};
     for (std::size_t i = 0; i < kUnknowns; ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 /// A carpal bone that grazes the field of view touches it with less than this; the thinnest shaft
 /// (metacarpal 5) has about 50.
-constexpr double kCutFaceArea_mm2 = 20.0;
+constexpr double kCutFaceAreaMm2 = 20.0;
 /// Enough to tell 1 mm from 4 mm between bones.
 constexpr std::size_t kRimPoints = 1200;
 
@@ -149,7 +149,7 @@ std::vector<BodyShape> measure_shapes(const GridView<const std::uint16_t>& label
     }
   });
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    shapes[i].is_cut = faces[i].area_mm2 > kCutFaceArea_mm2;
+    shapes[i].is_cut = faces[i].area_mm2 > kCutFaceAreaMm2;
     thin_out(shapes[i].rim);
   }
   restrict_to_joint_ends(labels, faces, shapes);

@@ -113,23 +113,24 @@ void bend_volumes(CaseData& data, const detail::Bending& bending, const GridGeom
   const GridView<const std::int16_t> source = std::as_const(data.ct).view();
   const auto nx = static_cast<std::size_t>(geometry.size[0]);
   const auto ny = static_cast<std::size_t>(geometry.size[1]);
-  parallel_for(
-      ny * static_cast<std::size_t>(geometry.size[2]), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-          for (std::size_t i = 0; i < nx; ++i) {
-            const std::size_t offset = row * nx + i;
-            const Vec3 p =
-                geometry.patient_from_voxel({static_cast<double>(i), static_cast<double>(row % ny),
-                                             static_cast<double>(row / ny)});
-            const detail::BentPoint from = bending.source_of(p);
-            const double hu = sample_at(source, from.source, kAirHu);
-            ct[offset] = from.repeats_bone
-                             ? kSoftTissueHu
-                             : static_cast<std::int16_t>(hu < 0 ? hu - 0.5 : hu + 0.5);
-            if (from.is_rigid) labels[offset] = nearest_label(data.labels, from.source);
-          }
-        }
-      });
+  parallel_for(ny * static_cast<std::size_t>(geometry.size[2]), 64,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t row = begin; row < end; ++row) {
+                   for (std::size_t i = 0; i < nx; ++i) {
+                     const std::size_t offset = row * nx + i;
+                     const std::size_t j = row % ny;
+                     const std::size_t k = row / ny;
+                     const Vec3 p = geometry.patient_from_voxel(
+                         {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+                     const detail::BentPoint from = bending.source_of(p);
+                     const double hu = sample_at(source, from.source, kAirHu);
+                     ct[offset] = from.repeats_bone
+                                      ? kSoftTissueHu
+                                      : static_cast<std::int16_t>(hu < 0 ? hu - 0.5 : hu + 0.5);
+                     if (from.is_rigid) labels[offset] = nearest_label(data.labels, from.source);
+                   }
+                 }
+               });
   data.ct = std::move(ct);
   data.labels = std::move(labels);
 }

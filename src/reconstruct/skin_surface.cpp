@@ -17,21 +17,21 @@ namespace {
 
 constexpr double kSkinHu =
     -480;  // half-way between air (-1000) and soft tissue: where blur leaves the edge
-constexpr double kCoarseVoxel_mm = 0.9;
-constexpr double kSigma_mm = 0.9;
+constexpr double kCoarseVoxelMm = 0.9;
+constexpr double kSigmaMm = 0.9;
 constexpr std::size_t kMostFacets = 12000;
-constexpr double kMaxError_mm = 0.3;
+constexpr double kMaxErrorMm = 0.3;
 /// Facets that close the limb where it leaves the volume lie half a voxel beyond it.
 constexpr double kCapMargin = 0.25;  // voxels
 
-/// Means over blocks of voxels of about kCoarseVoxel_mm.
+/// Means over blocks of voxels of about kCoarseVoxelMm.
 Grid<float> coarsened(const GridView<const std::int16_t>& ct) {
   const GridGeometry& g = ct.geometry();
   std::array<int, 3> block{};
   GridGeometry coarse = g;
   Vec3 first;
   for (std::size_t a = 0; a < 3; ++a) {
-    block[a] = std::clamp(static_cast<int>(std::lround(kCoarseVoxel_mm / g.spacing[a])), 1,
+    block[a] = std::clamp(static_cast<int>(std::lround(kCoarseVoxelMm / g.spacing[a])), 1,
                           std::max(g.size[a], 1));
     coarse.size[a] = g.size[a] / block[a];
     coarse.spacing[a] = g.spacing[a] * block[a];
@@ -87,11 +87,11 @@ TriangleMesh without_caps(const TriangleMesh& mesh, const GridGeometry& g) {
 TriangleMesh build_skin_surface(const GridView<const std::int16_t>& ct) {
   const Grid<float> coarse = coarsened(ct);
   if (coarse.values().empty()) return {};
-  const Grid<float> smoothed = imaging::gaussian_smooth(coarse.view(), kSigma_mm);
+  const Grid<float> smoothed = imaging::gaussian_smooth(coarse.view(), kSigmaMm);
   TriangleMesh skin = largest_piece(mesh::extract_isosurface(smoothed.view(), kSkinHu));
   if (skin.facets.empty()) return {};
   // The Gaussian is smoothing enough; Taubin's filter would round the rims of the caps.
-  skin = mesh::simplify(skin, {kMostFacets, kMaxError_mm}).mesh;
+  skin = mesh::simplify(skin, {kMostFacets, kMaxErrorMm}).mesh;
   return without_caps(skin, coarse.geometry());
 }
 

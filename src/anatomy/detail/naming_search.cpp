@@ -15,7 +15,7 @@ namespace {
 
 /// Scales of the terms of the cost: about two standard deviations of what differs between people
 /// and postures.
-constexpr double kPlaceScale_mm = 5.0;
+constexpr double kPlaceScaleMm = 5.0;
 constexpr double kMaxPlaceCost = 12.0;
 constexpr double kVolumeScale = 0.35;  // of the logarithm
 constexpr double kExtentScale = 0.2;   // of the logarithm
@@ -29,7 +29,7 @@ constexpr double kWorstPair = kMissingCost + kNamelessCost;
 constexpr ScaleRange kScaleRange{0.7, 1.4};
 constexpr int kRounds = 12;
 constexpr int kRolls = 8;
-constexpr double kNearby_rad = 20.0 * kPi / 180.0;
+constexpr double kNearbyRad = 20.0 * kPi / 180.0;
 
 /// What a bone and a body have in common but for place: logarithms are taken once.
 struct LogShape {
@@ -139,7 +139,7 @@ class Search {
       const Vec3 expected = naming.patient_from_model * model[b];
       for (std::size_t i = 0; i < n; ++i) {
         const double place =
-            std::min(squared_length(places_[i] - expected) / square(kPlaceScale_mm), kMaxPlaceCost);
+            std::min(squared_length(places_[i] - expected) / square(kPlaceScaleMm), kMaxPlaceCost);
         costs[b * size + i] =
             std::min(place + shape_cost(body_logs_[i], bone_logs_[b], log_scale), kWorstPair);
       }
@@ -162,9 +162,10 @@ class Search {
     std::vector<Vec3> from, to;
     std::vector<double> weights;
     for (std::size_t b = 0; b < kBoneCount; ++b) {
-      if (!naming.body_of_bone[b]) continue;
+      const std::optional<std::size_t>& body = naming.body_of_bone[b];
+      if (!body) continue;
       from.push_back(model[b]);
-      to.push_back(places_[*naming.body_of_bone[b]]);
+      to.push_back(places_[*body]);
       weights.push_back(1 / (1 + naming.bone_cost[b]));
     }
     if (from.size() < 3) return;
@@ -207,7 +208,7 @@ Naming best_naming_near(std::span<const BodyShape> bodies, const Naming& known) 
   const Search search(bodies, known.side);
   std::vector<Mat3> rotations{known.patient_from_model.rotation};
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-    for (const double angle : {-kNearby_rad, kNearby_rad}) {
+    for (const double angle : {-kNearbyRad, kNearbyRad}) {
       rotations.push_back(known.patient_from_model.rotation * rotation_about(axis, angle));
     }
   }

@@ -25,7 +25,7 @@ GridGeometry coarse_geometry(const GridGeometry& fine, std::array<int, 3>& facto
   GridGeometry coarse = fine;
   Vec3 first;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    factor[axis] = std::max(1, static_cast<int>(kCoarseMm / fine.spacing[axis] + 0.5));
+    factor[axis] = std::max(1, static_cast<int>(std::lround(kCoarseMm / fine.spacing[axis])));
     coarse.size[axis] = (fine.size[axis] + factor[axis] - 1) / factor[axis];
     coarse.spacing[axis] = fine.spacing[axis] * factor[axis];
     first[axis] = 0.5 * (factor[axis] - 1);
@@ -51,7 +51,7 @@ double value_at(const Grid<float>& grid, const Vec3& p) {
     const double clamped = std::clamp(value, 0.0, size - 1.0);
     const double away = (value - clamped) * spacing;
     outside += away * away;
-    return static_cast<int>(clamped + 0.5);
+    return static_cast<int>(std::lround(clamped));
   };
   nearest.x = clamp_axis(v.x, g.size[0], g.spacing.x);
   nearest.y = clamp_axis(v.y, g.size[1], g.spacing.y);
@@ -93,7 +93,7 @@ Bending::Bending(const Grid<std::uint8_t>& labels,
 }
 
 Vec3 Bending::turned_back(const Vec3& target, double share) const noexcept {
-  const auto i = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * kShares + 0.5);
+  const auto i = static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * kShares));
   return turn_back_[i] * (target - pivot_) + pivot_;
 }
 
@@ -124,7 +124,7 @@ Vec3 Bending::target_of(const Vec3& source) const noexcept {
   constexpr int kIterations = 12;
   Vec3 target = source;
   for (int i = 0; i < kIterations; ++i) {
-    const auto k = static_cast<std::size_t>(share_at(target) * kShares + 0.5);
+    const auto k = static_cast<std::size_t>(std::lround(share_at(target) * kShares));
     const Vec3 next = turn_back_[k].transposed() * (source - pivot_) + pivot_;
     // Half steps where the map is steep: the full one may swing between hand and forearm.
     target = i < 4 ? next : (target + next) * 0.5;

@@ -105,7 +105,8 @@ void correlate_x(const Plan& plan, const float* slice, const Kernel& kernel, flo
     std::copy_n(row, plan.nx(), padded.begin() + radius);
     for (int i = 0; i < radius; ++i) {
       padded[static_cast<std::size_t>(i)] = row[mirrored(i - radius, nx)];
-      padded[static_cast<std::size_t>(radius + nx + i)] = row[mirrored(nx + i, nx)];
+      const int right = radius + nx + i;
+      padded[static_cast<std::size_t>(right)] = row[mirrored(nx + i, nx)];
     }
     weighted_sum(rows, kernel, out + y * plan.nx(), plan.nx());
   }
@@ -168,6 +169,7 @@ void filter_slab(const Plan& plan,
   const auto planes = filter_planes(plan, input, begin - margin, end + margin);
   std::vector<std::vector<float>> results(plan.orders.size(), std::vector<float>(plan.nx()));
   std::vector<const float*> result_rows;
+  result_rows.reserve(results.size());
   for (const auto& row : results) result_rows.push_back(row.data());
   std::vector<const float*> rows;
   for (int z = begin; z < end; ++z) {
@@ -201,7 +203,10 @@ std::vector<float> gaussian_kernel(double sigma, int order) {
   double sum = 0;
   for (int i = -radius; i <= radius; ++i) sum += g.emplace_back(std::exp(-0.5 * i * i / (s * s)));
   for (double& v : g) v /= sum;
-  const auto at = [&](int i) -> double& { return g[static_cast<std::size_t>(i + radius)]; };
+  const auto at = [&](int i) -> double& {
+    const int from_start = i + radius;
+    return g[static_cast<std::size_t>(from_start)];
+  };
   if (order == 1) {
     double slope = 0;
     for (int i = -radius; i <= radius; ++i) slope += (at(i) *= i) * i;
