@@ -177,9 +177,9 @@ ModelBone mirrored_bone(ModelBone bone) {
 }  // namespace
 
 const WristModel& WristModel::generic(Side side) {
-  static const WristModel left = parse(data::wrist_model());
-  static const WristModel right = left.mirrored();
-  return side == Side::Left ? left : right;
+  static const WristModel kLeft = parse(data::wrist_model());
+  static const WristModel kRight = kLeft.mirrored();
+  return side == Side::Left ? kLeft : kRight;
 }
 
 WristModel WristModel::parse(std::string_view json_text) {
