@@ -20,6 +20,9 @@ namespace {
 /// The gap that it may miss is below 2e-7 mm.
 constexpr double kLeastStepMm = 1e-7;
 
+/// Slower than this along an axis of the grid [cells/mm], the shaft stays in its layer of cells.
+constexpr double kLeastCellsPerMm = 1e-9;
+
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kBisections = 24;  ///< a cell's 0.7 mm to less than 1e-7 mm
 
@@ -31,6 +34,11 @@ struct GapCubic {
 
   /// Where in [0, end] it is least.
   [[nodiscard]] double minimum(double end, double at_end) const noexcept {
+    // The slope is a quadratic between its Bernstein coefficients: most cells are monotone.
+    const double slope = c1 + c2 * end;
+    const double slope_at_end = slope + c2 * end + 3 * c3 * end * end;
+    if (c1 >= 0 && slope >= 0 && slope_at_end >= 0) return 0;
+    if (c1 <= 0 && slope <= 0 && slope_at_end <= 0) return end;
     double best = at_end < c0 ? end : 0.0;
     double least = std::min(c0, at_end);
     const auto consider = [&](double s) {
@@ -82,11 +90,10 @@ struct Piece {
   double slope = 0;
 };
 
-/// A place of the axis with what the field says there.
+/// A ball of the shape.
 struct AxisPlace {
   double gap = 0;
   double z = 0;
-  Vec3 gradient{};  ///< mm/mm
 };
 
 class AxisWalk {
@@ -100,6 +107,12 @@ class AxisWalk {
     front_ = field.cells_from_point(pose_.translation);
     along_ = axis * field.per_spacing();
     steepest_ = field.steepest() * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+    for (std::size_t a = 0; a < 3; ++a) {
+      // An axis along which nothing moves is never left: its border lies far ahead.
+      const bool moves = std::abs(along_[a]) >= kLeastCellsPerMm;
+      per_along_[a] = moves ? 1 / along_[a] : 1 / kLeastCellsPerMm;
+      ahead_[a] = moves && along_[a] < 0 ? 0.0 : (moves ? 1.0 : 2.0);
+    }
     products_ = {along_.y * along_.z, along_.x * along_.z, along_.x * along_.y};
     const auto& cells = field.cell_count();
     steps_left_ = 64 + 4 * (cells[0] + cells[1] + cells[2]);
@@ -126,12 +139,15 @@ class AxisWalk {
   [[nodiscard]] bool found() const noexcept { return found_; }
   [[nodiscard]] const ContactPatch& patch() const noexcept { return patch_; }
 
-  [[nodiscard]] Direction<frame::Bone> normal_at(const AxisPlace& place) const noexcept {
-    return {normalized_or(place.gradient, {0, 0, 0})};
+  /// The field's gradient at a ball's centre [mm/mm].
+  [[nodiscard]] Vec3 gradient_at(const AxisPlace& place) const noexcept {
+    const Stop stop = stop_at(place.z, {place.z, place.z, 0, 0});
+    return stop.polynomial.slope(stop.place) * field_.per_spacing();
   }
-  [[nodiscard]] Point<frame::Bone> surface_at(const AxisPlace& place) const noexcept {
+  [[nodiscard]] Point<frame::Bone> surface_at(const AxisPlace& place,
+                                              const Vec3& normal) const noexcept {
     const double distance = place.gap + shape_.radius_at(place.z);
-    return {pose_.translation + pose_.rotation.column(2) * place.z - normal_at(place).v * distance};
+    return {pose_.translation + pose_.rotation.column(2) * place.z - normal * distance};
   }
 
   /// Sums become figures.
@@ -160,7 +176,7 @@ class AxisWalk {
     const double start = piece.from;
     for (std::size_t a = 0; a < 3; ++a) {
       const double last = field_.cell_count()[a];
-      if (std::abs(along_[a]) < 1e-12) {
+      if (std::abs(along_[a]) < kLeastCellsPerMm) {
         if (!(front_[a] >= 0 && front_[a] <= last)) return false;
         continue;
       }
@@ -194,31 +210,25 @@ class AxisWalk {
   }
 
   [[nodiscard]] Stop stop_at(double z, const Piece& piece) const noexcept {
-    Stop stop;
-    stop.z = z;
-    stop.radius = piece.radius + piece.slope * (z - piece.from);
-    stop.slope = piece.slope;
-    stop.step = std::numeric_limits<double>::infinity();
     std::array<int, 3> cell{};
+    Vec3 place;
+    double border = std::numeric_limits<double>::infinity();
     for (std::size_t a = 0; a < 3; ++a) {
       const double x = front_[a] + along_[a] * z;
-      const int last = field_.cell_count()[a] - 1;
-      int i = std::clamp(static_cast<int>(x), 0, last);
-      if (along_[a] < 0 && x <= i && i > 0) --i;
+      int i = std::clamp(static_cast<int>(x), 0, field_.cell_count()[a] - 1);
+      if (ahead_[a] == 0 && x <= i && i > 0) --i;
       cell[a] = i;
-      stop.place[a] = x - i;
-      if (along_[a] > 0) stop.step = std::min(stop.step, (1 - stop.place[a]) / along_[a]);
-      if (along_[a] < 0) stop.step = std::min(stop.step, -stop.place[a] / along_[a]);
+      place[a] = x - i;
+      border = std::min(border, (ahead_[a] - place[a]) * per_along_[a]);
     }
-    stop.step = std::max(stop.step, kLeastStepMm);
-    (void)field_.load({cell[0], cell[1], cell[2]}, stop.polynomial);
-    const CellPolynomial& p = stop.polynomial;
-    stop.gap.c0 = p.value(stop.place) - stop.radius;
-    stop.gap.c1 = dot(p.slope(stop.place), along_) - stop.slope;
-    stop.gap.c2 = p.yz * products_.x + p.xz * products_.y + p.xy * products_.z +
-                  p.xyz * dot(stop.place, products_);
-    stop.gap.c3 = p.xyz * products_.x * along_.x;
-    return stop;
+    CellPolynomial p;
+    (void)field_.load({cell[0], cell[1], cell[2]}, p);
+    const double radius = piece.radius + piece.slope * (z - piece.from);
+    const GapCubic gap{p.value(place) - radius, dot(p.slope(place), along_) - piece.slope,
+                       p.yz * products_.x + p.xz * products_.y + p.xy * products_.z +
+                           p.xyz * dot(place, products_),
+                       p.xyz * products_.x * along_.x};
+    return {z, std::max(border, kLeastStepMm), radius, piece.slope, place, p, gap};
   }
 
   /// By how much the gap may change before it concerns the answer.
@@ -243,24 +253,25 @@ class AxisWalk {
     if (!is_open_ && lowest > std::max(best_.gap, 0.0)) return;
     const double s = stop.gap.minimum(stop.step, at_end);
     const double least = stop.gap.at(s);
-    if (least < best_.gap) {
-      best_ = place_in(stop, s, least);
-      found_ = true;
-    }
-    const Span span = span_below(stop.gap, stop.step, at_end, s, 0);
-    if (!(span.from <= span.to)) {
+    if (!(least <= 0)) {
       if (is_open_) close();
+      consider({least, stop.z + s});
       return;
     }
+    const Span span = span_below(stop.gap, stop.step, at_end, s, 0);
     if (!is_open_) open(stop.z + span.from);
-    if (least < deepest_.gap) deepest_ = place_in(stop, s, least);
+    if (least < deepest_.gap) deepest_ = {least, stop.z + s};
     touch(stop, span, stop.gap.at(0.5 * (span.from + span.to)));
-    patch_.core_length_mm += span_below(stop.gap, stop.step, at_end, s, core_level_).length();
+    if (least <= core_level_) {
+      patch_.core_length_mm += span_below(stop.gap, stop.step, at_end, s, core_level_).length();
+    }
     if (span.to < stop.step) close();
   }
 
-  [[nodiscard]] AxisPlace place_in(const Stop& stop, double s, double gap) const noexcept {
-    return {gap, stop.z + s, stop.polynomial.slope(stop.place + along_ * s) * field_.per_spacing()};
+  void consider(const AxisPlace& place) noexcept {
+    if (!(place.gap < best_.gap)) return;
+    best_ = place;
+    found_ = true;
   }
 
   void touch(const Stop& stop, const Span& span, double gap_at_middle) noexcept {
@@ -279,11 +290,12 @@ class AxisWalk {
   void open(double z) noexcept {
     is_open_ = true;
     from_ = z;
-    deepest_ = {std::numeric_limits<double>::infinity(), z, {}};
+    deepest_ = {std::numeric_limits<double>::infinity(), z};
   }
 
   void close() noexcept {
     is_open_ = false;
+    consider(deepest_);
     ++patch_.stretches_found;
     auto& kept = patch_.stretches;
     std::size_t count = patch_.stretch_count;
@@ -295,17 +307,19 @@ class AxisWalk {
       std::move(shallowest + 1, kept.end(), shallowest);
       --count;
     }
-    kept[count] = {
-        from_, to_, deepest_.z, -deepest_.gap, surface_at(deepest_), normal_at(deepest_)};
+    const Vec3 normal = normalized_or(gradient_at(deepest_), {0, 0, 0});
+    kept[count] = {from_, to_, deepest_.z, -deepest_.gap, surface_at(deepest_, normal), {normal}};
     patch_.stretch_count = static_cast<std::uint8_t>(count + 1);
   }
 
   const ContactField& field_;
   const InstrumentShape& shape_;
   const Pose<frame::Bone, frame::Tool>& pose_;
-  Vec3 front_;     ///< the tool's origin in cells
-  Vec3 along_;     ///< its +z, cells per mm
-  Vec3 products_;  ///< of along_: yz, xz, xy
+  Vec3 front_;      ///< the tool's origin in cells
+  Vec3 along_;      ///< its +z, cells per mm
+  Vec3 per_along_;  ///< 1 / along_
+  Vec3 ahead_;      ///< where a cell is left, from its low corner
+  Vec3 products_;   ///< of along_: yz, xz, xy
   double steepest_ = 0;
   double core_level_ = 0;
   int steps_left_ = 0;
@@ -357,12 +371,14 @@ SurfaceContact find_contact(const ContactField& field,
   const double sample = best.gap + radius;
   result.highest_gap_mm = field.highest_distance(sample) - radius;
   result.z_mm = best.z;
-  result.point = walk.surface_at(best);
-  result.normal = walk.normal_at(best);
-  result.steepness = length(best.gradient);
+  const Vec3 gradient = walk.gradient_at(best);
+  result.normal = {normalized_or(gradient, {0, 0, 0})};
+  result.point = walk.surface_at(best, result.normal.v);
+  result.steepness = length(gradient);
   result.patch = walk.patch();
   result.outcome = best.gap > 0 ? ContactOutcome::Near : ContactOutcome::Touching;
-  if (sample <= -field.band_mm() * (1 - 1e-4)) {
+  // Where the clamped distance may be the band itself, the true one may be any depth.
+  if (best.gap + shape.least_radius_mm() - field.error_mm() <= -field.band_mm()) {
     result.outcome = ContactOutcome::Buried;
     result.lowest_gap_mm = -std::numeric_limits<double>::infinity();
   }

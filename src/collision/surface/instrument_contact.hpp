@@ -20,8 +20,8 @@ enum class ContactOutcome : std::uint8_t {
   Far,       ///< farther than was asked for; only gap_mm and its bounds are given
   Near,      ///< apart, within what was asked for
   Touching,  ///< touching or overlapping
-  Buried,    ///< the axis is deeper in the bone than the field reaches: -gap_mm is the least depth,
-             ///< and there is no way out to tell
+  Buried,    ///< the axis may lie deeper in the bone than the field reaches: the depth is at least
+             ///< -highest_gap_mm, and point and normal need not be those of the nearest surface
 };
 
 /// Stretches of the shaft that touch which are told one by one; the deepest are kept.

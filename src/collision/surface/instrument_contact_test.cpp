@@ -182,7 +182,7 @@ TEST(InstrumentContact, TellsTheStretchesOfABarAcrossHollows) {
     EXPECT_LT(left.to_mm, 20 - 5);
     EXPECT_GT(right.from_mm, 20 + 5);
     EXPECT_NEAR(contact.patch.centre_z_mm, 20, 0.5);
-    EXPECT_NEAR(left.normal.v.z, 1, 0.02);
+    EXPECT_NEAR(left.normal.v.z, 1, 0.05);
   }
   const ToolPose between{test::turned_to({1, 0, 0}), {-5, 0, 3.8}};
   const InstrumentShape brief(CapsuleShape{0.5, 10});
