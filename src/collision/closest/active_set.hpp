@@ -34,7 +34,7 @@ class ClosestActiveSet final : public PairQuery {
   ClosestActiveSet(const ConvexBody& first, const ConvexBody& second)
       : first_(first.derived<SupportGraph>()),
         second_(second.derived<SupportGraph>()),
-        walk_(ClimbStart::Table) {}
+        walk_(ClimbStart::ColdTable) {}
 
   [[nodiscard]] Verdict meets(const PairPose& first_from_second) noexcept override;
   [[nodiscard]] std::optional<Closest> closest(const PairPose& first_from_second) noexcept override;

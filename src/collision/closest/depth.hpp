@@ -42,7 +42,7 @@ class DepthExact final : public PairQuery {
         second_(second),
         first_graph_(first.derived<SupportGraph>()),
         second_graph_(second.derived<SupportGraph>()),
-        walk_(ClimbStart::Table),
+        walk_(ClimbStart::ColdTable),
         polytope_(kMostDepthCorners) {}
 
   [[nodiscard]] Verdict meets(const PairPose& first_from_second) noexcept override;

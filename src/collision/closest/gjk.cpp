@@ -58,6 +58,11 @@ Verdict GjkWalk::iterate(const PosedPair& pair, Goal goal, double gap_mm) noexce
   if (!pair.is_usable()) return Verdict::Unknown;
   if (goal == Goal::Verdict && last_axis_separates(pair)) return Verdict::Apart;
   has_axis_ = false;
+  // A warm walk mostly ends where it starts: looking the table up would be half its cost.
+  ClimbStart start = start_;
+  if (start == ClimbStart::ColdTable) {
+    start = count_ == 0 ? ClimbStart::Table : ClimbStart::LastCorner;
+  }
   place_last(pair);
   const double rounding = pair.rounding_mm();
   double last_squared = std::numeric_limits<double>::infinity();
@@ -72,7 +77,7 @@ Verdict GjkWalk::iterate(const PosedPair& pair, Goal goal, double gap_mm) noexce
     if (!(squared > rounding * rounding)) return Verdict::Meet;
     is_stuck = is_stuck || !(squared < last_squared);
     last_squared = squared;
-    const DifferencePoint p = pair.farthest(-v, points_[count_ - 1], start_);
+    const DifferencePoint p = pair.farthest(-v, points_[count_ - 1], start);
     const double away = dot(p.at, v) / std::sqrt(squared);
     has_axis_ = away > rounding;
     highest_ = p;

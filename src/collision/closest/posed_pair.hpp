@@ -25,9 +25,10 @@ struct DifferencePoint {
 };
 
 /// How a support query starts.
-enum class ClimbStart : bool {
+enum class ClimbStart : std::uint8_t {
   LastCorner,  ///< where the last query of the pair ended
   Table,       ///< the better one of that and the table's corner
+  ColdTable,   ///< Table while the pair remembers nothing, LastCorner from then on
 };
 
 /// Everything is in the first body's axes, with the first body's centre for origin. The distance
