@@ -26,6 +26,7 @@ class ExactSurface {
   explicit ExactSurface(const TriangleMesh& surface);
 
   [[nodiscard]] const TriangleMesh& surface() const noexcept { return surface_; }
+  [[nodiscard]] const TriangleTree& tree() const noexcept { return tree_; }
 
   /// Negative inside, by the sum of all facets' solid angles (the winding number) [mm].
   /// Cost: O(facets).
