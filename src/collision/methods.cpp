@@ -24,9 +24,8 @@ constexpr std::string_view kToRounding = "bodies that touch up to rounding may b
 std::span<const Method> all_methods() {
   static const std::array kMethods{
       Method{"lp_growth", "ong1996growth", false, false, "", make_growth_query},
-      Method{"closest_active_set", "wolfe1976nearest", true, false, kToRounding,
-             make_closest_active_set},
-      Method{"depth_exact", "vandenbergen2001depth", false, true, kToRounding, make_depth_exact},
+      Method{"closest_active_set", "wolfe1976nearest", true, false, "", make_closest_active_set},
+      Method{"depth_exact", "vandenbergen2001depth", false, true, "", make_depth_exact},
       Method{"epa", "vandenbergen2001depth", false, true,
              "depth to 1e-6 mm, less where 128 corners do not suffice; bodies that touch up to "
              "rounding may be called either",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/closest/active_set.hpp"
 
+#include "collision/closest/certain_verdict.hpp"
 #include "collision/closest/wide_nearest.hpp"
 
 namespace carpus::collision {
@@ -18,16 +19,12 @@ double gap_to_prove_mm(const PosedPair& pair) noexcept {
 }  // namespace
 
 Verdict ClosestActiveSet::meets(const PairPose& first_from_second) noexcept {
-  const PosedPair pair(first_, second_, first_from_second);
-  const Verdict verdict = walk_.decide(pair);
-  if (verdict != Verdict::Unknown || walk_.count() == 0) return verdict;
-  ++wide_queries_;
-  const WideNearest wide = wide_nearest(pair, walk_.points(), walk_.count(), gap_to_prove_mm(pair));
-  return wide.verdict;
+  return certain_verdict(walk_, {first_graph_, second_graph_, first_from_second}, first_, second_,
+                         first_from_second);
 }
 
 std::optional<Closest> ClosestActiveSet::closest(const PairPose& first_from_second) noexcept {
-  const PosedPair pair(first_, second_, first_from_second);
+  const PosedPair pair(first_graph_, second_graph_, first_from_second);
   const double gap = gap_to_prove_mm(pair);
   const Verdict verdict = walk_.find_nearest(pair, gap);
   if (verdict == Verdict::Meet) return std::nullopt;

@@ -32,8 +32,10 @@ namespace carpus::collision {
 class ClosestActiveSet final : public PairQuery {
  public:
   ClosestActiveSet(const ConvexBody& first, const ConvexBody& second)
-      : first_(first.derived<SupportGraph>()),
-        second_(second.derived<SupportGraph>()),
+      : first_(first),
+        second_(second),
+        first_graph_(first.derived<SupportGraph>()),
+        second_graph_(second.derived<SupportGraph>()),
         walk_(ClimbStart::ColdTable) {}
 
   [[nodiscard]] Verdict meets(const PairPose& first_from_second) noexcept override;
@@ -44,8 +46,10 @@ class ClosestActiveSet final : public PairQuery {
   [[nodiscard]] std::uint64_t wide_queries() const noexcept { return wide_queries_; }
 
  private:
-  const SupportGraph& first_;
-  const SupportGraph& second_;
+  const ConvexBody& first_;
+  const ConvexBody& second_;
+  const SupportGraph& first_graph_;
+  const SupportGraph& second_graph_;
   GjkWalk walk_;
   std::uint64_t wide_queries_ = 0;
 };

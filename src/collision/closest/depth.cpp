@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/closest/depth.hpp"
 
+#include "collision/closest/certain_verdict.hpp"
 #include "collision/closest/epa.hpp"
 
 namespace carpus::collision {
@@ -16,7 +17,8 @@ constexpr std::size_t kMostWarmCorners = kMostDepthCorners / 2;
 }  // namespace
 
 Verdict DepthExact::meets(const PairPose& first_from_second) noexcept {
-  return walk_.decide({first_graph_, second_graph_, first_from_second});
+  return certain_verdict(walk_, {first_graph_, second_graph_, first_from_second}, first_, second_,
+                         first_from_second);
 }
 
 std::optional<DepthExact::Facet> DepthExact::grow_to_facet(const PosedPair& pair,

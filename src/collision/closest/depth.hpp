@@ -32,9 +32,10 @@ struct DepthCounts {
 /// exactly, ties and symmetric bodies included. The surface is kept; at the next pose its corners
 /// are moved, and often nothing but the two bounds is left to be computed. Where that ends without
 /// proof - more facets all but tie than there is room for, or slivers - all facets are gone through
-/// (lowest_facet.hpp). Depths of bodies up to 1 m: right to 1e-9 mm.
-/// Cost: 1 to 3 us warm, 5 to 15 us cold; below a millisecond where all facets tie.
-/// Sources: [vandenbergen2001depth]; the proof by winding and the fallback are ours.
+/// (lowest_facet.hpp). Depths of bodies up to 1 m: right to 1e-9 mm. Verdicts are exact
+/// (certain_verdict.hpp); bodies apart by less than 16 roundings of their size may be given depth
+/// 0. Cost: 1 to 3 us warm, 5 to 15 us cold; below a millisecond where all facets tie. Sources:
+/// [vandenbergen2001depth]; the proof by winding and the fallback are ours.
 class DepthExact final : public PairQuery {
  public:
   DepthExact(const ConvexBody& first, const ConvexBody& second)

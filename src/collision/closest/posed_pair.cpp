@@ -48,7 +48,7 @@ PosedPair::PosedPair(const SupportGraph& first,
       0.5 + 0.5 * (squared_length(rotation_.rows[0]) + squared_length(rotation_.rows[1]) +
                    squared_length(rotation_.rows[2]));
   scale_mm_ = first.radius_mm() + stretch * second.radius_mm() + size_of(offset_);
-  rounding_mm_ = 16 * kRoundoff * scale_mm_ + 4 * kRoundoff * cancelled;
+  rounding_mm_ = 16 * kRoundoff * scale_mm_ + 8 * kRoundoff * cancelled;
 }
 
 }  // namespace carpus::collision
