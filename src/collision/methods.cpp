@@ -12,12 +12,17 @@
 #include "collision/ivri/ivri_cd.hpp"
 #include "collision/lp/growth.hpp"
 #include "collision/pair_query.hpp"
+#include "collision/volumes/tree_methods.hpp"
 
 namespace carpus::collision {
 namespace {
 
 /// Of methods that decide by rounded products of coordinates.
 constexpr std::string_view kToRounding = "bodies that touch up to rounding may be called either";
+
+/// Of methods that round the second body's corners into the first one's frame, then are exact.
+constexpr std::string_view kToRoundedCorners =
+    "bodies that touch up to the rounding of moved corners may be called either";
 
 }  // namespace
 
@@ -35,6 +40,18 @@ std::span<const Method> all_methods() {
       Method{"ivri", "yaacoub2008", false, false,
              "approximate: gaps below 1e-9 mm count as contact; bodies of 1e-3 to 1e5 mm",
              make_ivri_query},
+      Method{"aabb_tree", "vandenbergen1997efficient", false, false, kToRoundedCorners,
+             make_tree_query<AxisBox>},
+      Method{"obb_tree", "gottschalk1996separating", false, false, kToRoundedCorners,
+             make_tree_query<OrientedBox>},
+      Method{"quick_cd_6", "klosowski1998efficient", false, false, kToRoundedCorners,
+             make_tree_query<KDop<6>>},
+      Method{"quick_cd_14", "klosowski1998efficient", false, false, kToRoundedCorners,
+             make_tree_query<KDop<14>>},
+      Method{"quick_cd_18", "klosowski1998efficient", false, false, kToRoundedCorners,
+             make_tree_query<KDop<18>>},
+      Method{"quick_cd_26", "klosowski1998efficient", false, false, kToRoundedCorners,
+             make_tree_query<KDop<26>>},
   };
   return kMethods;
 }

@@ -47,4 +47,9 @@ inline constexpr double kLeastBasisDeterminant = 1e-7;
 /// products, and as much again for bodies far from the origin.
 inline constexpr double kMovedBoxRounding = 32 * kRoundoff;
 
+/// Volumes in a tree of triangles are taken as apart only by more than this times the sizes that
+/// enter: 12 u for the coordinates of moved corners, some 30 u for moving and comparing volumes, the
+/// rest for axes that are not quite orthonormal; about 5e-12 mm for a wrist.
+inline constexpr double kVolumeRounding = 256 * kRoundoff;
+
 }  // namespace carpus
