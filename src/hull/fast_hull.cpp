@@ -26,7 +26,7 @@ namespace carpus::hull {
 namespace {
 
 /// Below this the extremes cost more than the points that they save.
-constexpr std::size_t kFewPoints = 3000;
+constexpr std::size_t kFewPoints = 1000;
 
 }  // namespace
 

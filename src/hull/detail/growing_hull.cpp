@@ -45,7 +45,9 @@ std::uint32_t GrowingHull::add_vertex(const Vec3& p, std::uint32_t input_index) 
   return static_cast<std::uint32_t>(hull_.vertices.size() - 1);
 }
 
-std::uint32_t GrowingHull::make_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+[[gnu::always_inline]] inline std::uint32_t GrowingHull::make_facet(std::uint32_t a,
+                                                                    std::uint32_t b,
+                                                                    std::uint32_t c) {
   std::uint32_t f = 0;
   if (free_.empty()) {
     f = static_cast<std::uint32_t>(hull_.facets.size());
@@ -181,7 +183,8 @@ void GrowingHull::reserve_ranges() {
   arena_end_ = at;
 }
 
-void GrowingHull::place(const Conflict& conflict, std::uint32_t slot) {
+[[gnu::always_inline]] inline void GrowingHull::place(const Conflict& conflict,
+                                                      std::uint32_t slot) {
   std::uint32_t& to = targets_[slot].count;
   arena_[to] = conflict;
   to += slot + 1 < targets_.size() ? 1 : 0;
@@ -237,7 +240,7 @@ std::size_t GrowingHull::farthest_conflict(const GrowingFacet& facet) const {
   return farthest;
 }
 
-bool GrowingHull::sees(const GrowingFacet& facet, const Vec3& p) {
+[[gnu::always_inline]] inline bool GrowingHull::sees(const GrowingFacet& facet, const Vec3& p) {
   ++statistics_.orientation_tests;
   const double height = facet.plane.height(p);
   if (height > facet.plane.bound) return true;

@@ -44,68 +44,66 @@ class IndexSet {
   std::vector<std::uint32_t> below_;
 };
 
-/// Numbers the vertices that facets have, and renames the facets' corners.
-void number_vertices(std::span<const Vec3> points,
-                     const GrownHull& hull,
-                     std::vector<FinalFacet>& facets,
-                     ConvexPolytope& polytope) {
-  std::vector<std::uint32_t> renamed(hull.vertices.size(), kNone);
+/// Numbers the vertices that facets have. @return the number of each grown vertex, or kNone.
+std::vector<std::uint32_t> number_vertices(std::span<const Vec3> points,
+                                           const GrownHull& hull,
+                                           const std::vector<FinalFacet>& facets,
+                                           ConvexPolytope& polytope) {
+  std::vector<std::uint32_t> number(hull.vertices.size(), kNone);
   for (const FinalFacet& facet : facets) {
-    for (const std::uint32_t v : facet.corners) renamed[v] = 0;
+    for (const std::uint32_t v : facet.corners) number[v] = 0;
   }
   IndexSet used(points.size());
-  for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] != kNone) used.insert(hull.input_indices[v]);
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] != kNone) used.insert(hull.input_indices[v]);
   }
   const std::uint32_t count = used.count();
   polytope.vertices.resize(count);
   polytope.input_indices.resize(count);
-  for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (renamed[v] == kNone) continue;
-    const std::uint32_t rank = used.rank(hull.input_indices[v]);
-    renamed[v] = rank;
-    polytope.vertices[rank] = hull.vertices[v];
-    polytope.input_indices[rank] = hull.input_indices[v];
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNone) continue;
+    number[v] = used.rank(hull.input_indices[v]);
+    polytope.vertices[number[v]] = hull.vertices[v];
+    polytope.input_indices[number[v]] = hull.input_indices[v];
   }
-  for (FinalFacet& facet : facets) {
-    for (std::uint32_t& v : facet.corners) v = renamed[v];
-  }
+  return number;
 }
 
-/// Turns each facet to begin with its lowest vertex.
-void turn_to_lowest(std::vector<FinalFacet>& facets) {
+/// Turns each facet to begin with the vertex of the lowest number.
+void turn_to_lowest(const std::vector<std::uint32_t>& number, std::vector<FinalFacet>& facets) {
   for (FinalFacet& facet : facets) {
     const auto [a, b, c] = facet.corners;
     const auto [x, y, z] = facet.neighbours;
-    if (b < a && b < c) {
+    if (number[b] < number[a] && number[b] < number[c]) {
       facet = {{b, c, a}, {y, z, x}};
-    } else if (c < a && c < b) {
+    } else if (number[c] < number[a] && number[c] < number[b]) {
       facet = {{c, a, b}, {z, x, y}};
     }
   }
 }
 
-/// The facets' order by their corners.
-std::vector<std::uint32_t> sorted_order(const std::vector<FinalFacet>& facets,
-                                        std::size_t vertex_count) {
+/// Where each facet comes in the order of their numbered corners.
+std::vector<std::uint32_t> places_of(const std::vector<FinalFacet>& facets,
+                                     const std::vector<std::uint32_t>& number,
+                                     std::size_t vertex_count) {
   std::vector<std::uint32_t> end(vertex_count + 1, 0);
-  for (const FinalFacet& facet : facets) ++end[facet.corners[0] + 1];
+  for (const FinalFacet& facet : facets) ++end[number[facet.corners[0]] + 1];
   for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
   struct Entry {
     std::uint32_t second;
     std::uint32_t facet;
   };
   std::vector<Entry> entries(facets.size());
-  for (std::uint32_t f = 0; f < facets.size(); ++f)
-    entries[end[facets[f].corners[0]]++] = {facets[f].corners[1], f};
+  for (std::uint32_t f = 0; f < facets.size(); ++f) {
+    entries[end[number[facets[f].corners[0]]]++] = {number[facets[f].corners[1]], f};
+  }
   // Now end[v] is where the facets of v end; those of v - 1 end where they begin.
   const auto is_before = [](const Entry& a, const Entry& b) { return a.second < b.second; };
   std::uint32_t begin = 0;
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    if (end[v] - begin > kMostInserted) {
-      std::sort(entries.begin() + begin, entries.begin() + end[v], is_before);
-    }
-    for (std::uint32_t i = begin + 1; i < end[v] && end[v] - begin <= kMostInserted; ++i) {
+    const bool are_few = end[v] - begin <= kMostInserted;
+    if (!are_few) std::sort(entries.begin() + begin, entries.begin() + end[v], is_before);
+    for (std::uint32_t i = begin + 1; are_few && i < end[v]; ++i) {
       const Entry moving = entries[i];
       std::uint32_t at = i;
       for (; at > begin && moving.second < entries[at - 1].second; --at)
@@ -114,9 +112,9 @@ std::vector<std::uint32_t> sorted_order(const std::vector<FinalFacet>& facets,
     }
     begin = end[v];
   }
-  std::vector<std::uint32_t> order(facets.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].facet;
-  return order;
+  std::vector<std::uint32_t> places(facets.size());
+  for (std::uint32_t i = 0; i < entries.size(); ++i) places[entries[i].facet] = i;
+  return places;
 }
 
 }  // namespace
@@ -126,22 +124,20 @@ ConvexPolytope number_hull(std::span<const Vec3> points,
                            HullStatistics& statistics) {
   ConvexPolytope polytope;
   std::vector<FinalFacet> facets = whole_faces(hull, statistics);
-  number_vertices(points, hull, facets, polytope);
-  turn_to_lowest(facets);
-  const std::vector<std::uint32_t> order = sorted_order(facets, polytope.vertices.size());
-  std::vector<std::uint32_t> place(facets.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  const std::vector<std::uint32_t> number = number_vertices(points, hull, facets, polytope);
+  turn_to_lowest(number, facets);
+  const std::vector<std::uint32_t> places = places_of(facets, number, polytope.vertices.size());
   polytope.facets.resize(facets.size());
   polytope.neighbours.resize(facets.size());
   polytope.planes.resize(facets.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const FinalFacet& facet = facets[order[i]];
-    const auto& [a, b, c] = facet.neighbours;
-    const Triangle& t = facet.corners;
-    polytope.facets[i] = t;
-    polytope.neighbours[i] = {place[a], place[b], place[c]};
-    polytope.planes[i] = facet_plane(polytope.vertices[t[0]], polytope.vertices[t[1]],
-                                     polytope.vertices[t[2]], true);
+  // In the order of growth, in which what is read lies together; only what is written is scattered.
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto& [a, b, c] = facets[f].corners;
+    const auto& [x, y, z] = facets[f].neighbours;
+    const std::uint32_t to = places[f];
+    polytope.facets[to] = {number[a], number[b], number[c]};
+    polytope.neighbours[to] = {places[x], places[y], places[z]};
+    polytope.planes[to] = facet_plane(hull.vertices[a], hull.vertices[b], hull.vertices[c], true);
   }
   return polytope;
 }

@@ -37,7 +37,11 @@ struct OrientedPlane {
   double bound = 0;
 
   OrientedPlane() = default;
-  OrientedPlane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& extent) : origin(a) {
+  [[gnu::always_inline]] inline OrientedPlane(const Vec3& a,
+                                              const Vec3& b,
+                                              const Vec3& c,
+                                              const Vec3& extent)
+      : origin(a) {
     const Vec3 u = b - a;
     const Vec3 v = c - a;
     normal = cross(u, v);
@@ -55,7 +59,7 @@ struct OrientedPlane {
   }
 
  private:
-  void make_exact(const Vec3& magnitude) {
+  [[gnu::noinline]] void make_exact(const Vec3& magnitude) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double along = normal[axis];
       const bool is_alone = normal[(axis + 1) % 3] == 0 && normal[(axis + 2) % 3] == 0;
