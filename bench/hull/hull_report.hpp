@@ -15,9 +15,13 @@ namespace carpus::bench {
 /// One line a set: seconds of each engine, how many times faster `fast` is than the best peer.
 [[nodiscard]] std::string text_of(const std::vector<HullRow>& rows);
 
-/// How time grows with n (least squares of the logarithms) for each distribution and engine that
-/// ran on three sizes or more.
+/// How time grows, by least squares of the logarithms: with n for each distribution and engine that
+/// ran on three sizes or more, with h for each engine and n over three distributions or more.
 [[nodiscard]] std::string growth_of(const std::vector<HullRow>& rows);
+
+/// What brute force would take for `whole` points, from the rows of fewer that it ran on.
+[[nodiscard]] std::string brute_force_growth_of(const std::vector<HullRow>& rows,
+                                                std::size_t whole);
 
 /// docs/json.md, hull benchmark.
 /// @throws IoError when the file cannot be written.
