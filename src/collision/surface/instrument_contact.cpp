@@ -192,11 +192,12 @@ class AxisWalk {
   void walk(Piece piece) noexcept {
     if (!clip(piece)) return;
     const double steepest = steepest_ + std::abs(piece.slope);
+    const double per_steepest = 1 / steepest;
     double z = piece.from;
     while (steps_left_ > 0) {
       --steps_left_;
       Stop stop = stop_at(z, piece);
-      const double stride = free_way(stop.gap.c0) / steepest;
+      const double stride = free_way(stop.gap.c0) * per_steepest;
       if (stride > stop.step) {
         stop.step = std::min(stride, piece.to - z);
         pass_over(stop);
@@ -209,20 +210,29 @@ class AxisWalk {
     }
   }
 
+  /// Along one axis: the cell at a coordinate in cells, the one ahead on a border.
+  struct AxisCell {
+    int cell;
+    double place;   ///< in the cell, 0 to 1
+    double border;  ///< way to where it is left [mm]
+  };
+  static AxisCell axis_cell(double x, int last, double ahead, double per_along) noexcept {
+    int cell = std::clamp(static_cast<int>(x), 0, last);
+    if (ahead == 0 && x <= cell && cell > 0) --cell;
+    const double place = x - cell;
+    return {cell, place, (ahead - place) * per_along};
+  }
+
   [[nodiscard]] Stop stop_at(double z, const Piece& piece) const noexcept {
-    std::array<int, 3> cell{};
-    Vec3 place;
-    double border = std::numeric_limits<double>::infinity();
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double x = front_[a] + along_[a] * z;
-      int i = std::clamp(static_cast<int>(x), 0, field_.cell_count()[a] - 1);
-      if (ahead_[a] == 0 && x <= i && i > 0) --i;
-      cell[a] = i;
-      place[a] = x - i;
-      border = std::min(border, (ahead_[a] - place[a]) * per_along_[a]);
-    }
+    const auto& cells = field_.cell_count();
+    const Vec3 at = front_ + along_ * z;
+    const AxisCell x = axis_cell(at.x, cells[0] - 1, ahead_.x, per_along_.x);
+    const AxisCell y = axis_cell(at.y, cells[1] - 1, ahead_.y, per_along_.y);
+    const AxisCell w = axis_cell(at.z, cells[2] - 1, ahead_.z, per_along_.z);
+    const double border = std::min(std::min(x.border, y.border), w.border);
+    const Vec3 place{x.place, y.place, w.place};
     CellPolynomial p;
-    (void)field_.load({cell[0], cell[1], cell[2]}, p);
+    (void)field_.load({x.cell, y.cell, w.cell}, p);
     const double radius = piece.radius + piece.slope * (z - piece.from);
     const GapCubic gap{p.value(place) - radius, dot(p.slope(place), along_) - piece.slope,
                        p.yz * products_.x + p.xz * products_.y + p.xy * products_.z +
@@ -234,7 +244,8 @@ class AxisWalk {
   /// By how much the gap may change before it concerns the answer.
   [[nodiscard]] double free_way(double gap) const noexcept {
     if (gap > 0) return gap - std::max(best_.gap, 0.0);
-    return std::min({-gap, is_open_ ? gap - deepest_.gap : 0.0, std::abs(gap - core_level_)});
+    const double to_edges = std::min(-gap, std::abs(gap - core_level_));
+    return is_open_ ? std::min(to_edges, gap - deepest_.gap) : 0.0;
   }
 
   /// The rest of the stride is like its start: clear, or in contact at a depth of no interest.
