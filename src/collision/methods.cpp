@@ -11,6 +11,8 @@
 #include "collision/closest/gjk.hpp"
 #include "collision/ivri/ivri_cd.hpp"
 #include "collision/lp/growth.hpp"
+#include "collision/lp/seidel.hpp"
+#include "collision/lp/three_rows.hpp"
 #include "collision/pair_query.hpp"
 #include "collision/volumes/tree_methods.hpp"
 
@@ -29,6 +31,10 @@ constexpr std::string_view kToRoundedCorners =
 std::span<const Method> all_methods() {
   static const std::array kMethods{
       Method{"lp_growth", "ong1996growth", false, false, "", make_growth_query},
+      Method{"lp_scan", "yaacoub2008", false, false, "", make_lp_scan},
+      Method{"lp_partial", "yaacoub2008", false, false, "", make_lp_partial},
+      Method{"lp_walk", "yaacoub2008", false, false, "", make_lp_walk},
+      Method{"seidel", "seidel1991small", false, false, "", make_seidel},
       Method{"closest_active_set", "wolfe1976nearest", true, false, "", make_closest_active_set},
       Method{"depth_exact", "vandenbergen2001depth", false, true, "", make_depth_exact},
       Method{"epa", "vandenbergen2001depth", false, true,

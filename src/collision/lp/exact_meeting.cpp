@@ -111,16 +111,26 @@ class Climb {
 class ActiveSet {
  public:
   ActiveSet(const PlacedBody& first, const PlacedBody& second, const ExactHint& hint) noexcept
-      : first_(first), second_(second), a_(hint.first_vertex), b_(hint.second_vertex) {}
+      : first_(first),
+        second_(second),
+        a_(hint.first_vertex),
+        b_(hint.second_vertex),
+        seeds_(hint.seeds),
+        seed_count_(hint.seed_count) {}
 
   ExactAnswer run(const Vec3& direction) noexcept {
     v_ = ExactVec3(direction);
     if (v_.is_zero()) v_ = ExactVec3(Vec3{1, 0, 0});
     ExactVec3 d = extreme_difference();
     if (dot(v_, d).sign() > 0) return answer(Verdict::Apart);
+    if (take_seeds()) {
+      if (is_origin_reached_from(0)) return answer(Verdict::Meet);
+      d = extreme_difference();
+      if (dot(v_, d - corners_[0]).sign() >= 0) return answer(Verdict::Apart);
+    }
     while (true) {
       corners_[count_++] = d;
-      if (is_origin_reached()) return answer(Verdict::Meet);
+      if (is_origin_reached_from(count_ - 1)) return answer(Verdict::Meet);
       if (v_.x.is_overflown() || v_.y.is_overflown() || v_.z.is_overflown()) {
         return answer(Verdict::Unknown);
       }
@@ -143,17 +153,33 @@ class ActiveSet {
     return placed_vertex(second_, b_) - placed_vertex(first_, a_);
   }
 
-  /// Reduces the set to the corners about its nearest point, of which the last corner is one.
-  bool is_origin_reached() noexcept {
-    const std::size_t last = count_ - 1;
-    if (corners_[last].is_zero()) return true;
-    if (try_corner(last)) return false;
-    for (std::size_t i = 0; i < last; ++i) {
-      if (try_edge(i, last)) return v_.is_zero();
+  /// The seeds become the set; false if there are none.
+  bool take_seeds() noexcept {
+    for (std::uint32_t i = 0; i < seed_count_; ++i) {
+      corners_[count_++] =
+          placed_vertex(second_, seeds_[i][1]) - placed_vertex(first_, seeds_[i][0]);
     }
-    for (std::size_t i = 0; i < last; ++i) {
-      for (std::size_t j = i + 1; j < last; ++j) {
-        if (try_triangle(i, j, last)) return v_.is_zero();
+    return count_ > 0;
+  }
+
+  /// Reduces the set to the corners about its nearest point, among which the last corner is, or one
+  /// after it.
+  bool is_origin_reached_from(std::size_t least) noexcept {
+    const std::size_t count = count_;
+    for (std::size_t k = least; k < count; ++k) {
+      if (corners_[k].is_zero()) return true;
+      if (try_corner(k)) return false;
+    }
+    for (std::size_t j = std::max<std::size_t>(least, 1); j < count; ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        if (try_edge(i, j)) return v_.is_zero();
+      }
+    }
+    for (std::size_t k = std::max<std::size_t>(least, 2); k < count; ++k) {
+      for (std::size_t i = 0; i < k; ++i) {
+        for (std::size_t j = i + 1; j < k; ++j) {
+          if (try_triangle(i, j, k)) return v_.is_zero();
+        }
       }
     }
     return true;  // a tetrahedron around the origin
@@ -208,6 +234,8 @@ class ActiveSet {
   const PlacedBody& second_;
   std::uint32_t a_;
   std::uint32_t b_;
+  const std::array<std::array<std::uint32_t, 2>, 4>& seeds_;
+  std::uint32_t seed_count_;
   std::uint32_t rounds_ = 0;
   std::size_t count_ = 0;
   std::array<ExactVec3, 4> corners_;

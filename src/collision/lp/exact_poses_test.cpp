@@ -24,7 +24,7 @@ namespace carpus::collision {
 namespace {
 
 /// By name in the list of methods; each promises the exact verdict.
-constexpr std::array kExactMethods{"lp_growth"};
+constexpr std::array kExactMethods{"lp_growth", "lp_scan", "lp_partial", "lp_walk", "seidel"};
 
 bool is_set(const char* name) {
   const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)

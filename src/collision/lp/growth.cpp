@@ -35,7 +35,7 @@ Verdict GrowthQuery::decide(const RelativePose& pose) noexcept {
 }
 
 Verdict GrowthQuery::decide_exactly(const PairPose& first_from_second) noexcept {
-  const ExactHint hint = is_usable_ ? program_.hint(memory_) : ExactHint{};
+  const ExactHint hint = is_usable_ ? program_.hint(*first_, *second_, memory_) : ExactHint{};
   const ExactAnswer answer =
       exactly_meet({first_, Mat3::identity(), {}},
                    {second_, first_from_second.rotation, first_from_second.translation}, hint);

@@ -77,7 +77,9 @@ class GrowthProgram {
                                GrowthMemory& memory,
                                GrowthCounts& counts) const noexcept;
   /// Where exact arithmetic may begin: at the rows that doubles ended on.
-  [[nodiscard]] ExactHint hint(const GrowthMemory& memory) const noexcept;
+  [[nodiscard]] ExactHint hint(const ConvexBody& first,
+                               const ConvexBody& second,
+                               const GrowthMemory& memory) const noexcept;
   /// Runs to the optimum.
   [[nodiscard]] GrowthOptimum optimum(const RelativePose& pose,
                                       GrowthMemory& memory,

@@ -179,7 +179,7 @@ Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
   const Body& second = bodies_[pair.bodies.second];
   ExactHint hint;
   if (first.is_ordinary && second.is_ordinary) {
-    hint = GrowthProgram(*first.graph, *second.graph).hint(pair.memory);
+    hint = GrowthProgram(*first.graph, *second.graph).hint(*first.body, *second.body, pair.memory);
     hint.direction = first.pose.rotation * hint.direction;
   }
   const ExactAnswer answer =
