@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/collision/command.hpp"
 #include "bench/hull/bone_points.hpp"
 #include "bench/hull/hull_bench.hpp"
 #include "bench/hull/hull_report.hpp"
@@ -211,6 +212,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   carpus::bench::HullArguments hull;
   carpus::bench::add_hull(app, hull);
+#ifdef CARPUS_HAS_COLLISION_BENCH
+  carpus::bench::CollisionArguments collision;
+  carpus::bench::add_collision(app, collision);
+#endif
   try {
     app.parse(argc, argv);
     return 0;

@@ -32,10 +32,15 @@ void become_bench(const std::string& what, const std::vector<std::string>& argum
 }  // namespace
 
 void add_bench_peers_command(CLI::App& bench) {
-  CLI::App* hull = bench.add_subcommand("hull", "Convex hulls against Qhull, CGAL and Bullet");
-  hull->set_help_flag();  // carpus-bench answers --help
-  hull->prefix_command();
-  hull->callback([hull] { become_bench("hull", hull->remaining()); });
+  for (const auto& [name, what] :
+       {std::pair{"hull", "Convex hulls against Qhull, CGAL and Bullet"},
+        std::pair{"collision",
+                  "Convex bodies in contact against FCL, libccd, Bullet, GLPK, CLP"}}) {
+    CLI::App* verb = bench.add_subcommand(name, what);
+    verb->set_help_flag();  // carpus-bench answers --help
+    verb->prefix_command();
+    verb->callback([verb] { become_bench(verb->get_name(), verb->remaining()); });
+  }
 }
 
 }  // namespace carpus::cli

@@ -24,36 +24,39 @@ struct DistanceBounds {
 
 namespace detail {
 
-/// Weights of the point of least norm on the plane through the given points, or none where those
-/// weights are not all positive.
-inline bool interior_minimum(const std::vector<Long3>& p, std::vector<long double>& weights) {
-  const std::size_t m = p.size();
-  // Lagrange: gram * w = mu, sum w = 1, by elimination with pivots.
-  std::vector<std::vector<long double>> a(m + 1, std::vector<long double>(m + 2, 0));
+/// The point of least norm on the plane through the given points, or false where its weights are
+/// not all positive. Solved for the differences to the first point, by elimination with pivots.
+inline bool interior_minimum(const std::vector<Long3>& p, Long3& nearest) {
+  const std::size_t m = p.size() - 1;
+  std::vector<Long3> d;
+  for (std::size_t i = 1; i <= m; ++i) d.push_back(minus(p[i], p[0]));
+  std::vector<std::vector<long double>> a(m, std::vector<long double>(m + 1, 0));
   for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j < m; ++j) a[i][j] = dot_of(p[i], p[j]);
-    a[i][m] = a[m][i] = 1;
+    for (std::size_t j = 0; j < m; ++j) a[i][j] = dot_of(d[i], d[j]);
+    a[i][m] = -dot_of(d[i], p[0]);
   }
-  a[m][m + 1] = 1;
-  for (std::size_t k = 0; k <= m; ++k) {
+  for (std::size_t k = 0; k < m; ++k) {
     std::size_t best = k;
-    for (std::size_t i = k; i <= m; ++i) {
+    for (std::size_t i = k; i < m; ++i) {
       if (std::abs(a[i][k]) > std::abs(a[best][k])) best = i;
     }
     if (a[best][k] == 0) return false;
     std::swap(a[k], a[best]);
-    for (std::size_t i = 0; i <= m; ++i) {
+    for (std::size_t i = 0; i < m; ++i) {
       if (i == k) continue;
       const long double f = a[i][k] / a[k][k];
-      for (std::size_t j = k; j <= m + 1; ++j) a[i][j] -= f * a[k][j];
+      for (std::size_t j = k; j <= m; ++j) a[i][j] -= f * a[k][j];
     }
   }
-  weights.resize(m);
+  long double first = 1;
+  nearest = p[0];
   for (std::size_t i = 0; i < m; ++i) {
-    weights[i] = a[i][m + 1] / a[i][i];
-    if (!(weights[i] > 0)) return false;
+    const long double w = a[i][m] / a[i][i];
+    if (!(w > 0)) return false;
+    first -= w;
+    for (std::size_t k = 0; k < 3; ++k) nearest[k] += w * d[i][k];
   }
-  return true;
+  return first > 0;
 }
 
 /// The nearest point to the origin of the hull of at most four points, which are reduced to those
@@ -67,12 +70,8 @@ inline Long3 nearest_of_simplex(std::vector<Long3>& simplex) {
     for (std::size_t i = 0; i < simplex.size(); ++i) {
       if ((subset >> i & 1U) != 0) p.push_back(simplex[i]);
     }
-    std::vector<long double> w;
-    if (!interior_minimum(p, w)) continue;
-    Long3 x{};
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) x[k] += w[i] * p[i][k];
-    }
+    Long3 x;
+    if (!interior_minimum(p, x)) continue;
     if (dot_of(x, x) < least) {
       least = dot_of(x, x);
       best = x;

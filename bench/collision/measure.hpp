@@ -1,0 +1,73 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Numbers of many timed queries of one engine, and how they become rows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/capped_run.hpp"
+#include "bench/collision/engine.hpp"
+#include "bench/collision/poses.hpp"
+
+namespace carpus::bench {
+
+/// Crosses a pipe by its bytes.
+struct Timing {
+  double median = 0;  ///< seconds, each query the least of its passes
+  double p99 = 0;
+  double p999 = 0;
+  double worst = 0;
+  double mean = 0;
+  double p99_one_pass = 0;  ///< of the first pass alone, what else the machine did included
+  std::uint64_t queries = 0;
+  std::uint64_t wrong = 0;       ///< verdicts, beyond touching up to rounding
+  std::uint64_t wrong_near = 0;  ///< verdicts where the bodies touch up to rounding
+  std::uint64_t unknown = 0;
+  double largest_error_mm = 0;  ///< of distances or depths, against the oracle
+  std::uint64_t missing = 0;    ///< distances or depths that were not given
+};
+
+/// passes[p][i]: seconds of query i in pass p.
+[[nodiscard]] Timing timing_of(const std::vector<std::vector<double>>& passes);
+
+/// One row of any table.
+struct CollisionRow {
+  std::string pose_case;
+  std::string query;  ///< boolean, distance, depth, tick_boolean, tick_distance
+  std::string engine;
+  bool is_peer = false;
+  double facets = 0;  ///< of one body, in the mean
+  bool ran = false;
+  Timing timing;
+  bool agrees = false;
+  std::size_t original_vertices = 0;  ///< table 5.1: of the surface, not of its hull
+};
+
+/// Bodies of one pair with its poses.
+struct PairScript {
+  const collision::ConvexBody* first = nullptr;
+  const collision::ConvexBody* second = nullptr;
+  PoseScript poses;
+};
+
+inline constexpr int kPasses = 3;
+
+struct BenchOptions {
+  Caps caps{std::size_t{8} << 30U, 60};
+  double budget_seconds = 20;  ///< an engine on one case; what does not fit is not asked
+  std::size_t pairs = 0;       ///< how many pairs of bones; 0: all near ones
+  std::size_t poses = 100;     ///< a pair and case
+};
+
+/// Asks meets() for every pose; `cold` forgets before each.
+[[nodiscard]] CollisionRow measure_verdicts(const PairEngine& engine,
+                                            const std::string& pose_case,
+                                            const std::vector<PairScript>& scripts,
+                                            bool cold,
+                                            const BenchOptions& options);
+
+}  // namespace carpus::bench

@@ -1,0 +1,37 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/collision/measure.hpp"
+
+namespace carpus::bench {
+
+template <typename... Values>
+[[nodiscard]] std::string format(const char* pattern, Values... values) {
+  std::array<char, 512> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+/// Engines down, cases across; median and p99 in microseconds, marked where the answers differ;
+/// below, our fastest engine that agrees against the fastest peer.
+[[nodiscard]] std::string text_of(const std::vector<CollisionRow>& rows);
+
+/// @throws IoError where the file cannot be written.
+void write_json(const std::filesystem::path& file,
+                const std::string& table,
+                const std::string& bones,
+                const std::vector<CollisionRow>& rows);
+
+/// One line an engine, logarithmic: facets against time, or cases against time.
+[[nodiscard]] std::string collision_plot_svg(const std::string& title,
+                                             const std::vector<CollisionRow>& rows,
+                                             bool against_facets);
+
+}  // namespace carpus::bench
