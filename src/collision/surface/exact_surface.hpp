@@ -5,7 +5,7 @@
 // Nothing here is for the 1 kHz thread.
 #pragma once
 
-#include <optional>
+#include <array>
 
 #include "collision/surface/shapes.hpp"
 #include "collision/surface/triangle_tree.hpp"

@@ -116,8 +116,8 @@ class AxisWalk {
     products_ = {along_.y * along_.z, along_.x * along_.z, along_.x * along_.y};
     const auto& cells = field.cell_count();
     steps_left_ = 64 + 4 * (cells[0] + cells[1] + cells[2]);
-    core_level_ =
-        shape.thread() ? -shape.thread()->depth_mm : -std::numeric_limits<double>::infinity();
+    const auto& thread = shape.thread();
+    core_level_ = thread ? -thread->depth_mm : -std::numeric_limits<double>::infinity();
     best_.gap = cap;
   }
 
@@ -157,7 +157,8 @@ class AxisWalk {
       const double depth = std::min(-best_.gap, shape_.greatest_radius_mm());
       patch_.area_mm2 = kPi * depth * (2 * shape_.greatest_radius_mm() - depth);
     }
-    if (shape_.thread()) patch_.thread_turns = patch_.length_mm / shape_.thread()->pitch_mm;
+    const auto& thread = shape_.thread();
+    if (thread) patch_.thread_turns = patch_.length_mm / thread->pitch_mm;
   }
 
  private:
