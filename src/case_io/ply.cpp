@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/text_lines.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
@@ -102,19 +103,26 @@ struct Header {
   std::size_t vertex_stride = 0;
   std::array<std::size_t, 3> place{};  ///< of x, y, z in a vertex
   std::array<std::optional<Scalar>, 3> type{};
+  std::array<std::size_t, 3> column{};  ///< of x, y, z among the properties of a vertex
+  std::size_t columns = 0;
   Scalar list_count = Scalar::U8;
   Scalar list_index = Scalar::I32;
   bool has_list = false;
+  bool is_binary = false;
+  bool is_text = false;
   std::size_t bytes = 0;  ///< of the header itself
 };
 
+enum class Accepted { BinarySurfaces, TextAndPointsToo };
+
 class Parser {
  public:
-  Parser(const std::filesystem::path& file, const std::string& content)
-      : file_(file), content_(content) {}
+  Parser(const std::filesystem::path& file, const std::string& content, Accepted accepted)
+      : file_(file), content_(content), accepted_(accepted) {}
 
   TriangleMesh run() {
     read_header();
+    if (header_.is_text) return read_text();
     check_length();
     TriangleMesh mesh;
     read_vertices(mesh);
@@ -135,7 +143,6 @@ class Parser {
     header_.bytes = end + kEnd.size();
     std::istringstream lines{std::string(text.substr(4, end - 4))};
     std::string element;
-    bool is_binary = false;
     for (std::string line; std::getline(lines, line);) {
       std::istringstream words(line);
       std::string key;
@@ -143,15 +150,18 @@ class Parser {
       if (key == "format") {
         std::string format;
         words >> format;
-        is_binary = format == "binary_little_endian";
+        header_.is_binary = format == "binary_little_endian";
+        header_.is_text = format == "ascii" && accepted_ == Accepted::TextAndPointsToo;
       } else if (key == "element") {
         read_element(words, element);
       } else if (key == "property") {
         read_property(words, element);
       }
     }
-    if (!is_binary) refuse("is not binary little-endian PLY");
-    if (!header_.type[0] || !header_.type[1] || !header_.type[2] || !header_.has_list) {
+    if (!header_.is_binary && !header_.is_text) refuse("is not binary little-endian PLY");
+    const bool needs_list = accepted_ == Accepted::BinarySurfaces || header_.facets > 0;
+    if (!header_.type[0] || !header_.type[1] || !header_.type[2] ||
+        (needs_list && !header_.has_list)) {
       refuse("lacks x, y, z or the list of facets");
     }
   }
@@ -199,7 +209,9 @@ class Parser {
       if (name != kAxes[i]) continue;
       header_.place[i] = header_.vertex_stride;
       header_.type[i] = scalar;
+      header_.column[i] = header_.columns;
     }
+    ++header_.columns;
     header_.vertex_stride += size_of(*scalar);
   }
 
@@ -243,10 +255,43 @@ class Parser {
     }
   }
 
+  /// Vertices and facets, one a line; polygons are cut into fans.
+  TriangleMesh read_text() {
+    TextLines lines(file_, std::string_view(content_).substr(header_.bytes));
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < header_.vertices; ++i) {
+      if (!lines.next()) refuse("is cut short");
+      mesh.vertices.push_back({lines.number(header_.column[0]), lines.number(header_.column[1]),
+                               lines.number(header_.column[2])});
+    }
+    for (std::size_t f = 0; f < header_.facets; ++f) {
+      if (!lines.next()) refuse("is cut short");
+      const auto corner = [&](std::int64_t i) {
+        const std::int64_t v = lines.integer(static_cast<std::size_t>(i) + 1);
+        if (v < 0 || v >= static_cast<std::int64_t>(header_.vertices)) {
+          refuse("has a facet with a vertex that is not there");
+        }
+        return static_cast<std::uint32_t>(v);
+      };
+      const std::int64_t corners = lines.integer(0);
+      if (corners < 3) refuse("has a facet of fewer than three corners");
+      for (std::int64_t i = 1; i + 1 < corners; ++i)
+        mesh.facets.push_back({corner(0), corner(i), corner(i + 1)});
+    }
+    return mesh;
+  }
+
   const std::filesystem::path& file_;
   const std::string& content_;
+  Accepted accepted_;
   Header header_;
 };
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw IoError(file.string() + ": cannot be opened; restore it or make the case again");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
 
 }  // namespace
 
@@ -274,10 +319,13 @@ void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh) {
 }
 
 TriangleMesh read_ply(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw IoError(file.string() + ": cannot be opened; restore it or make the case again");
-  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return Parser(file, content).run();
+  const std::string content = content_of(file);
+  return Parser(file, content, Accepted::BinarySurfaces).run();
+}
+
+TriangleMesh read_ply_or_points(const std::filesystem::path& file) {
+  const std::string content = content_of(file);
+  return Parser(file, content, Accepted::TextAndPointsToo).run();
 }
 
 }  // namespace carpus::case_io

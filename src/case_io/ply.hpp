@@ -20,4 +20,8 @@ void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh);
 /// @throws IoError naming the file and what is wrong.
 [[nodiscard]] TriangleMesh read_ply(const std::filesystem::path& file);
 
+/// The same, and text PLY (polygons become fans), and points without facets.
+/// @throws IoError as read_ply.
+[[nodiscard]] TriangleMesh read_ply_or_points(const std::filesystem::path& file);
+
 }  // namespace carpus::case_io

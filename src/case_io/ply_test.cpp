@@ -12,6 +12,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -124,6 +125,34 @@ TEST_F(Ply, ReadsTheReferenceMeshes) {
   const TriangleMesh lunate = read_ply(reference / "meshes" / "lunate.ply");
   EXPECT_EQ(check_surface(lunate), SurfaceStatus::Ok);
   EXPECT_NEAR(volume_of(lunate), 1641, 1);  // as published with it
+}
+
+TEST_F(Ply, OfPointsOrOfTextIsReadWhereAHullIsWanted) {
+  const std::string text_header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float nx\nproperty float x\n"
+      "property float y\nproperty float z\n";
+  const std::string points = "9 0 0 0\n9 1 0 0\n9 1 2 0\n9 0 2 3.5\n";
+  std::ofstream(file(), std::ios::binary) << text_header << "end_header\n" << points;
+  EXPECT_EQ(read_ply_or_points(file()).vertices,
+            (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 3.5}}));
+  EXPECT_THAT(refusal(text_header + "end_header\n" + points), HasSubstr("binary"));
+
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  fs::remove(file());
+  std::ofstream(file(), std::ios::binary) << text_header << faces << points << "4 0 1 2 3\n";
+  EXPECT_EQ(read_ply_or_points(file()).facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  for (const std::string wrong : {"4 0 1 2 4\n", "2 0 1\n", "3 0 1\n", "-1\n", "x\n", ""}) {
+    fs::remove(file());
+    std::ofstream(file(), std::ios::binary) << text_header << faces << points << wrong;
+    EXPECT_THROW((void)read_ply_or_points(file()), IoError) << wrong;
+  }
+
+  fs::remove(file());
+  std::ofstream(file(), std::ios::binary)
+      << "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+         "property float y\nproperty float z\nend_header\n"
+      << bytes_of(1.0F) << bytes_of(2.0F) << bytes_of(3.0F);
+  EXPECT_EQ(read_ply_or_points(file()).vertices, (std::vector<Vec3>{{1, 2, 3}}));
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ std::string obj_or_off(const TriangleMesh& mesh, bool is_obj) {
 
 TriangleMesh read_surface(const fs::path& file) {
   const std::string extension = extension_of(file);
-  if (extension == ".ply") return read_ply(file);
+  if (extension == ".ply") return read_ply_or_points(file);
   if (extension == ".stl") return read_stl(file);
   if (extension != ".obj" && extension != ".off" && extension != ".xyz") {
     throw IoError(file.string() + ": is of no known format; give .ply, .stl, .obj, .off or .xyz");
