@@ -40,7 +40,9 @@ struct Range {
 };
 
 std::string tick_label(double power) {
-  return power >= 0 && power <= 6 ? format("%.0f", std::pow(10.0, power)) : format("1e%.0f", power);
+  return std::abs(power) <= 6
+             ? format("%.*f", std::max(0, static_cast<int>(-power)), std::pow(10.0, power))
+             : format("1e%.0f", power);
 }
 
 }  // namespace
