@@ -119,14 +119,16 @@ class ActiveSet {
         seed_count_(hint.seed_count) {}
 
   ExactAnswer run(const Vec3& direction) noexcept {
-    v_ = ExactVec3(direction);
-    if (v_.is_zero()) v_ = ExactVec3(Vec3{1, 0, 0});
-    ExactVec3 d = extreme_difference();
-    if (dot(v_, d).sign() > 0) return answer(Verdict::Apart);
     if (take_seeds()) {
       if (is_origin_reached_from(0)) return answer(Verdict::Meet);
-      d = extreme_difference();
-      if (dot(v_, d - corners_[0]).sign() >= 0) return answer(Verdict::Apart);
+    } else {
+      v_ = ExactVec3(direction);
+      if (v_.is_zero()) v_ = ExactVec3(Vec3{1, 0, 0});
+    }
+    ExactVec3 d = extreme_difference();
+    // Without corners any positive value separates; with them v . corner is positive.
+    if (count_ == 0 ? dot(v_, d).sign() > 0 : dot(v_, d - corners_[0]).sign() >= 0) {
+      return answer(Verdict::Apart);
     }
     while (true) {
       corners_[count_++] = d;
@@ -162,27 +164,41 @@ class ActiveSet {
     return count_ > 0;
   }
 
-  /// Reduces the set to the corners about its nearest point, among which the last corner is, or one
-  /// after it.
+  /// Reduces the set to the corners about its nearest point; of these the last is at `least` or
+  /// after it. Only one subset qualifies: seeds begin with triangles because they should be about
+  /// one, a new corner with itself because that is the least work.
   bool is_origin_reached_from(std::size_t least) noexcept {
-    const std::size_t count = count_;
-    for (std::size_t k = least; k < count; ++k) {
-      if (corners_[k].is_zero()) return true;
-      if (try_corner(k)) return false;
+    const bool is_found = least == 0
+                              ? find_triangle(0) || find_edge(0) || find_corner(0)
+                              : find_corner(least) || find_edge(least) || find_triangle(least);
+    return !is_found || v_.is_zero();  // not found: a tetrahedron around the origin
+  }
+
+  bool find_corner(std::size_t least) noexcept {
+    for (std::size_t k = least; k < count_; ++k) {
+      if (try_corner(k)) return true;
     }
-    for (std::size_t j = std::max<std::size_t>(least, 1); j < count; ++j) {
+    return false;
+  }
+
+  bool find_edge(std::size_t least) noexcept {
+    for (std::size_t j = std::max<std::size_t>(least, 1); j < count_; ++j) {
       for (std::size_t i = 0; i < j; ++i) {
-        if (try_edge(i, j)) return v_.is_zero();
+        if (try_edge(i, j)) return true;
       }
     }
-    for (std::size_t k = std::max<std::size_t>(least, 2); k < count; ++k) {
+    return false;
+  }
+
+  bool find_triangle(std::size_t least) noexcept {
+    for (std::size_t k = std::max<std::size_t>(least, 2); k < count_; ++k) {
       for (std::size_t i = 0; i < k; ++i) {
         for (std::size_t j = i + 1; j < k; ++j) {
-          if (try_triangle(i, j, k)) return v_.is_zero();
+          if (try_triangle(i, j, k)) return true;
         }
       }
     }
-    return true;  // a tetrahedron around the origin
+    return false;
   }
 
   /// v becomes the set's nearest point if no other corner is nearer along it.
