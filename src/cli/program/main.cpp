@@ -11,6 +11,7 @@
 #include "cli/attempts_command.hpp"
 #include "cli/bench_peers_command.hpp"
 #include "cli/bench_tick_command.hpp"
+#include "cli/collide_command.hpp"
 #include "cli/hull_command.hpp"
 #include "cli/parallel_executor.hpp"
 #include "cli/phantom_command.hpp"
@@ -32,6 +33,7 @@ void add_commands(CLI::App& app) {
   add_phantom_command(app);
   add_reconstruct_command(app);
   add_hull_command(app);
+  add_collide_command(app);
   add_serve_command(app);
   add_simulate_command(app);
   add_replay_command(app);

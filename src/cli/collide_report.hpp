@@ -1,0 +1,52 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `carpus collide` finds out about two hulls.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "collision/motion/contact_interval.hpp"
+#include "collision/pair_query.hpp"
+#include "geometry/mat3.hpp"
+#include "geometry/vec3.hpp"
+
+namespace carpus::cli {
+
+/// A body's place in the common frame.
+struct Placement {
+  Mat3 rotation;
+  Vec3 translation;  ///< mm
+  [[nodiscard]] Vec3 operator()(const Vec3& p) const { return rotation * p + translation; }
+};
+
+struct CollideBody {
+  std::string name;
+  collision::ConvexBody hull;
+  Placement placement;
+};
+
+/// Positions and directions in the common frame; methods by their names.
+struct CollideReport {
+  collision::Verdict verdict = collision::Verdict::Unknown;
+  const collision::Method* method = nullptr;
+  double query_us = 0;  ///< of one verdict without memory of an earlier one, median of 21
+
+  const collision::Method* distance_method = nullptr;  ///< null: none was asked
+  std::optional<collision::Closest> closest;
+  const collision::Method* depth_method = nullptr;
+  std::optional<collision::Penetration> penetration;
+
+  std::optional<Vec3> velocity_mm_per_s;  ///< of the second body against the first
+  collision::ContactInterval sweep;
+};
+
+/// @param method  null: the verdict by lp_growth, distance by closest_active_set, depth by
+///        depth_exact, or what else gives them; otherwise all by this one, as far as it can.
+[[nodiscard]] CollideReport collide(const CollideBody& first,
+                                    const CollideBody& second,
+                                    const collision::Method* method,
+                                    const std::optional<Vec3>& velocity_mm_per_s);
+
+}  // namespace carpus::cli
