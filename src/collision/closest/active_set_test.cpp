@@ -18,7 +18,9 @@ constexpr double kToleranceMm = 1e-9;
 
 /// Twice: cold, and warm from another pose.
 void judge_query(const test::Judge& judge, PairQuery& query, const PairPose& pose) {
-  judge.expect_verdict(query.meets(pose));
+  const Verdict verdict = query.meets(pose);
+  judge.expect_verdict(verdict);
+  EXPECT_NE(verdict, Verdict::Unknown);
   judge.expect_closest(query.closest(pose));
   PairPose near = pose;
   near.translation += {0.03, -0.02, 0.01};

@@ -22,7 +22,9 @@ void judge_query(const test::Judge& judge, PairQuery& query, const PairPose& pos
   near.translation += {0.03, -0.02, 0.01};
   (void)query.penetration(near);
   judge.expect_penetration(query.penetration(pose));
-  judge.expect_verdict(query.meets(pose));
+  const Verdict verdict = query.meets(pose);
+  judge.expect_verdict(verdict);
+  EXPECT_NE(verdict, Verdict::Unknown);
   query.forget();
   judge.expect_penetration(query.penetration(pose));
 }

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/closest/epa.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "collision/closest/wide_nearest.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -14,6 +17,21 @@ DifferencePoint farther(const PosedPair& pair,
   const DifferencePoint p = pair.farthest(d, origin, ClimbStart::Table);
   const DifferencePoint q = pair.farthest(-d, origin, ClimbStart::Table);
   return dot(p.at - origin.at, d) >= dot(origin.at - q.at, d) ? p : q;
+}
+
+/// How far weights miss the origin, which they should give [mm].
+double error_mm(const std::array<DifferencePoint, 4>& points,
+                const SimplexNearest<Vec3>& nearest) noexcept {
+  Vec3 sum;
+  double weights = -1;
+  double reach = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(nearest.weights[i] > 0)) continue;
+    sum += points[i].at * nearest.weights[i];
+    weights += nearest.weights[i];
+    reach = std::max(reach, length(points[i].at));
+  }
+  return length(sum) + reach * std::abs(weights);
 }
 
 }  // namespace
@@ -51,13 +69,21 @@ Penetration penetration_of(const PosedPair& pair,
   Penetration result;
   result.depth_mm = height_mm > 0 ? height_mm : 0;
   result.direction = -normal;
-  // After the move the foot of the plane is at the origin: there the bodies touch, and GJK, begun
-  // at the facet, names weights of its corners.
+  // After the move the foot of the plane is at the origin: there the bodies touch, and the nearest
+  // point's weights, begun at the facet, name the points. Where slivers make them poor in doubles,
+  // they are computed again in twice the digits.
+  const PosedPair touching = pair.moved_by(normal * -height_mm);
   GjkWalk walk(ClimbStart::LastCorner);
   walk.set_points(near, near_count);
-  const Verdict verdict = walk.find_nearest(pair.moved_by(normal * -height_mm), pair.rounding_mm());
+  const Verdict verdict = walk.find_nearest(touching, pair.rounding_mm());
   (void)verdict;  // touching within rounding is either one
-  const Closest touch = closest_of(pair, walk.points(), walk.nearest());
+  Closest touch;
+  if (error_mm(walk.points(), walk.nearest()) <= 8 * pair.rounding_mm()) {
+    touch = closest_of(pair, walk.points(), walk.nearest());
+  } else {
+    const WideNearest wide = wide_nearest(touching, near, near_count, pair.rounding_mm());
+    touch = closest_of(pair, wide.points, wide.nearest);
+  }
   result.on_first = touch.on_first;
   result.on_second = touch.on_second;
   return result;

@@ -77,9 +77,10 @@ WideNearest wide_nearest(const PosedPair& pair,
   ActiveSet active;
   for (std::size_t i = 0; i < count; ++i) active.add(pair, points[i]);
   const double rounding = pair.rounding_mm();
+  SimplexNearest<WideVec3> nearest;
   DoubleDouble last_squared = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    SimplexNearest<WideVec3> nearest = nearest_of_simplex(active.wide, active.count);
+    nearest = nearest_of_simplex(active.wide, active.count);
     if (nearest.contains_origin) return result_of(Verdict::Meet, active, nearest);
     active.keep_used(nearest);
     const DoubleDouble squared = dot(nearest.point, nearest.point);
@@ -92,7 +93,7 @@ WideNearest wide_nearest(const PosedPair& pair,
     last_squared = squared;
     active.add(pair, p);
   }
-  return {};
+  return result_of(Verdict::Unknown, active, nearest);
 }
 
 }  // namespace carpus::collision
