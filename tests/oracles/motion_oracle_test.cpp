@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "collision/motion/contact_interval.hpp"
@@ -98,6 +100,12 @@ class Oracle {
 
   std::vector<Axis> axes_;
 };
+
+/// CARPUS_LONG=1 runs 25 times as many bodies.
+std::uint64_t times_long(std::uint64_t count) {
+  const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)
+  return value != nullptr && std::string_view(value) == "1" ? 25 * count : count;
+}
 
 struct Tally {
   std::array<int, 7> seen{};  ///< by outcome
@@ -198,9 +206,9 @@ void compare_integer_bodies(std::uint64_t seed, Tally& tally) {
 
 TEST(MotionOracle, AgreesWithBisectionOnIntegerBodiesAndSymmetricSolids) {
   Tally tally;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) compare_integer_bodies(seed, tally);
+  for (std::uint64_t seed = 0; seed < times_long(120); ++seed) compare_integer_bodies(seed, tally);
   expect_agreement(tally);
-  EXPECT_LT(tally.undecided, 20);
+  EXPECT_LT(tally.undecided, static_cast<int>(times_long(20)));
   EXPECT_GT(tally.count(MotionOutcome::NeverMeet), 20);
   EXPECT_GT(tally.count(MotionOutcome::HasPassed), 10);
   EXPECT_GT(tally.count(MotionOutcome::Touching), 20);
@@ -209,7 +217,7 @@ TEST(MotionOracle, AgreesWithBisectionOnIntegerBodiesAndSymmetricSolids) {
 
 TEST(MotionOracle, AgreesWithBisectionOnBoneLikeBodiesInAnyPose) {
   Tally tally;
-  for (std::uint64_t seed = 0; seed < 16; ++seed) {
+  for (std::uint64_t seed = 0; seed < times_long(16); ++seed) {
     Rng rng(seed);
     const ConvexPolytope first = oracles::pebble(rng, 24);
     const ConvexPolytope second = oracles::pebble(rng, 16);
