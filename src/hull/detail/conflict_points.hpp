@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 
 #include "geometry/vec3.hpp"
 #include "hull/detail/orientation.hpp"
@@ -16,12 +17,18 @@
 
 namespace carpus::hull {
 
-/// Half a cache line: a point is moved whole.
+/// Half a cache line: a point is moved whole. Not a Vec3 inside, whose zeros would be written to
+/// every element of an array that is made.
 struct Conflict {
-  Vec3 point;
+  double x;
+  double y;
+  double z;
   std::uint32_t index;  ///< in the input
   std::uint32_t slot;   ///< in a large batch: its target, or the number of targets for none
+
+  [[nodiscard]] Vec3 point() const { return {x, y, z}; }
 };
+static_assert(std::is_trivially_default_constructible_v<Conflict>);
 
 /// Unwritten, so that memory which is never needed is never touched.
 using ConflictArray = std::unique_ptr<Conflict[]>;  // NOLINT(modernize-avoid-c-arrays)
@@ -42,9 +49,9 @@ class PointBlock {
   void clear() { count_ = 0; }
   /// @param is_wanted  false: the next one takes its place.
   void push(const Conflict& conflict, bool is_wanted = true) {
-    x_[count_] = conflict.point.x;
-    y_[count_] = conflict.point.y;
-    z_[count_] = conflict.point.z;
+    x_[count_] = conflict.x;
+    y_[count_] = conflict.y;
+    z_[count_] = conflict.z;
     source_[count_] = &conflict;
     count_ += is_wanted ? 1 : 0;
   }

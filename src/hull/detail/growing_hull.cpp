@@ -89,7 +89,7 @@ void GrowingHull::add(std::span<const std::uint32_t> indices) {
   std::vector<std::uint32_t> wanted(indices.begin(), indices.end());
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  for (const std::uint32_t i : wanted) batch_[batch_count_++] = {points_[i], i, 0};
+  for (const std::uint32_t i : wanted) batch_[batch_count_++] = conflict_at(i);
   classify_batch(0);
   place_batch();
   grow();
@@ -108,7 +108,7 @@ void GrowingHull::add_all() {
     const std::size_t first = batch_count_;
     const std::size_t end = std::min(begin + PointBlock::kMost, points_.size());
     for (std::size_t i = begin; i < end; ++i) {
-      batch_[batch_count_] = {points_[i], static_cast<std::uint32_t>(i), 0};
+      batch_[batch_count_] = conflict_at(static_cast<std::uint32_t>(i));
       const bool is_known = i == *next_known;
       next_known += is_known ? 1 : 0;
       batch_count_ += is_known || inner.certainly_contains(points_[i]) ? 0 : 1;
@@ -136,7 +136,7 @@ void GrowingHull::find_slots() {
     has_doubt |= block_.mark_above(hull_.facets[targets_[t].facet].plane, t);
   if (!has_doubt) return;
   for (std::size_t i = 0; i < block_.count(); ++i) {
-    if (block_.slot(i) == nowhere) block_.set_slot(i, exact_slot(block_.source(i).point));
+    if (block_.slot(i) == nowhere) block_.set_slot(i, exact_slot(block_.source(i).point()));
   }
 }
 
@@ -231,7 +231,7 @@ std::size_t GrowingHull::farthest_conflict(const GrowingFacet& facet) const {
   std::size_t farthest = facet.first_conflict;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t i = facet.first_conflict; i < facet.first_conflict + facet.conflicts; ++i) {
-    const double height = facet.plane.height(arena_[i].point);
+    const double height = facet.plane.height(arena_[i].point());
     if (height > best) {
       best = height;
       farthest = i;
@@ -341,7 +341,7 @@ void GrowingHull::redistribute_many(std::size_t apex) {
 
 void GrowingHull::add_point(std::uint32_t start) {
   const std::size_t apex_conflict = farthest_conflict(hull_.facets[start]);
-  const Vec3 p = arena_[apex_conflict].point;
+  const Vec3 p = arena_[apex_conflict].point();
   const std::uint32_t apex = add_vertex(p, arena_[apex_conflict].index);
   ++round_;
   find_horizon(start, p);

@@ -47,6 +47,9 @@ class GrowingHull {
   [[nodiscard]] const Vec3& corner(const GrowingFacet& facet, std::size_t i) const {
     return hull_.vertices[facet.corners[i]];
   }
+  [[nodiscard]] Conflict conflict_at(std::uint32_t i) const {
+    return {points_[i].x, points_[i].y, points_[i].z, i, 0};
+  }
   std::uint32_t add_vertex(const Vec3& p, std::uint32_t input_index);
   std::uint32_t make_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void start_from(const std::array<std::uint32_t, 4>& corners);
