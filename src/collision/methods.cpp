@@ -9,6 +9,8 @@
 #include "collision/closest/depth.hpp"
 #include "collision/closest/epa.hpp"
 #include "collision/closest/gjk.hpp"
+#include "collision/features/lin_canny.hpp"
+#include "collision/features/v_clip.hpp"
 #include "collision/ivri/ivri_cd.hpp"
 #include "collision/lp/growth.hpp"
 #include "collision/lp/seidel.hpp"
@@ -21,6 +23,7 @@ namespace {
 
 /// Of methods that decide by rounded products of coordinates.
 constexpr std::string_view kToRounding = "bodies that touch up to rounding may be called either";
+constexpr std::string_view kContactBelow = "gaps below 1e-9 mm count as contact";
 
 /// Of methods that round the second body's corners into the first one's frame, then are exact.
 constexpr std::string_view kToRoundedCorners =
@@ -58,6 +61,11 @@ std::span<const Method> all_methods() {
              make_tree_query<KDop<18>>},
       Method{"quick_cd_26", "klosowski1998efficient", false, false, kToRoundedCorners,
              make_tree_query<KDop<26>>},
+      Method{"lin_canny", "lin1991incremental", true, false,
+             "may not answer on overlap, where the walk goes round; gaps below 1e-9 mm count as "
+             "contact",
+             make_lin_canny},
+      Method{"v_clip", "mirtich1998vclip", true, false, kContactBelow, make_v_clip},
   };
   return kMethods;
 }

@@ -1,0 +1,23 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/features/lin_canny.hpp"
+
+#include <utility>
+
+#include "collision/features/detail/lin_canny_steps.hpp"
+#include "collision/features/detail/walking_query.hpp"
+
+namespace carpus::collision {
+
+std::unique_ptr<PairQuery> make_lin_canny(const ConvexBody& first, const ConvexBody& second) {
+  return make_lin_canny(std::make_shared<const VoronoiFeatures>(first),
+                        std::make_shared<const VoronoiFeatures>(second));
+}
+
+std::unique_ptr<PairQuery> make_lin_canny(std::shared_ptr<const VoronoiFeatures> first,
+                                          std::shared_ptr<const VoronoiFeatures> second) {
+  return std::make_unique<detail::WalkingQuery<detail::LinCannySteps>>(std::move(first),
+                                                                       std::move(second));
+}
+
+}  // namespace carpus::collision

@@ -1,0 +1,59 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/features/lin_canny.hpp"
+
+#include <gtest/gtest.h>
+
+#include "collision/features/detail/lin_canny_steps.hpp"
+#include "collision/features/detail/walk.hpp"
+#include "collision/features/feature_test_support.hpp"
+
+namespace carpus::collision {
+namespace {
+
+TEST(LinCanny, TakesOneStepWhereTheLastFeaturesAreStillTheNearest) {
+  Rng rng(1);
+  const VoronoiFeatures a(test::round_body(rng, 100));
+  const VoronoiFeatures b(test::round_body(rng, 100));
+  const detail::FixedBody first{&a};
+  PairPose pose{test::random_rotation(rng), {30, 2, 1}};
+  detail::FeaturePair pair;
+  const detail::MovedBody second(a, b, pose);
+  ASSERT_EQ(walk(first, second, pair, 1000, detail::LinCannySteps::step).kind,
+            detail::WalkEnd::Kind::Apart);
+  pose.translation.x += 1e-9;
+  const detail::MovedBody moved(a, b, pose);
+  EXPECT_EQ(walk(first, moved, pair, 1000, detail::LinCannySteps::step).steps, 1U);
+}
+
+/// What the limits in the list of methods say: overlap may stay without an answer, but is never
+/// taken for a distance; bodies apart always get one.
+TEST(LinCanny, FailsOnlyOnOverlapAndSaysSo) {
+  int unanswered = 0;
+  int overlapping = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Rng rng(seed);
+    const ConvexBody first = test::round_body(rng, 40);
+    const ConvexBody second = test::round_body(rng, 40);
+    const auto query = make_lin_canny(first, second);
+    for (int step = 0; step < 40; ++step) {
+      const PairPose pose{test::random_rotation(rng), test::random_vector(rng) * 9.0};
+      const Verdict verdict = query->meets(pose);
+      // The ellipsoids around the bodies keep away beyond 26 mm, those inside meet within 10 mm.
+      const double between = length(pose.translation);
+      if (between > 26) {
+        EXPECT_EQ(verdict, Verdict::Apart);
+      }
+      if (between < 10) {
+        EXPECT_NE(verdict, Verdict::Apart);
+      }
+      overlapping += between < 10 ? 1 : 0;
+      unanswered += verdict == Verdict::Unknown ? 1 : 0;
+    }
+  }
+  EXPECT_GT(overlapping, 100);
+  EXPECT_LE(unanswered, overlapping / 20);
+}
+
+}  // namespace
+}  // namespace carpus::collision

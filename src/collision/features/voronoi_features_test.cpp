@@ -1,0 +1,65 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/features/voronoi_features.hpp"
+
+#include <gtest/gtest.h>
+
+#include "collision/features/detail/placement.hpp"
+#include "collision/features/detail/regions.hpp"
+#include "collision/features/feature_test_support.hpp"
+
+namespace carpus::collision {
+namespace {
+
+TEST(VoronoiFeatures, NameEachEdgeAlikeFromItsVertexAndFromItsFaces) {
+  Rng rng(1);
+  for (int sample = 0; sample < 30; ++sample) {
+    const VoronoiFeatures features(test::random_body(rng));
+    std::size_t spokes = 0;
+    for (std::uint32_t v = 0; v < features.vertex_count(); ++v) {
+      for (std::size_t i = 0; i < features.spokes(v).size(); ++i, ++spokes) {
+        const Feature edge = features.spoke_edge(v, i);
+        bool found = false;
+        for (std::size_t k = 0; k < features.sides(edge.left).size(); ++k) {
+          found = found || features.side_edge(edge.left, k) == edge;
+        }
+        EXPECT_TRUE(found);
+      }
+    }
+    EXPECT_EQ(features.vertex_count() + features.face_count(), spokes / 2 + 2);  // Euler
+  }
+}
+
+/// Around a body every point lies in a region, and in one only unless it is on a border.
+TEST(VoronoiFeatures, RegionsFillTheOutsideOnce) {
+  Rng rng(2);
+  for (int sample = 0; sample < 40; ++sample) {
+    const VoronoiFeatures features(test::random_body(rng));
+    const detail::FixedBody body{&features};
+    for (int point = 0; point < 40; ++point) {
+      const Vec3 p = features.interior_point() + test::random_vector(rng) * 12.0;
+      bool outside = false;
+      for (const Plane& plane : features.planes()) {
+        outside = outside || plane.signed_distance(p) > 1e-6;
+      }
+      if (!outside) continue;
+      int regions = 0;
+      for (std::uint32_t v = 0; v < features.vertex_count(); ++v) {
+        regions += !detail::leave_vertex(body, v, p - features.vertex(v)) ? 1 : 0;
+        for (std::size_t i = 0; i < features.spokes(v).size(); ++i) {
+          const Feature edge = features.spoke_edge(v, i);
+          if (edge.id > edge.head) continue;
+          regions += !detail::leave_edge(detail::region_of_edge(body, edge), edge, p) ? 1 : 0;
+        }
+      }
+      for (std::uint32_t f = 0; f < features.face_count(); ++f) {
+        if (detail::height_over(body, f, p) <= 0) continue;
+        regions += !detail::leave_face(body, f, p) ? 1 : 0;
+      }
+      EXPECT_EQ(regions, 1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carpus::collision
