@@ -10,6 +10,8 @@
 #include "collision/closest/epa.hpp"
 #include "collision/closest/gjk.hpp"
 #include "collision/features/lin_canny.hpp"
+#include "collision/features/q_collide.hpp"
+#include "collision/features/swift.hpp"
 #include "collision/features/v_clip.hpp"
 #include "collision/ivri/ivri_cd.hpp"
 #include "collision/lp/growth.hpp"
@@ -66,6 +68,8 @@ std::span<const Method> all_methods() {
              "contact",
              make_lin_canny},
       Method{"v_clip", "mirtich1998vclip", true, false, kContactBelow, make_v_clip},
+      Method{"swift", "ehmann2000accelerated", true, false, kContactBelow, make_swift},
+      Method{"q_collide", "chung1996quick", false, false, kContactBelow, make_q_collide},
   };
   return kMethods;
 }

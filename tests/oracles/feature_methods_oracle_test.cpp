@@ -27,7 +27,7 @@ using collision::PairPose;
 using collision::PairQuery;
 using collision::Verdict;
 
-constexpr std::array kNames{"lin_canny", "v_clip"};
+constexpr std::array kNames{"lin_canny", "v_clip", "swift", "q_collide"};
 
 std::uint64_t pair_count() {
   const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)

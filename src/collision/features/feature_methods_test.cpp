@@ -178,7 +178,7 @@ TEST_P(FeatureMethods, AllocateNothingInQueries) {
 
 INSTANTIATE_TEST_SUITE_P(All,
                          FeatureMethods,
-                         testing::Values("lin_canny", "v_clip"),
+                         testing::Values("lin_canny", "v_clip", "swift", "q_collide"),
                          [](const auto& of) { return std::string(of.param); });
 
 }  // namespace
