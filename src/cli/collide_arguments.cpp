@@ -19,6 +19,7 @@ namespace {
 constexpr double kUnitTolerance = 1e-3;
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
+  const std::string where = option + " " + text + ": '";
   std::vector<double> numbers;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(',', start), text.size());
@@ -26,10 +27,10 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
     char* rest = nullptr;
     const double value = std::strtod(word.c_str(), &rest);
     if (rest == word.c_str() || *rest != '\0') {
-      throw UsageError(option + " " + text + ": '" + word + "' is not a number");
+      throw UsageError(std::string(where).append(word).append("' is not a number"));
     }
     if (!std::isfinite(value)) {
-      throw UsageError(option + " " + text + ": '" + word + "' is not finite");
+      throw UsageError(std::string(where).append(word).append("' is not finite"));
     }
     numbers.push_back(value);
     start = end + 1;

@@ -161,7 +161,7 @@ void draw_sweep(Canvas& canvas,
                 const CollideBody& second,
                 const std::vector<Vec3>& corners,
                 const CollideReport& report) {
-  const Vec3 way = *report.velocity_mm_per_s * report.sweep.t_min_s;
+  const Vec3 way = report.velocity_mm_per_s.value_or(Vec3{}) * report.sweep.t_min_s;
   std::vector<Vec3> moved = corners;
   for (Vec3& v : moved) v += way;
   draw_edges(canvas, view, second, moved, kGhost, 0.12);
@@ -287,9 +287,8 @@ Picture draw_collision(const CollideBody& first,
   std::vector<Vec3> seen = of_first;
   seen.insert(seen.end(), of_second.begin(), of_second.end());
   if (shows_sweep) {
-    for (const Vec3& v : of_second) {
-      seen.push_back(v + *report.velocity_mm_per_s * report.sweep.t_min_s);
-    }
+    const Vec3 way = report.velocity_mm_per_s.value_or(Vec3{}) * report.sweep.t_min_s;
+    for (const Vec3& v : of_second) seen.push_back(v + way);
   }
   const View view(seen, kScene, viewer_beside(seen_line(report)));
   Canvas canvas(kWidth, kHeight);
