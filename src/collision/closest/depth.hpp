@@ -34,8 +34,10 @@ struct DepthCounts {
 /// proof - more facets all but tie than there is room for, or slivers - all facets are gone through
 /// (lowest_facet.hpp). Depths of bodies up to 1 m: right to 1e-9 mm. Verdicts are exact
 /// (certain_verdict.hpp); bodies apart by less than 16 roundings of their size may be given depth
-/// 0. Cost: 1 to 3 us warm, 5 to 15 us cold; below a millisecond where all facets tie. Sources:
-/// [vandenbergen2001depth]; the proof by winding and the fallback are ours.
+/// 0.
+/// Cost for hulls of wrist bones (600 corners), median: 1.4 us warm in small steps, 6 to 8 us cold;
+/// 0.8 ms where all facets tie.
+/// Sources: [vandenbergen2001depth]; the proof by winding and the fallback are ours.
 class DepthExact final : public PairQuery {
  public:
   DepthExact(const ConvexBody& first, const ConvexBody& second)

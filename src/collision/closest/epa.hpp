@@ -36,7 +36,7 @@ inline constexpr double kEpaToleranceMm = 1e-6;
                                          const std::array<DifferencePoint, 4>& near,
                                          std::size_t near_count) noexcept;
 
-/// Sources: [vandenbergen2001depth]. Cost: 5 to 40 growths of some 0.3 us each.
+/// Sources: [vandenbergen2001depth]. Cost: some 6 growths for two hulls of wrist bones.
 class Epa final : public PairQuery {
  public:
   Epa(const ConvexBody& first, const ConvexBody& second)

@@ -17,7 +17,7 @@
 
 namespace carpus::collision {
 
-/// Iterations after which GJK gives up: none of 10^6 queries of the tests needed a third.
+/// Iterations after which GJK gives up with Unknown: a bound on the time of a query.
 inline constexpr int kMaxGjkIterations = 96;
 
 /// The iteration itself, and the simplex it keeps from query to query.

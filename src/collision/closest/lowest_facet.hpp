@@ -24,8 +24,7 @@ struct LowestFacet {
 /// arc is followed through the second body's corners. Faces and arcs that one known point of the
 /// difference proves to be no lower than the best so far are skipped.
 /// The height is negative iff the bodies are apart; it is then one of a plane that parts them.
-/// Cost: a product for each face and edge where the best is known beforehand, some 20 us for bodies
-/// of 500 corners; less than a millisecond where all facets are equally near.
+/// Cost for bodies of 500 corners: 0.2 ms, mostly normals; 0.6 ms where all facets are as near.
 [[nodiscard]] LowestFacet lowest_facet(const PosedPair& pair,
                                        const ConvexBody& first,
                                        const ConvexBody& second,

@@ -32,7 +32,7 @@ inline void expect_same(const std::optional<Closest>& a,
                         bool is_apart) {
   ASSERT_EQ(a.has_value(), is_apart);
   ASSERT_EQ(b.has_value(), is_apart);
-  if (!is_apart) return;
+  if (!a || !b) return;
   EXPECT_NEAR(a->distance_mm, b->distance_mm, 1e-11);
   EXPECT_LE(distance(a->on_first, b->on_first), 1e-7);
 }
