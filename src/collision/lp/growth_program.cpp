@@ -306,7 +306,8 @@ ExactHint GrowthProgram::hint(const ConvexBody& first,
   if (a.count == 0 || b.count == 0) return hint;
   hint.first_vertex = a.vertices[0];
   hint.second_vertex = b.vertices[0];
-  if (a.count * b.count > hint.seeds.size()) return hint;
+  const std::uint32_t pairs = a.count * b.count;
+  if (pairs > hint.seeds.size()) return hint;
   for (std::uint32_t i = 0; i < a.count; ++i) {
     for (std::uint32_t j = 0; j < b.count; ++j) {
       hint.seeds[hint.seed_count++] = {a.vertices[i], b.vertices[j]};
