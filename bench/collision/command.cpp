@@ -63,7 +63,10 @@ void run(const CollisionArguments& a) {
   std::fputs(tail.c_str(), stdout);
   if (!a.json.empty()) write_json(a.json, a.table, bones, rows);
   if (!a.plot.empty()) {
-    save(a.plot, collision_plot_svg("Convex bodies, table " + a.table, rows, a.table == "growth"));
+    save(a.plot, collision_plot_svg("Convex bodies, table " + a.table, rows,
+                                    a.table == "growth" ? CollisionAxis::Facets
+                                    : a.table == "5.1"  ? CollisionAxis::Vertices
+                                                        : CollisionAxis::Cases));
   }
 }
 

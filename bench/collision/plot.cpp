@@ -79,20 +79,25 @@ std::string x_label(const Range& x, double at, const std::string& text) {
 
 std::string collision_plot_svg(const std::string& title,
                                const std::vector<CollisionRow>& rows,
-                               bool against_facets) {
+                               CollisionAxis axis) {
+  const bool against_facets = axis != CollisionAxis::Cases;
   std::map<std::string, Line> lines;
   std::vector<std::string> cases;
   Range x;
   Range y;
   for (const CollisionRow& row : rows) {
     if (!row.ran || row.timing.median <= 0) continue;
+    if (axis == CollisionAxis::Vertices && row.pose_case.ends_with(" warm")) continue;
     const std::string column = row.pose_case + (row.query == "tick_distance" ? ", distance" : "");
     auto at = std::find(cases.begin(), cases.end(), column);
     if (at == cases.end()) at = cases.insert(cases.end(), column);
     const double place =
-        against_facets ? std::log10(row.facets) : static_cast<double>(at - cases.begin());
+        against_facets
+            ? std::log10(axis == CollisionAxis::Facets ? row.facets
+                                                       : static_cast<double>(row.original_vertices))
+            : static_cast<double>(at - cases.begin());
     const double height = std::log10(row.timing.median * 1e6);
-    Line& line = lines[row.engine + (against_facets ? " " + row.pose_case : "")];
+    Line& line = lines[row.engine + (axis == CollisionAxis::Facets ? " " + row.pose_case : "")];
     line.is_peer = row.is_peer;
     line.points.emplace_back(place, height);
     x.include(place);
@@ -101,10 +106,14 @@ std::string collision_plot_svg(const std::string& title,
   if (lines.empty()) return {};
   y = {std::floor(y.low), std::ceil(y.high)};
   x = {x.low - 0.05 * (x.high - x.low + 1), x.high + 0.05 * (x.high - x.low + 1)};
-  std::string svg = axes(title, x, y, against_facets ? "facets of each body" : "");
+  std::string svg = axes(title, x, y,
+                         axis == CollisionAxis::Facets     ? "facets of each body"
+                         : axis == CollisionAxis::Vertices ? "vertices of the bone's surface"
+                                                           : "");
   if (against_facets) {
-    for (double power = std::ceil(x.low); power <= x.high; ++power) {
-      svg += x_label(x, power, format("%.0f", std::pow(10.0, power)));
+    for (const double value : {100.0, 200.0, 500.0, 1e3, 2e3, 3e3, 1e4, 3e4, 1e5}) {
+      const double at = std::log10(value);
+      if (at >= x.low && at <= x.high) svg += x_label(x, at, format("%.0f", value));
     }
   } else {
     for (std::size_t i = 0; i < cases.size(); ++i) {

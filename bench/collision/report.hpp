@@ -29,9 +29,13 @@ void write_json(const std::filesystem::path& file,
                 const std::string& bones,
                 const std::vector<CollisionRow>& rows);
 
-/// One line an engine, logarithmic: facets against time, or cases against time.
+/// What the horizontal axis of a plot counts.
+enum class CollisionAxis { Cases, Facets, Vertices };
+
+/// One line an engine, time logarithmic; facets and vertices too. Against vertices (figure 5.3)
+/// only the cold rows are drawn.
 [[nodiscard]] std::string collision_plot_svg(const std::string& title,
                                              const std::vector<CollisionRow>& rows,
-                                             bool against_facets);
+                                             CollisionAxis axis);
 
 }  // namespace carpus::bench
