@@ -250,8 +250,10 @@ std::vector<NamedTick> tick_engines(const BoneSet& set,
                      }});
     }
   }
-  for (const collision::Method& m : collision::all_methods()) {
-    if (setup.distance && !m.gives_distance) continue;
+  for (const std::string_view name : {"lp_growth", "closest_active_set", "gjk_table"}) {
+    const collision::Method* const found = collision::find_method(name);
+    if (found == nullptr || (setup.distance && !found->gives_distance)) continue;
+    const collision::Method& m = *found;
     all.push_back({"scene:" + std::string(m.name), false, [bodies, &m, setup] {
                      return std::make_unique<SceneEngine>(bodies, m, setup);
                    }});
@@ -260,6 +262,10 @@ std::vector<NamedTick> tick_engines(const BoneSet& set,
   for (PairEngine& peer : peer_pair_engines()) engines.push_back(std::move(peer));
   for (const PairEngine& e : engines) {
     if (setup.distance && !e.gives_distance) continue;
+    // With caches emptied a tick costs what the flood takes: only what is fast is worth it.
+    const bool is_slow = e.name.ends_with("_tree") || e.name.starts_with("quick_cd") ||
+                         e.name == "seidel" || e.name == "ivri" || e.name == "fcl_indep";
+    if (setup.empty_caches && is_slow) continue;
     all.push_back({e.name, e.is_peer,
                    [&set, e, setup] { return std::make_unique<PairsEngine>(set, e, setup); }});
   }
