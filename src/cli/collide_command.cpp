@@ -62,7 +62,7 @@ fs::path surface_of(const Arguments& a, const std::string& name) {
   if (!bone_of(name)) {
     throw UsageError("'" + name + "' is no bone; with --case, name two, such as scaphoid lunate");
   }
-  const fs::path file = a.case_folder / "bones" / (name + ".ply");
+  fs::path file = a.case_folder / "bones" / (name + ".ply");
   if (!fs::is_regular_file(file)) {
     throw InvalidInput(a.case_folder.string() + ": the case has no " + name +
                        (name == "scaphoid" ? " in one piece; name scaphoid_proximal or "
@@ -144,7 +144,7 @@ json sweep_json(const CollideReport& report) {
                          s.outcome == MotionOutcome::HasPassed;
   const bool moves = has_times && std::isfinite(s.t_min_s);
   json result{{"outcome", name_of(s.outcome)},
-              {"velocity_mm_per_s", json_of(*report.velocity_mm_per_s)},
+              {"velocity_mm_per_s", json_of(report.velocity_mm_per_s.value_or(Vec3{}))},
               {"speed_mm_per_s", s.speed_mm_per_s},
               {"t_min_s", nullptr},
               {"t_max_s", nullptr},
