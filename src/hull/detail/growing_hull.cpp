@@ -19,7 +19,8 @@
 namespace carpus::hull {
 namespace {
 
-constexpr std::size_t kReservedFacets = 1 << 16;
+/// Set aside at most; what is not used is never touched.
+constexpr std::size_t kReservedFacets = 1 << 24;
 
 }  // namespace
 
