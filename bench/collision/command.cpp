@@ -59,7 +59,7 @@ void run(const CollisionArguments& a) {
                                    : pair_table(set, a.table == "cold", options);
   }
   print_head(bones);
-  std::fputs(text_of(rows).c_str(), stdout);
+  if (a.table != "growth") std::fputs(text_of(rows).c_str(), stdout);
   std::fputs(tail.c_str(), stdout);
   if (!a.json.empty()) write_json(a.json, a.table, bones, rows);
   if (!a.plot.empty()) {

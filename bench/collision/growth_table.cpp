@@ -60,6 +60,7 @@ std::vector<CollisionRow> growth_table(const BenchOptions& options) {
 std::string growth_text(const std::vector<CollisionRow>& rows) {
   struct Sums {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    std::string means;
   };
   std::map<std::pair<std::string, std::string>, Sums> fits;
   for (const CollisionRow& row : rows) {
@@ -67,14 +68,18 @@ std::string growth_text(const std::vector<CollisionRow>& rows) {
     Sums& s = fits[{row.pose_case, row.engine}];
     const double x = std::log(row.facets);
     const double y = std::log(row.timing.mean);
-    s = {s.n + 1, s.x + x, s.y + y, s.xx + x * x, s.xy + x * y};
+    s = {s.n + 1,      s.x + x,
+         s.y + y,      s.xx + x * x,
+         s.xy + x * y, s.means + format(" %9.3f%s", row.timing.mean * 1e6, row.agrees ? " " : "!")};
   }
-  std::string text = "mean cost grows with facets^exponent:\n";
+  std::string text = format("%-27s%9s", "mean microseconds", "exponent");
+  for (const std::size_t facets : kFacets) text += format(" %9zu ", facets);
+  text += "\n";
   for (const auto& [key, s] : fits) {
     if (s.n < 3) continue;
     const double exponent = (s.n * s.xy - s.x * s.y) / (s.n * s.xx - s.x * s.x);
-    text += format("%-6s %-20s %.2f (%.0f sizes)\n", key.first.c_str(), key.second.c_str(),
-                   exponent, s.n);
+    text += format("%-6s %-20s %8.2f", key.first.c_str(), key.second.c_str(), exponent) + s.means +
+            "\n";
   }
   return text;
 }
