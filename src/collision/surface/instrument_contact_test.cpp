@@ -307,10 +307,12 @@ TEST(InstrumentContact, NamesWhatItCannotTell) {
 
 TEST(InstrumentContact, AllocatesNothing) {
   Rng rng(7);
+  const Body& body = cup();
+  const auto shapes = instruments();
   test::start_counting_allocations();
   for (int i = 0; i < 100; ++i) {
-    for (const InstrumentShape& shape : instruments()) {
-      (void)find_contact(cup().field, shape, pose_near(cup(), shape, rng), 2.0);
+    for (const InstrumentShape& shape : shapes) {
+      (void)find_contact(body.field, shape, pose_near(body, shape, rng), 2.0);
     }
   }
   EXPECT_EQ(test::stop_counting_allocations(), 0);
