@@ -5,18 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "bench/collision/command.hpp"
+#include "bench/drawing.hpp"
 #include "bench/hull/bone_points.hpp"
 #include "bench/hull/hull_bench.hpp"
 #include "bench/hull/hull_report.hpp"
 #include "bench/hull/plot.hpp"
 #include "bench/hull/thesis_tables.hpp"
 #include "bench/provenance.hpp"
-#include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -133,11 +132,7 @@ void save_plots(const HullArguments& a,
                 const std::vector<HullRow>& rows) {
   for (const auto& [suffix, axis] :
        {std::pair{"_n.svg", PlotAxis::Points}, std::pair{"_h.svg", PlotAxis::HullVertices}}) {
-    const std::string file = a.plot.string() + suffix;
-    std::ofstream out(file);
-    out << plot_svg(title, rows, axis);
-    out.flush();
-    if (!out) throw IoError(file + ": could not be written; check the folder and the disk");
+    save_drawing(a.plot.string() + suffix, plot_svg(title, rows, axis));
   }
 }
 
@@ -191,7 +186,7 @@ void add_hull(CLI::App& app, HullArguments& a) {
       "--bones", a.bones,
       "Folder of <bone>.ply, e.g. cases/demo/bones; default: the parametric wrist (simulated)");
   hull->add_option("--json", a.json, "Also write the rows here");
-  hull->add_option("--plot", a.plot, "Also draw PREFIX_n.svg and PREFIX_h.svg");
+  hull->add_option("--plot", a.plot, "Also draw PREFIX_n and PREFIX_h, .svg and .png");
   hull->add_option("--max-points", a.max_points, "Of the distributions; up to 10000000")
       ->check(CLI::Range(10'000, 10'000'000))
       ->capture_default_str();

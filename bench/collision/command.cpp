@@ -4,23 +4,15 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
 #include "bench/collision/cycle_clock.hpp"
 #include "bench/collision/report.hpp"
 #include "bench/collision/tables.hpp"
+#include "bench/drawing.hpp"
 #include "bench/provenance.hpp"
-#include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
-
-void save(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  out.flush();
-  if (!out) throw IoError(file.string() + ": could not be written; check the folder and the disk");
-}
 
 void print_head(const std::string& bones) {
   const Provenance p = provenance();
@@ -63,10 +55,10 @@ void run(const CollisionArguments& a) {
   std::fputs(tail.c_str(), stdout);
   if (!a.json.empty()) write_json(a.json, a.table, bones, rows);
   if (!a.plot.empty()) {
-    save(a.plot, collision_plot_svg("Convex bodies, table " + a.table, rows,
-                                    a.table == "growth" ? CollisionAxis::Facets
-                                    : a.table == "5.1"  ? CollisionAxis::Vertices
-                                                        : CollisionAxis::Cases));
+    save_drawing(a.plot, collision_plot_svg("Convex bodies, table " + a.table, rows,
+                                            a.table == "growth" ? CollisionAxis::Facets
+                                            : a.table == "5.1"  ? CollisionAxis::Vertices
+                                                                : CollisionAxis::Cases));
   }
 }
 
@@ -85,7 +77,7 @@ void add_collision(CLI::App& app, CollisionArguments& a) {
       "--bones", a.bones,
       "Folder of <bone>.ply, e.g. cases/demo/bones; default: the parametric wrist (simulated)");
   verb->add_option("--json", a.json, "Also write the rows here");
-  verb->add_option("--plot", a.plot, "Also draw this SVG");
+  verb->add_option("--plot", a.plot, "Also draw this SVG, and the PNG beside it");
   verb->add_option("--budget-seconds", a.budget_seconds, "Time for one engine on one case")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();

@@ -32,7 +32,7 @@ class WalkingQuery final : public PairQuery {
   [[nodiscard]] std::optional<Closest> closest(
       const PairPose& first_from_second) noexcept override {
     std::optional<Closest> found;
-    if (run(first_from_second, found) != Verdict::Apart) return std::nullopt;
+    if (run(first_from_second, found) != Verdict::Apart || !found) return std::nullopt;
     return moved_by(*found, first_->centre());
   }
   void forget() noexcept override { pair_ = {}; }
