@@ -22,20 +22,24 @@ void save_png(const std::filesystem::path& file, const std::string& svg) {
   const std::unique_ptr<RsvgHandle, void (*)(gpointer)> handle(
       rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr),
       g_object_unref);
-  gdouble width = 0;
-  gdouble height = 0;
-  if (!handle || rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height) == FALSE) {
-    throw IoError(file.string() + ": the plot could not be drawn");
+  gboolean has_view_box = FALSE;
+  RsvgRectangle view_box{};
+  if (handle) {
+    rsvg_handle_get_intrinsic_dimensions(handle.get(), nullptr, nullptr, nullptr, nullptr,
+                                         &has_view_box, &view_box);
   }
+  if (has_view_box == FALSE) throw IoError(file.string() + ": the plot has no measures");
+  const double width = view_box.width * kPixelsPerUnit;
+  const double height = view_box.height * kPixelsPerUnit;
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerUnit),
-                                 static_cast<int>(height * kPixelsPerUnit)),
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
+                                 static_cast<int>(height)),
       cairo_surface_destroy);
   const std::unique_ptr<cairo_t, void (*)(cairo_t*)> context(cairo_create(surface.get()),
                                                              cairo_destroy);
   cairo_set_source_rgb(context.get(), 1, 1, 1);
   cairo_paint(context.get());
-  const RsvgRectangle page{0, 0, width * kPixelsPerUnit, height * kPixelsPerUnit};
+  const RsvgRectangle page{0, 0, width, height};
   if (rsvg_handle_render_document(handle.get(), context.get(), &page, nullptr) == FALSE ||
       cairo_surface_write_to_png(surface.get(), file.c_str()) != CAIRO_STATUS_SUCCESS) {
     throw IoError(file.string() + ": could not be written; check the folder and the disk");

@@ -9,8 +9,8 @@
 
 namespace carpus::bench {
 
-/// Writes `svg` to `file`, and as PNG beside it (same name, .png, twice as many pixels as the SVG
-/// says) where the program was built with librsvg.
+/// Writes `svg` to `file`, and as PNG beside it (same name, .png, two pixels for each unit of
+/// its view box) where the program was built with librsvg.
 /// @throws IoError if a file could not be written.
 void save_drawing(const std::filesystem::path& file, const std::string& svg);
 

@@ -26,7 +26,7 @@ class QCollideQuery final : public PairQuery {
   [[nodiscard]] Verdict meets(const PairPose& pose) noexcept override {
     const MovedBody second(*first_, *second_, pose);
     if (!second.is_usable()) return Verdict::Unknown;
-    if (witness_ && still_surrounds(second)) return Verdict::Meet;
+    if (still_surrounds(second)) return Verdict::Meet;
     if (!has_vector_) {
       vector_ = normalized_or(
           second.linear * second_->interior_point() + second.translation - first_->interior_point(),
@@ -88,9 +88,11 @@ class QCollideQuery final : public PairQuery {
 
   /// Whether the origin is inside the tetrahedron of the kept vertex pairs' differences.
   [[nodiscard]] bool still_surrounds(const MovedBody& second) const noexcept {
+    if (!witness_) return false;
+    const std::array<VertexDifference, 4>& witness = *witness_;
     std::array<Vec3, 4> d;
     for (std::size_t i = 0; i < 4; ++i) {
-      const VertexDifference& pair = (*witness_)[i];
+      const VertexDifference& pair = witness[i];
       d[i] = second.vertex(pair.on_second) - first_->vertex(pair.on_first);
     }
     // Its four faces see the origin on the side of the fourth corner.

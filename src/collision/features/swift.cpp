@@ -170,8 +170,9 @@ class SwiftQuery final : public PairQuery {
   void remember(std::size_t level, const Found& found, Verdict verdict) noexcept {
     level_ = level;
     if (level == top_ || verdict == Verdict::Unknown || ++calm_ < kCalmVerdicts) return;
-    const bool can_tell = verdict == Verdict::Meet ||
-                          found.closest->distance_mm - deviation(level + 1) > kContactToleranceMm;
+    const bool can_tell =
+        verdict == Verdict::Meet ||
+        (found.closest && found.closest->distance_mm - deviation(level + 1) > kContactToleranceMm);
     if (!can_tell) return;
     pair_ = coarser(level, pair_);
     level_ = level + 1;
