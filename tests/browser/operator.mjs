@@ -45,6 +45,16 @@ export class Operator {
     }
   }
 
+  /** A key down and up in one moment, however busy the machine is. */
+  async tap(code) {
+    await this.page.evaluate((key) => {
+      for (const type of ["keydown", "keyup"]) {
+        const press = new KeyboardEvent(type, { code: key, key, bubbles: true });
+        document.activeElement.dispatchEvent(press);
+      }
+    }, code);
+  }
+
   /** Lets the page draw and send what was done. */
   async settle(frames = 2) {
     await this.page.evaluate(
