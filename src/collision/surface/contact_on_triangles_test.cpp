@@ -26,8 +26,8 @@ TEST(ContactOnTriangles, PutsTheContactOnTheTrianglesAndKeepsTheBounds) {
   int put = 0;
   for (int i = 0; i < amount(40, 150, 3000); ++i) {
     const Vec3 shaft = test::random_direction(rng);
-    const Vec3 centre = mesh.vertices[rng.below(mesh.vertices.size())] +
-                        test::random_direction(rng) * rng.uniform(0, 2.5);
+    const Vec3 centre =
+        mesh.vertices[rng.below(mesh.vertices.size())] + test::random_shift(rng, 2.5);
     const ToolPose pose{test::turned_to(shaft), centre - shaft * rng.uniform(1.5, 22.5)};
     SurfaceContact contact = find_contact(field, bar, pose, 1.0);
     const SurfaceContact before = contact;

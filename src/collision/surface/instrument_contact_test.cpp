@@ -56,7 +56,7 @@ const Body& slab() {
 ToolPose pose_near(const Body& body, const InstrumentShape& shape, Rng& rng) {
   const Vec3 vertex = body.mesh.vertices[rng.below(body.mesh.vertices.size())];
   const Vec3 shaft = test::random_direction(rng);
-  const Vec3 centre = vertex + test::random_direction(rng) * rng.uniform(0, 3);
+  const Vec3 centre = vertex + test::random_shift(rng, 3);
   const double z = rng.uniform(shape.front_z_mm(), shape.back_z_mm());
   return {test::turned_to(shaft), centre - shaft * z};
 }
@@ -243,7 +243,7 @@ TEST(InstrumentContact, GoesDeeperWhenPushedAlongItsNormal) {
   Rng rng(5);
   int pushed = 0;
   for (const InstrumentShape& shape : instruments()) {
-    for (int i = 0; i < amount(20, 60, 2000); ++i) {
+    for (int i = 0; i < amount(20, 200, 2000); ++i) {
       ToolPose pose = pose_near(cup(), shape, rng);
       const SurfaceContact first = find_contact(cup().field, shape, pose, 1.0);
       if (first.outcome != ContactOutcome::Near || first.steepness < 0.95) continue;

@@ -55,9 +55,10 @@ struct Wandering {
   }
   template <typename P>
   void move(P& pose, double way_mm, double angle_rad) {
-    const Mat3 turn = rotation_about(test::random_direction(rng), rng.uniform(0, angle_rad));
+    const Vec3 axis = test::random_direction(rng);
+    const Mat3 turn = rotation_about(axis, rng.uniform(0, angle_rad));
     pose.rotation = turn * pose.rotation;
-    pose.translation += test::random_direction(rng) * rng.uniform(0, way_mm) -
+    pose.translation += test::random_shift(rng, way_mm) -
                         pose.translation * (0.001 * way_mm);  // so that they stay together
   }
   Rng rng;

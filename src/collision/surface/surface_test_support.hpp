@@ -104,6 +104,12 @@ inline constexpr double kPi = 3.14159265358979323846;
   }
 }
 
+/// Some way in some direction, drawn in this order in every build (arguments have none).
+[[nodiscard]] inline Vec3 random_shift(Rng& rng, double most_mm) {
+  const Vec3 direction = random_direction(rng);
+  return direction * rng.uniform(0, most_mm);
+}
+
 /// Any rotation; +z of the tool goes to `shaft`.
 [[nodiscard]] inline Mat3 turned_to(const Vec3& shaft) {
   const Vec3 x = any_perpendicular(shaft);
