@@ -12,10 +12,11 @@
 
 namespace carpus::case_io {
 
-/// Reads by the file's extension: .ply (as read_ply_or_points), .stl (binary or text; equal corners become
-/// one vertex), .obj (v and f lines; others are skipped), .off, .xyz (three numbers a line, further
-/// columns are skipped; no facets). Polygons are cut into triangles from their first corner.
-/// Nothing is believed before it is checked; no memory is set aside for what a header promises.
+/// Reads by the file's extension: .ply (as read_ply_or_points), .stl (binary or text; equal corners
+/// become one vertex), .obj (v and f lines; others are skipped), .off, .xyz (three numbers a line,
+/// further columns are skipped; no facets). Polygons are cut into triangles from their first
+/// corner. Nothing is believed before it is checked; no memory is set aside for what a header
+/// promises.
 /// @throws IoError naming the file, the line of a text file, and what is wrong.
 [[nodiscard]] TriangleMesh read_surface(const std::filesystem::path& file);
 

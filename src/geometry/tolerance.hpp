@@ -48,8 +48,8 @@ inline constexpr double kLeastBasisDeterminant = 1e-7;
 inline constexpr double kMovedBoxRounding = 32 * kRoundoff;
 
 /// Volumes in a tree of triangles are taken as apart only by more than this times the sizes that
-/// enter: 12 u for the coordinates of moved corners, some 30 u for moving and comparing volumes, the
-/// rest for axes that are not quite orthonormal; about 5e-12 mm for a wrist.
+/// enter: 12 u for the coordinates of moved corners, some 30 u for moving and comparing volumes,
+/// the rest for axes that are not quite orthonormal; about 5e-12 mm for a wrist.
 inline constexpr double kVolumeRounding = 256 * kRoundoff;
 
 }  // namespace carpus
