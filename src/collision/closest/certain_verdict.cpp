@@ -22,11 +22,13 @@ bool holds_ball(const std::array<DifferencePoint, 4>& p, double radius_mm) noexc
     const Vec3 e = p[j].at - p[i].at;
     const Vec3 f = p[k].at - p[i].at;
     const Vec3 n = cross(e, f);
+    const Vec3 g = p[opposite].at - p[i].at;
     const double origin = -dot(n, p[i].at);
-    const double corner = dot(n, p[opposite].at - p[i].at);
-    // Rounding of n times the lever to the origin, and the ball.
-    const double bound =
-        radius_mm * length(n) + 16 * kRoundoff * length(e) * length(f) * length(p[i].at);
+    const double corner = dot(n, g);
+    // Rounding of n, times the lever; for slivers it hides on which side the tetrahedron lies.
+    const double rounding = 16 * kRoundoff * length(e) * length(f);
+    if (!(std::abs(corner) > rounding * length(g))) return false;
+    const double bound = radius_mm * length(n) + rounding * length(p[i].at);  // and the ball
     const bool is_inside = corner > 0 ? origin > bound : -origin > bound;
     if (!is_inside) return false;
   }

@@ -45,6 +45,37 @@ TEST(CertainVerdict, TellsItFarFromTheOriginToo) {
   EXPECT_EQ(verdict_at(box, {Mat3::identity(), {2 - last, 1, 1}}), Verdict::Meet);
 }
 
+TEST(CertainVerdict, TrustsNoTetrahedronWhoseVolumeIsRounding) {
+  // A needle 5e11 mm long ends beside a plate; the walk begins with corners of an earlier pose,
+  // which make a tetrahedron so thin that on one of its faces even the side of the fourth corner
+  // is lost.
+  const ConvexBody plate = test::body_of({{0.25, 0.5, 0},
+                                          {0, 0.25, 0.000125},
+                                          {0, 0.375, 0.000375},
+                                          {0.25, 0.125, 0.000375},
+                                          {0.375, 0.5, 0.000125},
+                                          {0.125, 0.5, 0.000375},
+                                          {0.25, 0.25, 0.0005},
+                                          {0.5, 0.25, 0.000125}});
+  const ConvexBody needle = test::body_of({{-1.578125, -0.078125, -0.28125},
+                                           {1.90625, 1.90625, -1.84375},
+                                           {0.796875, -1.609375, -1.453125},
+                                           {0.53125, 1.296875, 1.53125},
+                                           {1.0625, 1.453125, 0.859375},
+                                           {-1.703125, -0.828125, -549755813888},
+                                           {0.09375, -1.796875, 1.609375},
+                                           {-0.578125, 1.609375, 1.78125},
+                                           {-1.984375, -1.953125, 0.09375}});
+  const PairPose pose{{{Vec3{-0.52715460359354349, -0.69576692721551103, -0.48786925185260366},
+                        Vec3{0.19226474469596999, -0.65688762562176395, 0.72906303928535166},
+                        Vec3{-0.82773322505329394, 0.29052888031671914, 0.48005278651913519}}},
+                      {-67052239405.683022, 100201661134.27032, 191605745998.16266}};
+  GjkWalk walk(ClimbStart::LastCorner);
+  walk.set_points({{{{}, 2, 1}, {{}, 7, 5}, {{}, 7, 1}, {{}, 4, 2}}}, 4);
+  const PosedPair pair(plate.derived<SupportGraph>(), needle.derived<SupportGraph>(), pose);
+  EXPECT_EQ(certain_verdict(walk, pair, plate, needle, pose), Verdict::Apart);
+}
+
 TEST(CertainVerdict, IsUnknownForWhatIsNotANumber) {
   const ConvexBody box = test::body_of(test::box_points({1, 2, 3}));
   PairPose pose;
