@@ -25,6 +25,7 @@ Verdict ClosestActiveSet::meets(const PairPose& first_from_second) noexcept {
 
 std::optional<Closest> ClosestActiveSet::closest(const PairPose& first_from_second) noexcept {
   const PosedPair pair(first_graph_, second_graph_, first_from_second);
+  if (!pair.is_usable()) return std::nullopt;  // the walk still holds the last pose's corners
   const double gap = gap_to_prove_mm(pair);
   const Verdict verdict = walk_.find_nearest(pair, gap);
   if (verdict == Verdict::Meet) return std::nullopt;

@@ -123,6 +123,7 @@ Verdict Gjk::meets(const PairPose& first_from_second) noexcept {
 
 std::optional<Closest> Gjk::closest(const PairPose& first_from_second) noexcept {
   const PosedPair pair(first_, second_, first_from_second);
+  if (!pair.is_usable()) return std::nullopt;  // the walk still holds the last pose's corners
   const Verdict verdict = walk_.find_nearest(pair, pair.rounding_mm());
   // Where rounding ends the search, the last point is the best that this method has.
   const bool is_apart =

@@ -89,5 +89,17 @@ TEST(Gjk, SaysUnknownForAPoseThatIsNotANumberAndRecovers) {
   EXPECT_EQ(query.meets({}), Verdict::Meet);
 }
 
+TEST(Gjk, GivesNoDistanceOfAnEarlierPose) {
+  const ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
+  const PairPose beside{Mat3::identity(), {5, 0, 0}};
+  PairPose none;
+  none.translation.x = std::numeric_limits<double>::quiet_NaN();
+  for (const char* name : {"gjk", "gjk_table", "closest_active_set"}) {
+    const auto query = find_method(name)->make(body, body);
+    ASSERT_TRUE(query->closest(beside).has_value()) << name;
+    EXPECT_FALSE(query->closest(none).has_value()) << name;
+  }
+}
+
 }  // namespace
 }  // namespace carpus::collision
