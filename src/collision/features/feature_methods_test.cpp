@@ -156,6 +156,10 @@ TEST_P(FeatureMethods, DoNotAnswerForAPoseThatIsNotFinite) {
   EXPECT_EQ(query->meets(pose), Verdict::Unknown);
   EXPECT_FALSE(query->closest(pose));
   pose = {};
+  pose.translation.x = 1e200;  // finite, but its square is not
+  EXPECT_EQ(query->meets(pose), Verdict::Unknown);
+  EXPECT_FALSE(query->closest(pose));
+  pose = {};
   pose.translation = {3, 0, 0};
   EXPECT_EQ(query->meets(pose), Verdict::Apart);
 }

@@ -66,6 +66,7 @@ struct MovedBody {
   Mat3 cofactors;  ///< normals follow these
   Vec3 translation;
   double determinant;
+  double scale_mm;  ///< both radii and the distance of the centres, at most
 
   /// @param first  the other body, about whose centre everything is.
   MovedBody(const VoronoiFeatures& first,
@@ -77,11 +78,18 @@ struct MovedBody {
         cofactors{{cross(linear.rows[1], linear.rows[2]), cross(linear.rows[2], linear.rows[0]),
                    cross(linear.rows[0], linear.rows[1])}},
         translation(between_centres(first, second, pose)),
-        determinant(dot(linear.rows[0], cofactors.rows[0])) {}
+        determinant(dot(linear.rows[0], cofactors.rows[0])),
+        // (1 + F^2) / 2 >= F, the matrix' Frobenius norm, which bounds what it does to lengths.
+        scale_mm(first.radius_mm() +
+                 (0.5 + 0.5 * (squared_length(linear.rows[0]) + squared_length(linear.rows[1]) +
+                               squared_length(linear.rows[2]))) *
+                     second.radius_mm() +
+                 length(translation)) {}
 
-  /// False where the pose is not finite or turns the body inside out.
+  /// False where the pose is not finite, turns the body inside out, or takes the scale out of 1e-30
+  /// to 1e30 mm, where products of coordinates leave the doubles.
   [[nodiscard]] bool is_usable() const noexcept {
-    return determinant > 0 && std::isfinite(determinant) && is_finite(translation);
+    return determinant > 0 && std::isfinite(determinant) && scale_mm > 1e-30 && scale_mm < 1e30;
   }
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const noexcept {
     return linear * features->vertex(v) + translation;
