@@ -41,26 +41,31 @@ class TreeQuery final : public PairQuery {
  private:
   bool is_second_within(const PairPose& pose) noexcept {
     const Vec3 corner = moved_corner(pose, second_.vertices().front());
-    return is_behind_all(first_, facet_of_first_, corner,
+    return is_behind_all(first_, facet_of_first_, corner, 1,
                          [](const Vec3& v) { return without_tiny_coordinates(v); });
   }
   bool is_first_within(const PairPose& pose) noexcept {
     const Vec3 corner = without_tiny_coordinates(first_.vertices().front());
-    return is_behind_all(second_, facet_of_second_, corner,
+    const double outward = pose.rotation.determinant() < 0 ? -1 : 1;  // of a body's mirror image
+    return is_behind_all(second_, facet_of_second_, corner, outward,
                          [&](const Vec3& v) { return moved_corner(pose, v); });
   }
 
   /// @param proof  the facet to try first; becomes the one that proves the corner outside.
+  /// @param outward  -1 where `place` turns the facets inside out, else 1.
   template <typename Place>
   static bool is_behind_all(const ConvexBody& body,
                             std::uint32_t& proof,
                             const Vec3& corner,
+                            double outward,
                             Place place) noexcept {
     const ConvexPolytope& hull = body.polytope();
     const auto is_before = [&](std::size_t facet) {
       const Triangle& t = hull.facets[facet];
       return orient3d(place(hull.vertices[t[0]]), place(hull.vertices[t[1]]),
-                      place(hull.vertices[t[2]]), corner) > 0;
+                      place(hull.vertices[t[2]]), corner) *
+                 outward >
+             0;
     };
     if (is_before(proof)) return false;
     for (std::uint32_t f = 0; f < hull.facets.size(); ++f) {
