@@ -67,6 +67,15 @@ TEST(ConvexBody, MakesWhatMethodsDeriveFromItOnce) {
   EXPECT_EQ(&body.derived<CornerCount>(), &body.derived<CornerCount>());
 }
 
+TEST(ConvexBody, HasAFiniteMiddleWhereItsMomentsLeaveTheDoubles) {
+  const ConvexBody body(hull::build_convex_hull(
+                            std::vector<Vec3>{{0, 0, 0}, {1e99, 0, 0}, {0, 1e99, 0}, {0, 0, 1e99}})
+                            .polytope);
+  EXPECT_TRUE(is_finite(body.interior_point()));
+  EXPECT_GT(body.interior_point().x, 0);
+  EXPECT_LT(body.radius_mm(), 1e99);
+}
+
 TEST(ConvexBody, RefusesWhatIsNoBody) { EXPECT_THROW(ConvexBody{ConvexPolytope{}}, InvalidInput); }
 
 }  // namespace
