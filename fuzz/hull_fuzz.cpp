@@ -9,42 +9,21 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
+#include "bytes.hpp"
 #include "hull/detail/all_algorithms.hpp"
 #include "hull/detail/face_polygon.hpp"
 
 namespace {
 
 using carpus::Vec3;
+using carpus::fuzz::Bytes;
 
 constexpr std::size_t kMostPoints = 24;  // gift wrapping and the check are slow with sanitizers
 /// More than fast_hull needs to begin with the hull of extremes.
 constexpr std::size_t kManyPoints = 1100;
-
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-  [[nodiscard]] std::size_t left() const { return size_; }
-  std::uint8_t byte() {
-    if (size_ == 0) return 0;
-    --size_;
-    return *data_++;
-  }
-  double any_double() {
-    std::uint64_t bits = 0;
-    for (int i = 0; i < 8; ++i) bits = bits << 8U | byte();
-    double value = 0;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-};
 
 double coordinate(Bytes& bytes, unsigned kind, std::size_t axis) {
   if (kind == 5) return bytes.any_double();
