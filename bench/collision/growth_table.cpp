@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
-#include "bench/collision/report.hpp"
 #include "bench/collision/tables.hpp"
+#include "bench/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

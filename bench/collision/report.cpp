@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/provenance.hpp"
+#include "bench/text_format.hpp"
 #include "core/error.hpp"
 
 namespace carpus::bench {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,13 +9,6 @@
 #include "bench/collision/measure.hpp"
 
 namespace carpus::bench {
-
-template <typename... Values>
-[[nodiscard]] std::string format(const char* pattern, Values... values) {
-  std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 /// Engines down, cases across; median and p99 in microseconds, marked where the answers differ;
 /// below, our fastest engine that agrees against the fastest peer.
@@ -32,8 +23,8 @@ void write_json(const std::filesystem::path& file,
 /// What the horizontal axis of a plot counts.
 enum class CollisionAxis { Cases, Facets, Vertices };
 
-/// One line an engine, time logarithmic; facets and vertices too. Against vertices (figure 5.3)
-/// only the cold rows are drawn.
+/// Mean and p99 of each engine as dots, one panel a case; against facets or vertices means as
+/// curves. Against vertices (figure 5.3) only the cold rows are drawn. Empty where nothing ran.
 [[nodiscard]] std::string collision_plot_svg(const std::string& title,
                                              const std::vector<CollisionRow>& rows,
                                              CollisionAxis axis);

@@ -9,10 +9,10 @@
 #include <map>
 
 #include "anatomy/bone_id.hpp"
-#include "bench/collision/report.hpp"
 #include "bench/collision/tables.hpp"
 #include "bench/hull/bone_points.hpp"
 #include "bench/hull/thesis_tables.hpp"
+#include "bench/text_format.hpp"
 #include "collision/ivri/ivri_cd.hpp"
 
 namespace carpus::bench {

@@ -3,9 +3,7 @@
 #include "bench/hull/hull_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -13,17 +11,11 @@
 #include <utility>
 
 #include "bench/provenance.hpp"
+#include "bench/text_format.hpp"
 #include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 std::vector<std::string> engines_of(const std::vector<HullRow>& rows) {
   std::vector<std::string> names;

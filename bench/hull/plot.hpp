@@ -14,7 +14,8 @@ namespace carpus::bench {
 /// What the horizontal axis counts.
 enum class PlotAxis { Points, HullVertices };
 
-/// One line an engine over all rows that ran.
+/// One curve an engine over all rows that ran; a panel for each set where sets have sizes in
+/// common. Empty where nothing ran.
 [[nodiscard]] std::string plot_svg(const std::string& title,
                                    const std::vector<HullRow>& rows,
                                    PlotAxis axis);
