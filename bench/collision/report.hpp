@@ -10,8 +10,9 @@
 
 namespace carpus::bench {
 
-/// Engines down, cases across; median and p99 in microseconds, marked where the answers differ;
-/// below, our fastest engine that agrees against the fastest peer.
+/// Engines down, cases across; mean, median and p99 in microseconds, marked where the answers
+/// differ; below, our fastest engine that agrees against the fastest peer by each of these, and
+/// lp_growth against our own GJK by mean.
 [[nodiscard]] std::string text_of(const std::vector<CollisionRow>& rows);
 
 /// @throws IoError where the file cannot be written.
