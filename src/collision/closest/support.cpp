@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/tolerance.hpp"
+
 namespace carpus::collision {
 namespace {
 
@@ -96,6 +98,35 @@ std::uint32_t SupportGraph::climb(const Vec3& direction, std::uint32_t from) con
     from = next;
   }
   return from;
+}
+
+CertainTop SupportGraph::certain_climb(const Vec3& direction, std::uint32_t from) const noexcept {
+  const Corner* corners = corners_.data();
+  const std::uint32_t* ends = neighbours_.data();
+  const double size =
+      (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z)) * radius_mm_;
+  double highest = 0;
+  for (std::size_t step = 0; step <= corners_.size(); ++step) {
+    const Corner& here = corners[from];
+    highest = -std::numeric_limits<double>::infinity();
+    std::uint32_t next = from;
+    for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
+      const double rise = dot(corners[ends[k]].at - here.at, direction);
+      if (rise > highest) {
+        highest = rise;
+        next = ends[k];
+      }
+    }
+    if (!(highest > 0)) break;
+    from = next;
+  }
+  // A rise: corners rounded by u of their distance from the centre, their difference, three
+  // products and two sums; under 12 u of `size`. A height: under 6 u. A small number for underflow.
+  CertainTop top;
+  top.corner = from;
+  top.is_certain = highest < -(16 * kRoundoff * size + kUnderflowBound);
+  top.reach = dot(direction, corners[from].at) + 8 * kRoundoff * size + kUnderflowBound;
+  return top;
 }
 
 std::uint32_t SupportGraph::near(const Vec3& direction) const noexcept {

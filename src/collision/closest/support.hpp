@@ -14,6 +14,13 @@
 
 namespace carpus::collision {
 
+/// Where a climb ended.
+struct CertainTop {
+  std::uint32_t corner = 0;
+  bool is_certain = false;  ///< proven to be the one highest corner, whatever was rounded
+  double reach = 0;         ///< if certain: no point of the body lies higher, about centre()
+};
+
 /// Corners and edges of one body, compact and about a point inside it: positions that lie far from
 /// the frame's origin lose no digits in what is computed from them. Built once, never changed.
 ///
@@ -39,6 +46,10 @@ class SupportGraph {
   /// largest but for 8 roundings of the body's size. Few steps if `from` is near the answer; never
   /// more than there are corners. A direction that is zero or not a number gives `from`.
   [[nodiscard]] std::uint32_t climb(const Vec3& direction, std::uint32_t from) const noexcept;
+
+  /// climb(), with a proof: every edge from the corner falls by more than rounding. Without one
+  /// where the direction is all but normal to a face or an edge.
+  [[nodiscard]] CertainTop certain_climb(const Vec3& direction, std::uint32_t from) const noexcept;
 
   /// A corner near climb()'s answer for any direction, from a table: 6 faces of a cube with 16 x 16
   /// cells each.

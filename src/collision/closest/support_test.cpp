@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "collision/closest/detail/solids.hpp"
+#include "geometry/exact_number.hpp"
 #include "geometry/tolerance.hpp"
 
 namespace carpus::collision {
@@ -54,6 +56,34 @@ TEST(SupportGraph, FindsTheHighestCornerOfEverySmallSolidFromEveryStart) {
   for (const test::Solid& solid : test::small_solids()) {
     SCOPED_TRACE(solid.name);
     expect_walks_equal_scans(solid.body, test::cases(2000));
+  }
+}
+
+TEST(SupportGraph, CertainClimbsBoundEveryCornerAndAreMostlyCertain) {
+  for (const test::Solid& solid : test::small_solids()) {
+    SCOPED_TRACE(solid.name);
+    const SupportGraph& graph = solid.body.derived<SupportGraph>();
+    Rng rng(6);
+    int certain = 0;
+    const int count = static_cast<int>(test::cases(1000));
+    for (int i = 0; i < count; ++i) {
+      const Vec3 d = some_direction(rng, solid.body);
+      const CertainTop top =
+          graph.certain_climb(d, static_cast<std::uint32_t>(rng.below(graph.size())));
+      if (!top.is_certain) continue;
+      ++certain;
+      const ExactVec3 direction(d);
+      const ExactVec3 centre(graph.centre());
+      for (std::uint32_t v = 0; v < graph.size(); ++v) {
+        const ExactNumber height = dot(direction, ExactVec3(solid.body.vertices()[v]) - centre);
+        EXPECT_LE((height - ExactNumber(top.reach)).sign(), 0);
+      }
+      const double tolerance = 32 * kRoundoff * graph.radius_mm() * length(d);
+      EXPECT_LE(top.reach, highest_by_scan(graph, d) + 2 * tolerance + kUnderflowBound);
+    }
+    EXPECT_GT(certain, count / 5);
+    EXPECT_FALSE(graph.certain_climb({}, 0).is_certain);
+    EXPECT_FALSE(graph.certain_climb({std::nan(""), 0, 1}, 0).is_certain);
   }
 }
 

@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do two convex bodies meet, by exact arithmetic alone: the judge of what floating point cannot
-// tell, and of nothing else (some 15 us a question near a touching pose).
+// Do two convex bodies meet, exactly: the judge of what doubles cannot tell, and of nothing else.
+// Mostly in twice the digits (touching_features.hpp), by exact numbers where those do not do.
 #pragma once
 
 #include <array>
@@ -35,7 +35,8 @@ struct ExactHint {
 
 struct ExactAnswer {
   Verdict verdict = Verdict::Unknown;
-  std::uint32_t rounds = 0;  ///< pairs of vertices that were asked for
+  std::uint32_t rounds =
+      0;  ///< pairs of vertices that exact numbers asked for; 0: they were not needed
 };
 
 /// Is the origin in the set of differences b - a of points of the bodies? The linear program in

@@ -184,6 +184,20 @@ TEST(ExactVerdict, AppliesMatricesThatAreNoRotationsAsTheyAre) {
   }
 }
 
+TEST(ExactVerdict, TakesAMatrixThatShrinksABodyForNoMotion) {
+  const ConvexBody small = lp_test::box({1, 1, 1});
+  const ConvexBody large = lp_test::box({10, 10, 10});
+  for (const char* name : kExactMethods) {
+    const auto query = find_method(name)->make(small, large);
+    for (int again = 0; again < 3; ++again) {
+      EXPECT_EQ(query->meets({Mat3::identity(), {3, 0, 0}}), Verdict::Meet) << name;
+      PairPose shrunk{Mat3::identity(), {3, 0, 0}};
+      for (Vec3& row : shrunk.rotation.rows) row *= 0.1;
+      EXPECT_EQ(query->meets(shrunk), Verdict::Apart) << name;
+    }
+  }
+}
+
 TEST(ExactVerdict, TakesThinSmallAndLargeBodies) {
   const ConvexBody sheet = lp_test::box({10, 10, 1e-14});
   const ConvexBody cube = lp_test::box({1, 1, 1});

@@ -9,11 +9,27 @@ namespace carpus::collision {
 GrowthQuery::GrowthQuery(const ConvexBody& first, const ConvexBody& second)
     : first_(&first),
       second_(&second),
-      program_(first.derived<PolarGraph>(), second.derived<PolarGraph>()),
+      program_(GrowthBody(first), GrowthBody(second)),
       second_radius_mm_(program_.second().outer_radius_mm()),
       is_usable_(program_.first().is_usable() && program_.second().is_usable()) {}
 
-Verdict GrowthQuery::decide(const RelativePose& pose) noexcept {
+Verdict GrowthQuery::decide(const PairPose& first_from_second) noexcept {
+  RelativePose pose;
+  memory_.last = ready_.last();
+  if (is_usable_ && relative_pose(program_.first(), program_.second(), first_from_second, pose)) {
+    const Verdict verdict = decide_in_doubles(pose);
+    const Vec3& t = first_from_second.translation;
+    if (verdict == Verdict::Apart) {
+      ready_.set(memory_.separation, program_.first(), program_.second(), t);
+    } else if (verdict == Verdict::Meet) {
+      ready_.set(memory_.ball, program_.first(), program_.second(), t);
+    }
+    if (verdict != Verdict::Unknown) return verdict;
+  }
+  return decide_exactly(first_from_second);
+}
+
+Verdict GrowthQuery::decide_in_doubles(const RelativePose& pose) noexcept {
   // Spheres first, where there is nothing to go on from.
   if (!memory_.has_basis) {
     const double reach = program_.first().outer_radius_mm() + second_radius_mm_;
@@ -26,6 +42,7 @@ Verdict GrowthQuery::decide(const RelativePose& pose) noexcept {
     spheres.second_reach = second_radius_mm_ * length(spheres.m) * spheres.size;
     if (squared_length(d) > reach * reach && spheres.holds(pose, second_radius_mm_)) {
       memory_.separation = spheres;
+      memory_.facing.forget();
       memory_.last = Verdict::Apart;
       ++counts_.by_spheres;
       return Verdict::Apart;
@@ -41,7 +58,7 @@ Verdict GrowthQuery::decide_exactly(const PairPose& first_from_second) noexcept 
                    {second_, first_from_second.rotation, first_from_second.translation}, hint);
   ++counts_.exact;
   counts_.exact_rounds += answer.rounds;
-  memory_.last = Verdict::Unknown;
+  ready_.set_unknown();
   return answer.verdict;
 }
 

@@ -5,11 +5,13 @@
 // exactly right for the vertices and the pose as given.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "collision/lp/exact_meeting.hpp"
 #include "collision/lp/growth_program.hpp"
+#include "collision/lp/ready_proof.hpp"
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
@@ -29,34 +31,41 @@ struct GrowthAnswer {
 /// Unknown only for a pose that is not finite or larger than kLargestCoordinate.
 /// Cost: some 10 ns where the last proof still holds; about 50 ns a pivot, 0 to 3 of them after a
 /// small step; some 10 us where bodies touch to the last bits.
-class GrowthQuery final : public PairQuery {
+class alignas(64) GrowthQuery final : public PairQuery {
  public:
   GrowthQuery(const ConvexBody& first, const ConvexBody& second);
 
   [[nodiscard]] Verdict meets(const PairPose& first_from_second) noexcept override {
-    ++counts_.queries;
-    RelativePose pose;
-    if (is_usable_ && relative_pose(program_.first(), program_.second(), first_from_second, pose)) {
-      if (memory_.proves_again(pose, second_radius_mm_)) {
-        ++counts_.by_last_proof;
-        return memory_.last;
-      }
-      const Verdict verdict = decide(pose);
-      if (verdict != Verdict::Unknown) return verdict;
-    }
-    return decide_exactly(first_from_second);
+    ++queries_;
+    const Verdict again = ready_.again(first_from_second);
+    if (again == Verdict::Unknown) return decide(first_from_second);
+    ++by_last_proof_;
+    return again;
   }
-  void forget() noexcept override { memory_ = {}; }
+  void forget() noexcept override {
+    memory_ = {};
+    ready_ = {};
+  }
 
   /// The program's value. Empty where a body or the pose is beyond doubles.
   [[nodiscard]] std::optional<GrowthAnswer> growth(const PairPose& first_from_second) noexcept;
 
-  [[nodiscard]] const GrowthCounts& counts() const noexcept { return counts_; }
+  [[nodiscard]] GrowthCounts counts() const noexcept {
+    GrowthCounts sum = counts_;
+    sum.queries = queries_;
+    sum.by_last_proof = by_last_proof_;
+    return sum;
+  }
 
  private:
-  [[nodiscard]] Verdict decide(const RelativePose& pose) noexcept;
+  [[nodiscard]] Verdict decide(const PairPose& first_from_second) noexcept;
+  [[nodiscard]] Verdict decide_in_doubles(const RelativePose& pose) noexcept;
   [[nodiscard]] Verdict decide_exactly(const PairPose& first_from_second) noexcept;
 
+  // In the order in which a query reads them.
+  std::uint64_t queries_ = 0;
+  std::uint64_t by_last_proof_ = 0;
+  ReadyProof ready_;
   const ConvexBody* first_;
   const ConvexBody* second_;
   GrowthProgram program_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The dual simplex method on four rows:
+// 0. The last separating direction, turned to the new pose.
 // 1. Warm: the last rows at the new pose; one of them is exchanged if their weights are not all
 //    >= 0. Cold: the facets where the line of origins leaves the bodies, and two implied rows.
 // 2. t > 1: the rows prove that the bodies are apart.
@@ -70,14 +71,22 @@ class GrowthProgram::Run {
       const RelativePose& pose,
       GrowthMemory& memory,
       GrowthCounts& counts) noexcept
-      : a_(*program.first_),
-        b_(*program.second_),
+      : a_(program.first()),
+        b_(program.second()),
+        first_corners_(*program.first_.corners),
+        second_corners_(*program.second_.corners),
         pose_(pose),
         memory_(memory),
         counts_(counts),
         basis_(memory.rows) {}
 
   Verdict decide() noexcept {
+    if (memory_.last == Verdict::Apart &&
+        memory_.facing.turn(first_corners_, second_corners_, pose_, b_.outer_radius_mm(),
+                            memory_.separation)) {
+      ++counts_.by_turning;
+      return Verdict::Apart;
+    }
     bool is_warm = start_warm();
     if (!is_warm && meets_on_line()) return Verdict::Meet;
     if (!is_warm) start_cold();
@@ -259,6 +268,7 @@ class GrowthProgram::Run {
     const SeparationProof proof = proof_of_rows();
     if (!proof.holds(pose_, b_.outer_radius_mm())) return false;
     memory_.separation = proof;
+    memory_.facing.forget();
     memory_.last = Verdict::Apart;
     return true;
   }
@@ -281,6 +291,8 @@ class GrowthProgram::Run {
 
   const PolarGraph& a_;
   const PolarGraph& b_;
+  const SupportGraph& first_corners_;
+  const SupportGraph& second_corners_;
   const RelativePose& pose_;
   GrowthMemory& memory_;
   GrowthCounts& counts_;
@@ -301,8 +313,8 @@ ExactHint GrowthProgram::hint(const ConvexBody& first,
                               const GrowthMemory& memory) const noexcept {
   ExactHint hint;
   hint.direction = memory.separation.n;
-  const Feature a = feature_of(first, *first_, memory.rows, false);
-  const Feature b = feature_of(second, *second_, memory.rows, true);
+  const Feature a = feature_of(first, this->first(), memory.rows, false);
+  const Feature b = feature_of(second, this->second(), memory.rows, true);
   if (a.count == 0 || b.count == 0) return hint;
   hint.first_vertex = a.vertices[0];
   hint.second_vertex = b.vertices[0];

@@ -40,7 +40,8 @@ GrowthScene::GrowthScene(std::span<const ConvexBody* const> bodies, bool uses_bu
   for (const ConvexBody* body : bodies) {
     Body placed;
     placed.body = body;
-    placed.graph = &body->derived<PolarGraph>();
+    placed.growth = GrowthBody(*body);
+    placed.graph = placed.growth.facets;
     bodies_.push_back(placed);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -168,7 +169,7 @@ Verdict GrowthScene::decide(Pair& pair) noexcept {
     }
   }
   const Verdict verdict =
-      GrowthProgram(*first.graph, *second.graph).decide(pose, pair.memory, counts_.pairs);
+      GrowthProgram(first.growth, second.growth).decide(pose, pair.memory, counts_.pairs);
   if (verdict == Verdict::Unknown) return decide_exactly(pair);
   grant(margin_of(verdict));
   return verdict;
@@ -179,7 +180,7 @@ Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
   const Body& second = bodies_[pair.bodies.second];
   ExactHint hint;
   if (first.is_ordinary && second.is_ordinary) {
-    hint = GrowthProgram(*first.graph, *second.graph).hint(*first.body, *second.body, pair.memory);
+    hint = GrowthProgram(first.growth, second.growth).hint(*first.body, *second.body, pair.memory);
     hint.direction = first.pose.rotation * hint.direction;
   }
   const ExactAnswer answer =

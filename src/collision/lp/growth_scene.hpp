@@ -46,6 +46,7 @@ class GrowthScene {
  private:
   struct Body {
     const ConvexBody* body = nullptr;
+    GrowthBody growth;
     const PolarGraph* graph = nullptr;
     BodyPose pose;
     Vec3 centre;  ///< of the graph's origin, in the world

@@ -62,26 +62,32 @@ struct SeparationProof {
   }
 };
 
-/// A point of the second body, and a ball about where it was in the first one that lies in that.
+/// A ball in each body: where they touch, the bodies meet. At the pose of the proof their centres
+/// are one point.
 struct CommonBallProof {
-  Vec3 in_second;  ///< about the second's origin, inside the second body
-  Vec3 in_first;   ///< the ball's centre, about the first's origin
-  double radius_mm = -1;
+  Vec3 in_second;  ///< the second's centre, about the second's origin
+  Vec3 in_first;   ///< the first's, about the first's origin
+  double first_radius_mm = -1;
+  double second_radius_mm = 0;
 
-  /// How far the point may still move [mm]; >= 0 means the bodies meet.
+  /// How far the centres may still move apart [mm]; >= 0 means the bodies meet.
   [[nodiscard]] double margin(const RelativePose& pose) const noexcept {
     const Vec3 x = pose.rotation * in_second + pose.offset;
-    return radius_mm - rounding(pose) -
+    return radius(pose) - rounding(pose) -
            std::sqrt(squared_length(x - in_first)) * (1 + 8 * kRoundoff);
   }
   /// The sign of margin(), without its root.
   [[nodiscard]] bool holds(const RelativePose& pose) const noexcept {
     const Vec3 x = pose.rotation * in_second + pose.offset;
-    const double r = radius_mm - rounding(pose);
+    const double r = radius(pose) - rounding(pose);
     return r >= 0 && r * r >= squared_length(x - in_first) * (1 + 32 * kRoundoff);
   }
 
  private:
+  /// A matrix that is no rotation may flatten the second body's ball.
+  [[nodiscard]] double radius(const RelativePose& pose) const noexcept {
+    return first_radius_mm + (is_rigid(pose.rotation) ? second_radius_mm * kLeastStretch : 0);
+  }
   [[nodiscard]] double rounding(const RelativePose& pose) const noexcept {
     const double reach = taxicab(in_second);
     return pose.offset_error_mm + pose.rotation_error * reach +
@@ -89,7 +95,7 @@ struct CommonBallProof {
   }
 };
 
-/// Tries a point near both bodies, given about the first's origin with the faces that the walks
+/// Tries a point near both bodies, given about the second's origin with the faces that the walks
 /// found for it. True, and `proof` with it, if the point is proven to be in both.
 [[nodiscard]] inline bool prove_common_point(const PolarGraph& first,
                                              const PolarGraph& second,
@@ -98,14 +104,17 @@ struct CommonBallProof {
                                              std::uint32_t first_face,
                                              std::uint32_t second_face,
                                              CommonBallProof& proof) noexcept {
-  if (!(second.gauge_bound(second_face, in_second) <= 1)) return false;
+  const double second_gauge = second.gauge_bound(second_face, in_second);
+  if (!(second_gauge <= 1)) return false;
   const Vec3 x = pose.rotation * in_second + pose.offset;
   const double gauge = first.gauge_bound(first_face, x);
+  if (!(gauge <= 1)) return false;
   // x + the ball of (1 - gauge) * inner radius lies in the first body, which is convex.
   CommonBallProof found;
   found.in_second = in_second;
   found.in_first = x;
-  found.radius_mm = ((1 - gauge) * first.inner_radius_mm() * (1 - 4 * kRoundoff));
+  found.first_radius_mm = (1 - gauge) * first.inner_radius_mm() * (1 - 4 * kRoundoff);
+  found.second_radius_mm = (1 - second_gauge) * second.inner_radius_mm() * (1 - 4 * kRoundoff);
   if (!found.holds(pose)) return false;
   proof = found;
   return true;

@@ -89,6 +89,8 @@ PolarGraph::PolarGraph(const ConvexBody& body) : origin_(body.interior_point()) 
   const double slenderness = outer_radius_mm_ / inner_radius_mm_;
   // |p . v| <= slenderness; the row's own 5 roundings and those of a sum of 4 rows.
   reach_ = 1 + 16 * kRoundoff * slenderness;
+  // A row: 5 roundings of |p|, which is at most 1 / inner radius; its product: 3 more.
+  row_error_ = 16 * kRoundoff / inner_radius_mm_;
   // Rounded spokes, the combination of three and the remainder: 8 roundings of |v| each.
   gauge_slack_ = 32 * kRoundoff * (1 + slenderness);
   fill_table();
@@ -169,7 +171,7 @@ PolarTop PolarGraph::scan(const Vec3& d) const noexcept {
   return best;
 }
 
-double PolarGraph::gauge_bound(std::uint32_t face, const Vec3& d) const noexcept {
+double PolarGraph::bound_by_corners(std::uint32_t face, const Vec3& d) const noexcept {
   // d = sum of weight_i * spoke_i + rest, with weights cut at 0. The spokes' ends and the ball of
   // inner_radius are in the body, so the gauge is at most the sum of weights plus |rest| / radius:
   // true for any weights, however they were computed.

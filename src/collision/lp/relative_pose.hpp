@@ -19,6 +19,20 @@ namespace carpus::collision {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
+[[nodiscard]] inline double squared_norm(const Mat3& m) noexcept {
+  return squared_length(m.rows[0]) + squared_length(m.rows[1]) + squared_length(m.rows[2]);
+}
+
+/// A matrix with a squared norm of at most 3 (1 + e) and a determinant of at least 1 - e stretches
+/// no vector by less than 1 - 2 sqrt(e): the singular values 1 + d hold sum (2 d + d^2) <= 3 e and
+/// sum (d - d^2 / 2 + d^3 / 3) >= -1.01 e, so that sum d^2 <= 3.1 e.
+inline constexpr double kRigidTolerance = 1e-9;
+inline constexpr double kLeastStretch = 1 - 1e-4;
+[[nodiscard]] inline bool is_rigid(const Mat3& m) noexcept {
+  return dot(m.rows[0], cross(m.rows[1], m.rows[2])) >= 1 - 0.9 * kRigidTolerance &&
+         squared_norm(m) <= 3 * (1 + 0.9 * kRigidTolerance);
+}
+
 /// A point s of the second body about its origin is rotation * s + offset about the first one's.
 struct RelativePose {
   Mat3 rotation;
@@ -38,10 +52,6 @@ struct RelativePose {
 inline constexpr double kMostSquaredNorm = 3.1;
 /// Largest component of a translation, likewise [mm].
 inline constexpr double kMostTranslation = 0x1p100;
-
-[[nodiscard]] inline double squared_norm(const Mat3& m) noexcept {
-  return squared_length(m.rows[0]) + squared_length(m.rows[1]) + squared_length(m.rows[2]);
-}
 
 /// False where proofs in doubles are not possible at that pose.
 [[nodiscard]] inline bool relative_pose(const PolarGraph& first,
