@@ -9,20 +9,26 @@ namespace carpus::collision {
 GrowthQuery::GrowthQuery(const ConvexBody& first, const ConvexBody& second)
     : first_(&first),
       second_(&second),
-      program_(GrowthBody(first), GrowthBody(second)),
+      first_proofs_(first),
+      second_proofs_(second),
+      program_(*first_proofs_.facets, *second_proofs_.facets),
       second_radius_mm_(program_.second().outer_radius_mm()),
       is_usable_(program_.first().is_usable() && program_.second().is_usable()) {}
 
 Verdict GrowthQuery::decide(const PairPose& first_from_second) noexcept {
+  const Verdict from_last = ready_.from_last(first_proofs_, second_proofs_, first_from_second);
+  if (from_last != Verdict::Unknown) {
+    ++counts_.by_walking;
+    return from_last;
+  }
   RelativePose pose;
-  memory_.last = ready_.last();
   if (is_usable_ && relative_pose(program_.first(), program_.second(), first_from_second, pose)) {
     const Verdict verdict = decide_in_doubles(pose);
     const Vec3& t = first_from_second.translation;
     if (verdict == Verdict::Apart) {
-      ready_.set(memory_.separation, program_.first(), program_.second(), t);
+      ready_.set(memory_.separation, first_proofs_, second_proofs_, t);
     } else if (verdict == Verdict::Meet) {
-      ready_.set(memory_.ball, program_.first(), program_.second(), t);
+      ready_.set(memory_.ball, first_proofs_, second_proofs_, t);
     }
     if (verdict != Verdict::Unknown) return verdict;
   }
@@ -42,7 +48,6 @@ Verdict GrowthQuery::decide_in_doubles(const RelativePose& pose) noexcept {
     spheres.second_reach = second_radius_mm_ * length(spheres.m) * spheres.size;
     if (squared_length(d) > reach * reach && spheres.holds(pose, second_radius_mm_)) {
       memory_.separation = spheres;
-      memory_.facing.forget();
       memory_.last = Verdict::Apart;
       ++counts_.by_spheres;
       return Verdict::Apart;

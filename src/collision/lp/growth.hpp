@@ -68,6 +68,8 @@ class alignas(64) GrowthQuery final : public PairQuery {
   ReadyProof ready_;
   const ConvexBody* first_;
   const ConvexBody* second_;
+  ProofBody first_proofs_;
+  ProofBody second_proofs_;
   GrowthProgram program_;
   double second_radius_mm_ = 0;
   bool is_usable_ = false;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The dual simplex method on four rows:
-// 0. The last separating direction, turned to the new pose.
 // 1. Warm: the last rows at the new pose; one of them is exchanged if their weights are not all
 //    >= 0. Cold: the facets where the line of origins leaves the bodies, and two implied rows.
 // 2. t > 1: the rows prove that the bodies are apart.
@@ -73,20 +72,12 @@ class GrowthProgram::Run {
       GrowthCounts& counts) noexcept
       : a_(program.first()),
         b_(program.second()),
-        first_corners_(*program.first_.corners),
-        second_corners_(*program.second_.corners),
         pose_(pose),
         memory_(memory),
         counts_(counts),
         basis_(memory.rows) {}
 
   Verdict decide() noexcept {
-    if (memory_.last == Verdict::Apart &&
-        memory_.facing.turn(first_corners_, second_corners_, pose_, b_.outer_radius_mm(),
-                            memory_.separation)) {
-      ++counts_.by_turning;
-      return Verdict::Apart;
-    }
     bool is_warm = start_warm();
     if (!is_warm && meets_on_line()) return Verdict::Meet;
     if (!is_warm) start_cold();
@@ -268,7 +259,6 @@ class GrowthProgram::Run {
     const SeparationProof proof = proof_of_rows();
     if (!proof.holds(pose_, b_.outer_radius_mm())) return false;
     memory_.separation = proof;
-    memory_.facing.forget();
     memory_.last = Verdict::Apart;
     return true;
   }
@@ -291,8 +281,6 @@ class GrowthProgram::Run {
 
   const PolarGraph& a_;
   const PolarGraph& b_;
-  const SupportGraph& first_corners_;
-  const SupportGraph& second_corners_;
   const RelativePose& pose_;
   GrowthMemory& memory_;
   GrowthCounts& counts_;

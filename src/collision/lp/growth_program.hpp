@@ -13,9 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "collision/closest/support.hpp"
 #include "collision/lp/exact_meeting.hpp"
-#include "collision/lp/facing_corners.hpp"
 #include "collision/lp/growth_basis.hpp"
 #include "collision/lp/pair_proofs.hpp"
 #include "collision/lp/polar_graph.hpp"
@@ -29,7 +27,6 @@ struct GrowthMemory {
   Verdict last = Verdict::Unknown;
   bool has_basis = false;
   SeparationProof separation;
-  FacingCorners facing;
   CommonBallProof ball;
   std::array<GrowthRow, 4> rows;
 };
@@ -38,7 +35,7 @@ struct GrowthMemory {
 struct GrowthCounts {
   std::uint64_t queries = 0;
   std::uint64_t by_last_proof = 0;  ///< the last proof held at the new pose
-  std::uint64_t by_turning = 0;     ///< the last separating direction did, turned to the pose
+  std::uint64_t by_walking = 0;     ///< its direction or its point did, measured anew
   std::uint64_t by_last_rows = 0;   ///< the last four rows, or the last point walked to, did
   std::uint64_t by_spheres = 0;
   std::uint64_t cold_starts = 0;
@@ -61,24 +58,13 @@ struct GrowthOptimum {
   SeparationProof proof;  ///< of `lower`
 };
 
-/// What the program reads of a body: its facets, and its vertices about the same origin.
-struct GrowthBody {
-  const PolarGraph* facets = nullptr;
-  const SupportGraph* corners = nullptr;
-
-  GrowthBody() = default;
-  /// For set-up: see ConvexBody::derived().
-  explicit GrowthBody(const ConvexBody& body)
-      : facets(&body.derived<PolarGraph>()), corners(&body.derived<SupportGraph>()) {}
-};
-
 class GrowthProgram {
  public:
-  GrowthProgram(const GrowthBody& first, const GrowthBody& second) noexcept
-      : first_(first), second_(second) {}
+  GrowthProgram(const PolarGraph& first, const PolarGraph& second) noexcept
+      : first_(&first), second_(&second) {}
 
-  [[nodiscard]] const PolarGraph& first() const noexcept { return *first_.facets; }
-  [[nodiscard]] const PolarGraph& second() const noexcept { return *second_.facets; }
+  [[nodiscard]] const PolarGraph& first() const noexcept { return *first_; }
+  [[nodiscard]] const PolarGraph& second() const noexcept { return *second_; }
 
   /// Unknown where doubles cannot tell; memory.separation then holds a direction to begin with.
   /// Does not try the last proof as it is.
@@ -96,8 +82,8 @@ class GrowthProgram {
 
  private:
   class Run;
-  GrowthBody first_;
-  GrowthBody second_;
+  const PolarGraph* first_;
+  const PolarGraph* second_;
 };
 
 }  // namespace carpus::collision

@@ -40,8 +40,7 @@ GrowthScene::GrowthScene(std::span<const ConvexBody* const> bodies, bool uses_bu
   for (const ConvexBody* body : bodies) {
     Body placed;
     placed.body = body;
-    placed.growth = GrowthBody(*body);
-    placed.graph = placed.growth.facets;
+    placed.graph = &body->derived<PolarGraph>();
     bodies_.push_back(placed);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -169,7 +168,7 @@ Verdict GrowthScene::decide(Pair& pair) noexcept {
     }
   }
   const Verdict verdict =
-      GrowthProgram(first.growth, second.growth).decide(pose, pair.memory, counts_.pairs);
+      GrowthProgram(*first.graph, *second.graph).decide(pose, pair.memory, counts_.pairs);
   if (verdict == Verdict::Unknown) return decide_exactly(pair);
   grant(margin_of(verdict));
   return verdict;
@@ -180,7 +179,7 @@ Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
   const Body& second = bodies_[pair.bodies.second];
   ExactHint hint;
   if (first.is_ordinary && second.is_ordinary) {
-    hint = GrowthProgram(first.growth, second.growth).hint(*first.body, *second.body, pair.memory);
+    hint = GrowthProgram(*first.graph, *second.graph).hint(*first.body, *second.body, pair.memory);
     hint.direction = first.pose.rotation * hint.direction;
   }
   const ExactAnswer answer =

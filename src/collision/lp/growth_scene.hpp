@@ -46,7 +46,6 @@ class GrowthScene {
  private:
   struct Body {
     const ConvexBody* body = nullptr;
-    GrowthBody growth;
     const PolarGraph* graph = nullptr;
     BodyPose pose;
     Vec3 centre;  ///< of the graph's origin, in the world

@@ -1,0 +1,106 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "collision/lp/ready_proof.hpp"
+
+namespace carpus::collision {
+
+void ReadySeparation::set(const SeparationProof& proof,
+                          const ProofBody& first,
+                          const ProofBody& second,
+                          const Vec3& translation) noexcept {
+  const Vec3& first_origin = first.facets->origin();
+  const double radius = second.facets->outer_radius_mm();
+  n_ = proof.n;
+  m_ = proof.m;
+  second_origin_ = second.facets->origin();
+  most_translation_ = 2 * taxicab(translation) + 1;
+  squared_radius_ = radius * radius * (1 + 64 * kRoundoff);
+  first_reach_ = proof.first_reach;
+  second_reach_ = proof.second_reach;
+  // q is off by under 6 u size, as the matrix's norm is below 1.77; its product with the origin and
+  // the turn's with the radius inherit that; sums lose 8 u of what enters, reaches that are
+  // measured later among it: no reach exceeds 2 size times a radius.
+  const double radii = radius + first.facets->outer_radius_mm();
+  const double rounding =
+      proof.size * kRoundoff *
+          (32 * (taxicab(first_origin) + taxicab(second_origin_) + most_translation_) +
+           64 * radii) +
+      16 * kRoundoff * (first_reach_ + second_reach_);
+  base_ = dot(n_, first_origin) + rounding;
+  set_threshold();
+  has_second_corner_ = false;
+  is_first_measured_ = false;
+}
+
+bool ReadySeparation::walk(const ProofBody& first,
+                           const ProofBody& second,
+                           const PairPose& pose) noexcept {
+  if (!is_covered(pose, most_translation_)) return false;
+  const Vec3 q = turned(pose);
+  const CertainTop top = second.corners->certain_climb(
+      -q, has_second_corner_ ? second_corner_ : second.corners->near(-q));
+  second_corner_ = top.corner;
+  has_second_corner_ = true;
+  if (!top.is_certain) return false;
+  m_ = -q;
+  second_reach_ = top.reach;
+  set_threshold();
+  if (gap_before_turn(pose, q) > 0) return true;
+  // Sums of rows bound the first body's reach from above only.
+  if (is_first_measured_) return false;
+  is_first_measured_ = true;
+  const CertainTop first_top = first.corners->certain_climb(n_, first.corners->near(n_));
+  if (!first_top.is_certain) return false;
+  first_reach_ = first_top.reach;
+  set_threshold();
+  return gap_before_turn(pose, q) > 0;
+}
+
+void ReadyBall::set(const CommonBallProof& proof,
+                    const ProofBody& first,
+                    const ProofBody& second,
+                    const Vec3& translation) noexcept {
+  const Vec3& first_origin = first.facets->origin();
+  const Vec3& second_origin = second.facets->origin();
+  in_second_ = proof.in_second + second_origin;
+  in_first_ = proof.in_first + first_origin;
+  most_translation_ = 2 * taxicab(translation) + 1;
+  // 8 u of all that enters, times the matrix's norm; the first body's ball may move within it.
+  rounding_mm_ = 32 * kRoundoff *
+                 (taxicab(proof.in_second) + taxicab(second_origin) +
+                  first.facets->outer_radius_mm() + taxicab(first_origin) + most_translation_);
+  first_radius_mm_ = proof.first_radius_mm - rounding_mm_;
+  second_radius_mm_ = proof.second_radius_mm * kLeastStretch;
+  both_radii_mm_ = first_radius_mm_ + second_radius_mm_;
+  has_face_ = false;
+}
+
+bool ReadyBall::walk(const ProofBody& first, const PairPose& pose) noexcept {
+  if (!is_covered(pose, most_translation_)) return false;
+  const PolarGraph& graph = *first.facets;
+  const Vec3 in_first = pose.rotation * in_second_ + pose.translation;
+  const Vec3 d = in_first - graph.origin();
+  face_ = graph.climb(has_face_ ? face_ : graph.start_for(d), d).face;
+  has_face_ = true;
+  const double radius =
+      (1 - graph.gauge_bound(face_, d)) * graph.inner_radius_mm() * (1 - 4 * kRoundoff) -
+      rounding_mm_;
+  if (!(radius >= 0)) return false;
+  in_first_ = in_first;
+  first_radius_mm_ = radius;
+  both_radii_mm_ = radius + second_radius_mm_;
+  return true;
+}
+
+Verdict ReadyProof::from_last(const ProofBody& first,
+                              const ProofBody& second,
+                              const PairPose& pose) noexcept {
+  if (last_ == Verdict::Unknown) return last_;
+  const bool was_apart = last_ == Verdict::Apart;
+  if (was_apart && separation_.walk(first, second, pose)) return Verdict::Apart;
+  if (ball_.walk(first, pose)) return last_ = Verdict::Meet;
+  if (!was_apart && separation_.walk(first, second, pose)) return last_ = Verdict::Apart;
+  return Verdict::Unknown;
+}
+
+}  // namespace carpus::collision
