@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/features/q_collide.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -91,10 +93,14 @@ class QCollideQuery final : public PairQuery {
     if (!witness_) return false;
     const std::array<VertexDifference, 4>& witness = *witness_;
     std::array<Vec3, 4> d;
+    double size = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       const VertexDifference& pair = witness[i];
       d[i] = second.vertex(pair.on_second) - first_->vertex(pair.on_first);
+      size = std::max({size, std::abs(d[i].x), std::abs(d[i].y), std::abs(d[i].z)});
     }
+    // Six products of three factors, each off by a few roundings of the bodies' size.
+    const double rounding = 256 * kRoundoff * size * size * second.scale_mm;
     // Its four faces see the origin on the side of the fourth corner.
     const Vec3 bc = cross(d[1], d[2]);
     const Vec3 ad = cross(d[0], d[3]);
@@ -102,8 +108,8 @@ class QCollideQuery final : public PairQuery {
     const double dcb = -dot(d[3], bc);
     const double abd = -dot(d[1], ad);
     const double acd = -dot(d[2], ad);
-    const auto same = [](double a, double b, double c, double e) {
-      return a > 0 && b > 0 && c > 0 && e > 0;
+    const auto same = [rounding](double a, double b, double c, double e) {
+      return a > rounding && b > rounding && c > rounding && e > rounding;
     };
     return same(abc, dcb, -abd, acd) || same(-abc, -dcb, abd, -acd);
   }

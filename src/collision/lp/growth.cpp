@@ -48,7 +48,6 @@ Verdict GrowthQuery::decide_in_doubles(const RelativePose& pose) noexcept {
     spheres.second_reach = second_radius_mm_ * length(spheres.m) * spheres.size;
     if (squared_length(d) > reach * reach && spheres.holds(pose, second_radius_mm_)) {
       memory_.separation = spheres;
-      memory_.last = Verdict::Apart;
       ++counts_.by_spheres;
       return Verdict::Apart;
     }

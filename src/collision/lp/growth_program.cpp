@@ -259,7 +259,6 @@ class GrowthProgram::Run {
     const SeparationProof proof = proof_of_rows();
     if (!proof.holds(pose_, b_.outer_radius_mm())) return false;
     memory_.separation = proof;
-    memory_.last = Verdict::Apart;
     return true;
   }
 
@@ -269,13 +268,11 @@ class GrowthProgram::Run {
                             memory_.ball)) {
       return false;
     }
-    memory_.last = Verdict::Meet;
     return true;
   }
 
   Verdict give_up() noexcept {
     memory_.separation = proof_of_rows();
-    memory_.last = Verdict::Unknown;
     return Verdict::Unknown;
   }
 

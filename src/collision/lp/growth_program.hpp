@@ -22,9 +22,9 @@
 
 namespace carpus::collision {
 
-/// What a pair remembers: its last proof, to be tried first, and its last basis, to go on from.
+/// What a pair remembers: its last basis, to go on from, and the last proofs that the program
+/// found.
 struct GrowthMemory {
-  Verdict last = Verdict::Unknown;
   bool has_basis = false;
   SeparationProof separation;
   CommonBallProof ball;

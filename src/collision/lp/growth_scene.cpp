@@ -40,7 +40,7 @@ GrowthScene::GrowthScene(std::span<const ConvexBody* const> bodies, bool uses_bu
   for (const ConvexBody* body : bodies) {
     Body placed;
     placed.body = body;
-    placed.graph = &body->derived<PolarGraph>();
+    placed.proofs = ProofBody(*body);
     bodies_.push_back(placed);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -56,16 +56,17 @@ GrowthScene::GrowthScene(std::span<const ConvexBody* const> bodies, bool uses_bu
 void GrowthScene::forget() noexcept {
   for (Pair& pair : pairs_) {
     pair.memory = {};
+    pair.ready = {};
     pair.limit_mm = -1;
   }
 }
 
 void GrowthScene::place(Body& body, const BodyPose& pose) const noexcept {
-  const Vec3& origin = body.graph->origin();
+  const Vec3& origin = body.proofs.facets->origin();
   const Vec3 centre = pose.rotation * origin + pose.translation;
   const double error = 16 * kRoundoff * (taxicab(origin) + taxicab(pose.translation));
   const double rigidity = rigidity_error_of(pose.rotation);
-  const bool is_ordinary = body.graph->is_usable() && rigidity <= kMostRigidityError &&
+  const bool is_ordinary = body.proofs.facets->is_usable() && rigidity <= kMostRigidityError &&
                            taxicab(pose.translation) <= kMostTranslation;
   if (is_ordinary && body.is_ordinary && body.has_moved) {
     const Mat3& r = pose.rotation;
@@ -73,8 +74,9 @@ void GrowthScene::place(Body& body, const BodyPose& pose) const noexcept {
     const double turn =
         std::sqrt(squared_length(r.rows[0] - q.rows[0]) + squared_length(r.rows[1] - q.rows[1]) +
                   squared_length(r.rows[2] - q.rows[2]));
-    const double motion = distance(centre, body.centre) + turn * body.graph->outer_radius_mm() +
-                          error + body.centre_error_mm;
+    const double motion = distance(centre, body.centre) +
+                          turn * body.proofs.facets->outer_radius_mm() + error +
+                          body.centre_error_mm;
     body.path_mm = (body.path_mm + motion) * (1 + 16 * kRoundoff);
   } else {
     body.path_mm = HUGE_VAL;  // unknown motion: every proof must be tried anew
@@ -113,7 +115,7 @@ SceneTick GrowthScene::update(std::span<const BodyPose> world_from_body) noexcep
   return tick;
 }
 
-RelativePose GrowthScene::relative(const Body& first, const Body& second) const noexcept {
+RelativePose GrowthScene::relative(const Body& first, const Body& second) noexcept {
   const auto& a = first.pose.rotation.rows;
   const auto& b = second.pose.rotation.rows;
   const Vec3 d = second.centre - first.centre;
@@ -142,7 +144,8 @@ Verdict GrowthScene::decide(Pair& pair) noexcept {
   };
 
   const double reach =
-      (first.graph->outer_radius_mm() + second.graph->outer_radius_mm()) * (1 + kMostRigidityError);
+      (first.proofs.facets->outer_radius_mm() + second.proofs.facets->outer_radius_mm()) *
+      (1 + kMostRigidityError);
   const double gap = distance(first.centre, second.centre) * (1 - 8 * kRoundoff) -
                      first.centre_error_mm - second.centre_error_mm - reach;
   if (gap > 0) {
@@ -153,24 +156,31 @@ Verdict GrowthScene::decide(Pair& pair) noexcept {
 
   ++counts_.pairs.queries;
   const RelativePose pose = relative(first, second);
-  const double radius_mm = second.graph->outer_radius_mm();
-  const auto margin_of = [&](Verdict verdict) {
-    return verdict == Verdict::Apart
-               ? pair.memory.separation.margin(pose, radius_mm) / pair.memory.separation.size
-               : pair.memory.ball.margin(pose);
-  };
-  if (pair.memory.last != Verdict::Unknown) {
-    const double margin = margin_of(pair.memory.last);
-    if (margin > 0) {
-      ++counts_.pairs.by_last_proof;
-      grant(margin);
-      return pair.memory.last;
+  const Vec3& second_origin = second.proofs.facets->origin();
+  const PairPose in_first{
+      pose.rotation, pose.offset + first.proofs.facets->origin() - pose.rotation * second_origin};
+  const double slack_mm =
+      pose.offset_error_mm + pose.rotation_error * second.proofs.facets->outer_radius_mm() +
+      16 * kRoundoff *
+          (taxicab(pose.offset) + taxicab(second_origin) + taxicab(first.proofs.facets->origin()));
+  Verdict verdict = pair.ready.again(in_first, slack_mm);
+  if (verdict != Verdict::Unknown) {
+    ++counts_.pairs.by_last_proof;
+  } else {
+    verdict = pair.ready.from_last(first.proofs, second.proofs, in_first, slack_mm);
+    if (verdict != Verdict::Unknown) ++counts_.pairs.by_walking;
+  }
+  if (verdict == Verdict::Unknown) {
+    verdict = GrowthProgram(*first.proofs.facets, *second.proofs.facets)
+                  .decide(pose, pair.memory, counts_.pairs);
+    if (verdict == Verdict::Unknown) return decide_exactly(pair);
+    if (verdict == Verdict::Apart) {
+      pair.ready.set(pair.memory.separation, first.proofs, second.proofs, in_first.translation);
+    } else {
+      pair.ready.set(pair.memory.ball, first.proofs, second.proofs, in_first.translation);
     }
   }
-  const Verdict verdict =
-      GrowthProgram(*first.graph, *second.graph).decide(pose, pair.memory, counts_.pairs);
-  if (verdict == Verdict::Unknown) return decide_exactly(pair);
-  grant(margin_of(verdict));
+  grant(pair.ready.margin_mm(in_first, slack_mm));
   return verdict;
 }
 
@@ -179,7 +189,8 @@ Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
   const Body& second = bodies_[pair.bodies.second];
   ExactHint hint;
   if (first.is_ordinary && second.is_ordinary) {
-    hint = GrowthProgram(*first.graph, *second.graph).hint(*first.body, *second.body, pair.memory);
+    hint = GrowthProgram(*first.proofs.facets, *second.proofs.facets)
+               .hint(*first.body, *second.body, pair.memory);
     hint.direction = first.pose.rotation * hint.direction;
   }
   const ExactAnswer answer =
@@ -187,7 +198,7 @@ Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
                    {second.body, second.pose.rotation, second.pose.translation}, hint);
   ++counts_.pairs.exact;
   counts_.pairs.exact_rounds += answer.rounds;
-  pair.memory.last = Verdict::Unknown;
+  pair.ready.set_unknown();
   return answer.verdict;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "collision/lp/growth_program.hpp"
+#include "collision/lp/ready_proof.hpp"
 #include "collision/scene.hpp"
 
 namespace carpus::collision {
@@ -46,7 +47,7 @@ class GrowthScene {
  private:
   struct Body {
     const ConvexBody* body = nullptr;
-    const PolarGraph* graph = nullptr;
+    ProofBody proofs;
     BodyPose pose;
     Vec3 centre;  ///< of the graph's origin, in the world
     double centre_error_mm = 0;
@@ -58,13 +59,14 @@ class GrowthScene {
   struct Pair {
     IndexPair bodies{};
     double limit_mm = -1;  ///< the verdict holds until both paths add up to this
+    ReadyProof ready;
     GrowthMemory memory;
   };
 
   void place(Body& body, const BodyPose& pose) const noexcept;
   [[nodiscard]] Verdict decide(Pair& pair) noexcept;
   [[nodiscard]] Verdict decide_exactly(Pair& pair) noexcept;
-  [[nodiscard]] RelativePose relative(const Body& first, const Body& second) const noexcept;
+  [[nodiscard]] static RelativePose relative(const Body& first, const Body& second) noexcept;
 
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;

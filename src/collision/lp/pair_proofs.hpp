@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What proves, in doubles with their rounding bounded, that two bodies meet or are apart. A proof
-// does not trust how its contents were found, and can be tried again at the next pose.
+// does not trust how its contents were found; ready_proof.hpp tries it again at the next pose.
 #pragma once
 
 #include <algorithm>
@@ -36,13 +36,8 @@ struct SeparationProof {
   }
   void finish() noexcept { size = length(n) * (1 + 8 * kRoundoff); }
 
-  /// A lower bound of the bodies' distance times size: positive means apart. What m differs from -n
-  /// in the second body's frame, by turning or by rounding, costs that body's radius.
-  [[nodiscard]] double margin(const RelativePose& pose, double second_radius_mm) const noexcept {
-    return gap(pose, second_radius_mm) -
-           std::sqrt(turned_squared(pose)) * (1 + 8 * kRoundoff) * second_radius_mm;
-  }
-  /// The sign of margin(), without its root.
+  /// The bodies are apart. What m differs from -n in the second body's frame, by turning or by
+  /// rounding, costs that body's radius.
   [[nodiscard]] bool holds(const RelativePose& pose, double second_radius_mm) const noexcept {
     const double g = gap(pose, second_radius_mm);
     return g > 0 && g * g > turned_squared(pose) * (1 + 32 * kRoundoff) * second_radius_mm *
@@ -70,13 +65,7 @@ struct CommonBallProof {
   double first_radius_mm = -1;
   double second_radius_mm = 0;
 
-  /// How far the centres may still move apart [mm]; >= 0 means the bodies meet.
-  [[nodiscard]] double margin(const RelativePose& pose) const noexcept {
-    const Vec3 x = pose.rotation * in_second + pose.offset;
-    return radius(pose) - rounding(pose) -
-           std::sqrt(squared_length(x - in_first)) * (1 + 8 * kRoundoff);
-  }
-  /// The sign of margin(), without its root.
+  /// The bodies meet.
   [[nodiscard]] bool holds(const RelativePose& pose) const noexcept {
     const Vec3 x = pose.rotation * in_second + pose.offset;
     const double r = radius(pose) - rounding(pose);

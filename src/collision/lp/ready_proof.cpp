@@ -12,6 +12,7 @@ void ReadySeparation::set(const SeparationProof& proof,
   const double radius = second.facets->outer_radius_mm();
   n_ = proof.n;
   m_ = proof.m;
+  size_ = proof.size;
   second_origin_ = second.facets->origin();
   most_translation_ = 2 * taxicab(translation) + 1;
   squared_radius_ = radius * radius * (1 + 64 * kRoundoff);
@@ -34,7 +35,8 @@ void ReadySeparation::set(const SeparationProof& proof,
 
 bool ReadySeparation::walk(const ProofBody& first,
                            const ProofBody& second,
-                           const PairPose& pose) noexcept {
+                           const PairPose& pose,
+                           double slack_mm) noexcept {
   if (!is_covered(pose, most_translation_)) return false;
   const Vec3 q = turned(pose);
   const CertainTop top = second.corners->certain_climb(
@@ -45,7 +47,7 @@ bool ReadySeparation::walk(const ProofBody& first,
   m_ = -q;
   second_reach_ = top.reach;
   set_threshold();
-  if (gap_before_turn(pose, q) > 0) return true;
+  if (gap_before_turn(pose, q) > slack_mm * size_) return true;
   // Sums of rows bound the first body's reach from above only.
   if (is_first_measured_) return false;
   is_first_measured_ = true;
@@ -53,7 +55,7 @@ bool ReadySeparation::walk(const ProofBody& first,
   if (!first_top.is_certain) return false;
   first_reach_ = first_top.reach;
   set_threshold();
-  return gap_before_turn(pose, q) > 0;
+  return gap_before_turn(pose, q) > slack_mm * size_;
 }
 
 void ReadyBall::set(const CommonBallProof& proof,
@@ -75,7 +77,7 @@ void ReadyBall::set(const CommonBallProof& proof,
   has_face_ = false;
 }
 
-bool ReadyBall::walk(const ProofBody& first, const PairPose& pose) noexcept {
+bool ReadyBall::walk(const ProofBody& first, const PairPose& pose, double slack_mm) noexcept {
   if (!is_covered(pose, most_translation_)) return false;
   const PolarGraph& graph = *first.facets;
   const Vec3 in_first = pose.rotation * in_second_ + pose.translation;
@@ -85,7 +87,7 @@ bool ReadyBall::walk(const ProofBody& first, const PairPose& pose) noexcept {
   const double radius =
       (1 - graph.gauge_bound(face_, d)) * graph.inner_radius_mm() * (1 - 4 * kRoundoff) -
       rounding_mm_;
-  if (!(radius >= 0)) return false;
+  if (!(radius >= slack_mm)) return false;
   in_first_ = in_first;
   first_radius_mm_ = radius;
   both_radii_mm_ = radius + second_radius_mm_;
@@ -94,12 +96,13 @@ bool ReadyBall::walk(const ProofBody& first, const PairPose& pose) noexcept {
 
 Verdict ReadyProof::from_last(const ProofBody& first,
                               const ProofBody& second,
-                              const PairPose& pose) noexcept {
+                              const PairPose& pose,
+                              double slack_mm) noexcept {
   if (last_ == Verdict::Unknown) return last_;
   const bool was_apart = last_ == Verdict::Apart;
-  if (was_apart && separation_.walk(first, second, pose)) return Verdict::Apart;
-  if (ball_.walk(first, pose)) return last_ = Verdict::Meet;
-  if (!was_apart && separation_.walk(first, second, pose)) return last_ = Verdict::Apart;
+  if (was_apart && separation_.walk(first, second, pose, slack_mm)) return Verdict::Apart;
+  if (ball_.walk(first, pose, slack_mm)) return last_ = Verdict::Meet;
+  if (!was_apart && separation_.walk(first, second, pose, slack_mm)) return last_ = Verdict::Apart;
   return Verdict::Unknown;
 }
 

@@ -24,6 +24,7 @@ struct ProofBody {
   const PolarGraph* facets = nullptr;
   const SupportGraph* corners = nullptr;
 
+  ProofBody() = default;
   /// For set-up: see ConvexBody::derived().
   explicit ProofBody(const ConvexBody& body)
       : facets(&body.derived<PolarGraph>()), corners(&body.derived<SupportGraph>()) {}
@@ -45,18 +46,28 @@ class ReadySeparation {
            const ProofBody& second,
            const Vec3& translation) noexcept;
 
-  [[nodiscard]] bool holds(const PairPose& pose) const noexcept {
+  /// @param slack_mm  how far any point of the second body may be from where the pose puts it.
+  [[nodiscard]] bool holds(const PairPose& pose, double slack_mm) const noexcept {
     const Vec3 q = turned(pose);
-    const double gap = gap_before_turn(pose, q);
+    const double gap = gap_before_turn(pose, q) - slack_mm * size_;
     return gap > 0 && gap * gap > squared_length(q + m_) * squared_radius_ &&
            is_covered(pose, most_translation_);
+  }
+
+  /// A lower bound of the bodies' distance.
+  [[nodiscard]] double margin_mm(const PairPose& pose, double slack_mm) const noexcept {
+    const Vec3 q = turned(pose);
+    return (gap_before_turn(pose, q) - std::sqrt(squared_length(q + m_) * squared_radius_)) *
+               (1 - 8 * kRoundoff) / size_ -
+           slack_mm;
   }
 
   /// Measures how far the second body reaches against n, walking over its vertices, and the first
   /// along n, once for each n. True where that proves the bodies apart; it is the proof then.
   [[nodiscard]] bool walk(const ProofBody& first,
                           const ProofBody& second,
-                          const PairPose& pose) noexcept;
+                          const PairPose& pose,
+                          double slack_mm) noexcept;
 
  private:
   [[nodiscard]] Vec3 turned(const PairPose& pose) const noexcept {
@@ -73,6 +84,7 @@ class ReadySeparation {
   double threshold_ = HUGE_VAL;
   double squared_radius_ = 0;
   double most_translation_ = 0;
+  double size_ = 1;  // at least |n|
   // For walks:
   void set_threshold() noexcept { threshold_ = base_ + (first_reach_ + second_reach_); }
 
@@ -92,19 +104,26 @@ class ReadyBall {
            const ProofBody& second,
            const Vec3& translation) noexcept;
 
-  [[nodiscard]] bool holds(const PairPose& pose) const noexcept {
+  /// @param slack_mm  how far any point of the second body may be from where the pose puts it.
+  [[nodiscard]] bool holds(const PairPose& pose, double slack_mm) const noexcept {
     const Vec3 d = pose.rotation * in_second_ + (pose.translation - in_first_);
     const double squared = squared_length(d) * (1 + 32 * kRoundoff);
-    const bool is_within =
-        (first_radius_mm_ >= 0 && squared <= first_radius_mm_ * first_radius_mm_) ||
-        (both_radii_mm_ >= 0 && squared <= both_radii_mm_ * both_radii_mm_ &&
-         is_rigid(pose.rotation));
+    const double first = first_radius_mm_ - slack_mm;
+    const double both = both_radii_mm_ - slack_mm;
+    const bool is_within = (first >= 0 && squared <= first * first) ||
+                           (both >= 0 && squared <= both * both && is_rigid(pose.rotation));
     return is_within && is_covered(pose, most_translation_);
+  }
+  /// How far any point of the second body may still move.
+  [[nodiscard]] double margin_mm(const PairPose& pose, double slack_mm) const noexcept {
+    const Vec3 d = pose.rotation * in_second_ + (pose.translation - in_first_);
+    return (is_rigid(pose.rotation) ? both_radii_mm_ : first_radius_mm_) -
+           length(d) * (1 + 32 * kRoundoff) - slack_mm;
   }
 
   /// Is the point of the second body still in the first one? By a walk over its facets, from where
   /// the last one ended. True where it is; the ball about it is the proof then.
-  [[nodiscard]] bool walk(const ProofBody& first, const PairPose& pose) noexcept;
+  [[nodiscard]] bool walk(const ProofBody& first, const PairPose& pose, double slack_mm) noexcept;
 
  private:
   Vec3 in_second_;
@@ -125,9 +144,10 @@ class ReadyProof {
   [[nodiscard]] Verdict last() const noexcept { return last_; }
 
   /// Is the last verdict proven by the last proof as it is? Else Unknown.
-  [[nodiscard]] Verdict again(const PairPose& pose) const noexcept {
-    if (last_ == Verdict::Apart ? separation_.holds(pose)
-                                : last_ == Verdict::Meet && ball_.holds(pose)) {
+  /// @param slack_mm  how far any point of the second body may be from where the pose puts it.
+  [[nodiscard]] Verdict again(const PairPose& pose, double slack_mm = 0) const noexcept {
+    if (last_ == Verdict::Apart ? separation_.holds(pose, slack_mm)
+                                : last_ == Verdict::Meet && ball_.holds(pose, slack_mm)) {
       return last_;
     }
     return Verdict::Unknown;
@@ -136,7 +156,14 @@ class ReadyProof {
   /// about to touch go back and forth. Unknown where all fail; last() stays then.
   [[nodiscard]] Verdict from_last(const ProofBody& first,
                                   const ProofBody& second,
-                                  const PairPose& pose) noexcept;
+                                  const PairPose& pose,
+                                  double slack_mm = 0) noexcept;
+  /// After a verdict: no point of the second body can change it by moving less, as seen from the
+  /// first.
+  [[nodiscard]] double margin_mm(const PairPose& pose, double slack_mm) const noexcept {
+    return last_ == Verdict::Apart ? separation_.margin_mm(pose, slack_mm)
+                                   : ball_.margin_mm(pose, slack_mm);
+  }
 
   void set(const SeparationProof& proof,
            const ProofBody& first,
