@@ -108,7 +108,7 @@ class QCollideQuery final : public PairQuery {
     const double dcb = -dot(d[3], bc);
     const double abd = -dot(d[1], ad);
     const double acd = -dot(d[2], ad);
-    const auto same = [rounding](double a, double b, double c, double e) {
+    const auto same = [&](double a, double b, double c, double e) {
       return a > rounding && b > rounding && c > rounding && e > rounding;
     };
     return same(abc, dcb, -abd, acd) || same(-abc, -dcb, abd, -acd);
