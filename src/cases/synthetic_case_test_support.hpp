@@ -72,16 +72,23 @@ struct Ellipsoid {
   return mesh;
 }
 
-/// The polytope that a convex surface already is. Its neighbours are left empty.
+/// The polytope that a convex surface already is.
 [[nodiscard]] inline ConvexPolytope polytope_of_convex(const TriangleMesh& mesh) {
   ConvexPolytope polytope;
   polytope.vertices = mesh.vertices;
   polytope.facets = mesh.facets;
   for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) polytope.input_indices.push_back(i);
-  for (const auto& [a, b, c] : mesh.facets) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> facet_left_of;
+  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto& [a, b, c] = mesh.facets[f];
+    facet_left_of[{a, b}] = facet_left_of[{b, c}] = facet_left_of[{c, a}] = f;
     const Vec3& p = mesh.vertices[a];
     const Vec3 normal = normalized_or(cross(mesh.vertices[b] - p, mesh.vertices[c] - p), {0, 0, 1});
     polytope.planes.push_back({normal, dot(normal, p)});
+  }
+  for (const auto& [a, b, c] : mesh.facets) {
+    polytope.neighbours.push_back(
+        {facet_left_of.at({b, a}), facet_left_of.at({c, b}), facet_left_of.at({a, c})});
   }
   return polytope;
 }

@@ -27,20 +27,17 @@ inline constexpr double kOrient2dFilter = 4 * kRoundoff;
 /// underflowed product contributes at most 6 * 2^-1074 * 2e100 < 1e-220.
 inline constexpr double kUnderflowBound = 1e-200;
 
-/// A row of the collision program counts as satisfied up to this much [mm]. A vertex of three
-/// planes of a hull some 100 mm wide carries about 1e-13 mm of rounding, a hundred times that where
-/// planes meet at 1 degree; nothing the trainer shows or feels is below 1e-6 mm.
+/// Methods that decide contact by rounded coordinates call bodies nearer than this touching [mm].
+/// A vertex of three planes of a hull some 100 mm wide carries about 1e-13 mm of rounding, a
+/// hundred times that where planes meet at 1 degree; nothing the trainer shows or feels is below
+/// 1e-6 mm.
 inline constexpr double kContactToleranceMm = 1e-9;
 
 /// A ratio of 3 x 3 determinants of unit normals below this is rounding: its own error is a few
 /// kRoundoff over a determinant of about 1e-4 (facets meeting at 1 degree). Ignoring so small a
-/// weight moves the collision program's verdict by at most 1e-11 times the bodies' size (200 mm),
-/// within twice kContactToleranceMm.
+/// weight moves the contact interval program's verdict by at most 1e-11 times the bodies' size (200
+/// mm), within twice kContactToleranceMm.
 inline constexpr double kLeastLpWeight = 1e-11;
-
-/// Three unit normals with a smaller determinant do not define a point usably: errors of 1e-14 mm
-/// in the offsets would move it by more than kContactToleranceMm.
-inline constexpr double kLeastBasisDeterminant = 1e-7;
 
 /// Boxes of moved bodies grow by this times the sizes that enter: (9 + 7) u for the rounded pose of
 /// one body as another sees it (collision::relative_pose), 8 u for the box's own sums of six

@@ -3,6 +3,7 @@
 #include "simulation/detail/bone_contact.hpp"
 
 #include <string>
+#include <vector>
 
 #include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
@@ -19,14 +20,14 @@ constexpr int kMaxShaftSamples = 96;     // 80 mm in steps of at least 1 mm, and
 
 /// The wire as a square prism around it, thickened by the margin; no sin or cos, so that the filter
 /// too is the same on every machine.
-ConvexPolytope thick_wire() {
+collision::ConvexBody thick_wire() {
   const double half = instruments::kWireRadiusMm + kHullMarginMm;
   std::vector<Vec3> corners;
   for (const double z : {-kHullMarginMm, instruments::kWireLengthMm}) {
     corners.insert(corners.end(),
                    {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
   }
-  return hull::build_convex_hull(corners).polytope;
+  return collision::ConvexBody(hull::build_convex_hull(corners).polytope);
 }
 
 Pose<frame::Patient, frame::Tool> tool_pose(const WirePose& wire) noexcept {
@@ -36,7 +37,18 @@ Pose<frame::Patient, frame::Tool> tool_pose(const WirePose& wire) noexcept {
 
 }  // namespace
 
-BoneContact::BoneContact(const cases::CaseData& posed_case) {
+BoneContact::PosedBone::PosedBone(const cases::Bone& posed, const collision::ConvexBody& thick_wire)
+    : bone(&posed),
+      bone_from_patient(posed.patient_from_bone.inverse()),
+      hull(posed.hull),
+      hull_and_wire(hull, thick_wire) {
+  for (const Vec3& v : posed.surface.vertices) {
+    box.include((posed.patient_from_bone * Point<frame::Bone>{v}).v);
+  }
+  box = box.grown(kFilterMarginMm);
+}
+
+BoneContact::BoneContact(const cases::CaseData& posed_case) : thick_wire_(thick_wire()) {
   if (posed_case.bones.size() > kMaxBones) {
     throw InvalidInput("simulation: the case has " + std::to_string(posed_case.bones.size()) +
                        " bones, at most " + std::to_string(kMaxBones) + " are expected");
@@ -46,18 +58,8 @@ BoneContact::BoneContact(const cases::CaseData& posed_case) {
       throw InvalidInput("simulation: the " + std::string(name_of(bone.bone, bone.part)) +
                          " has no distance field; reconstruct the case again");
     }
-    PosedBone posed;
-    posed.bone = &bone;
-    posed.bone_from_patient = bone.patient_from_bone.inverse();
-    for (const Vec3& v : bone.surface.vertices) {
-      posed.box.include((bone.patient_from_bone * Point<frame::Bone>{v}).v);
-    }
-    posed.box = posed.box.grown(kFilterMarginMm);
-    bones_.push_back(posed);
+    bones_.emplace_back(bone, thick_wire_);
   }
-  std::vector<ConvexPolytope> hulls;
-  for (const cases::Bone& bone : posed_case.bones) hulls.push_back(bone.hull);
-  hulls_.emplace(hulls, thick_wire());
 }
 
 NearBones BoneContact::boxes_near(const WirePose& from, const WirePose& to) const noexcept {
@@ -79,9 +81,11 @@ NearBones BoneContact::hulls_met(const NearBones& near, const WirePose& wire) no
   const auto patient_from_tool = tool_pose(wire);
   NearBones met;
   for (std::uint8_t i = 0; i < near.count; ++i) {
-    const PosedBone& bone = bones_[near.index[i]];
-    const auto contact = hulls_->query(near.index[i], bone.bone_from_patient * patient_from_tool);
-    if (contact.status != collision::LpStatus::Infeasible) met.index[met.count++] = near.index[i];
+    PosedBone& bone = bones_[near.index[i]];
+    const auto bone_from_tool = bone.bone_from_patient * patient_from_tool;
+    const auto verdict =
+        bone.hull_and_wire.meets({bone_from_tool.rotation, bone_from_tool.translation});
+    if (verdict != collision::Verdict::Apart) met.index[met.count++] = near.index[i];
   }
   return met;
 }

@@ -7,11 +7,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <vector>
+#include <deque>
 
 #include "cases/case_data.hpp"
-#include "collision/lp/hull_collider.hpp"
+#include "collision/convex_body.hpp"
+#include "collision/lp/growth.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/vec3.hpp"
 
@@ -58,8 +58,9 @@ class BoneContact {
   /// Bones whose boxes the wire may meet on its way from `from` to `to`.
   [[nodiscard]] NearBones boxes_near(const WirePose& from, const WirePose& to) const noexcept;
 
-  /// Of these, the bones whose hull meets the wire thickened by kHullMarginMm: the linear program
-  /// on both hulls' facets. What does not know an answer stays in.
+  /// Of these, the bones whose hull meets the wire thickened by kHullMarginMm, exactly: the growth
+  /// program on both hulls' facets, warm from the last tick. A bone of which it does not know stays
+  /// in.
   [[nodiscard]] NearBones hulls_met(const NearBones& near, const WirePose& wire) noexcept;
 
   /// The surface nearest to a point among `near`.
@@ -73,9 +74,13 @@ class BoneContact {
 
  private:
   struct PosedBone {
-    const cases::Bone* bone = nullptr;
+    PosedBone(const cases::Bone& posed, const collision::ConvexBody& thick_wire);
+
+    const cases::Bone* bone;
     Pose<frame::Bone, frame::Patient> bone_from_patient;
     Aabb box;  ///< of the surface, in Patient
+    collision::ConvexBody hull;
+    collision::GrowthQuery hull_and_wire;  ///< keeps its last proof, which changes no answer
   };
 
   /// Deepest penetration of the wire into one bone.
@@ -86,8 +91,8 @@ class BoneContact {
   [[nodiscard]] Penetration deepest_in(const PosedBone& bone, const WirePose& wire) const noexcept;
   [[nodiscard]] SurfacePoint surface_of(const PosedBone& bone, const Vec3& point) const noexcept;
 
-  std::vector<PosedBone> bones_;
-  std::optional<collision::HullCollider> hulls_;
+  collision::ConvexBody thick_wire_;
+  std::deque<PosedBone> bones_;  ///< never moved: the queries hold references
 };
 
 }  // namespace carpus::simulation::detail
