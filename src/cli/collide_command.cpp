@@ -187,6 +187,20 @@ json figures_of(const CollideBody& first, const CollideBody& second, const Colli
   return figures;
 }
 
+/// For reading: six decimals. The JSON file has all digits.
+std::string readable(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_array()) {
+    std::string text;
+    for (const json& item : value) text += (text.empty() ? "" : ", ") + readable(item);
+    return text;
+  }
+  if (!value.is_number_float()) return value.dump();
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.6f", value.get<double>());
+  return text.data();
+}
+
 void print(const json& figures, const std::string& prefix) {
   for (const auto& [key, value] : figures.items()) {
     if (value.is_null()) continue;
@@ -194,7 +208,7 @@ void print(const json& figures, const std::string& prefix) {
       print(value, prefix + key + ".");
       continue;
     }
-    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    const std::string text = readable(value);
     if (!text.empty()) std::printf("%-32s %s\n", (prefix + key).c_str(), text.c_str());
   }
 }
