@@ -187,7 +187,7 @@ json figures_of(const CollideBody& first, const CollideBody& second, const Colli
   return figures;
 }
 
-/// For reading: six decimals. The JSON file has all digits.
+/// For reading: nine significant digits, whatever the size. The JSON file has all.
 std::string readable(const json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_array()) {
@@ -197,7 +197,7 @@ std::string readable(const json& value) {
   }
   if (!value.is_number_float()) return value.dump();
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.6f", value.get<double>());
+  std::snprintf(text.data(), text.size(), "%.9g", value.get<double>());
   return text.data();
 }
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "geometry/tolerance.hpp"
@@ -229,7 +229,7 @@ TEST(Scene, AllocatesNothingInAnUpdate) {
   Scene sweep(bodies, kSpheres, BroadPhase::SweepAndPrune);
   Rng rng(2);
   std::vector<BodyPose> poses(bodies.size());
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int tick = 0; tick < 40; ++tick) {
     move(poses, rng, tick);
     for (Scene* scene : {&none, &boxes, &sweep}) {
@@ -238,7 +238,7 @@ TEST(Scene, AllocatesNothingInAnUpdate) {
     }
     sweep.forget();
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 TEST(Scene, ForgetsInEveryQuery) {

@@ -1,63 +1,23 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// No tick allocates: the global operator new counts while the guard is on. The array forms call
-// these.
+// No tick allocates.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "core/counting_new_test_support.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/world.hpp"
-
-namespace {
-std::atomic<bool> guard_is_on{false};
-std::atomic<std::size_t> guarded_allocations{0};
-
-void* counted(void* memory) {
-  if (guard_is_on) ++guarded_allocations;
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  return counted(std::malloc(size == 0 ? 1 : size));
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-  const auto step = static_cast<std::size_t>(alignment);
-  return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
-}
-// Standard algorithms ask for their buffers this way.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  if (guard_is_on) ++guarded_allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
 
 namespace carpus::simulation {
 namespace {
 
 TEST(AllocationGuard, CountsWhatItShould) {
-  guarded_allocations = 0;
-  guard_is_on = true;
+  carpus::test::start_counting_allocations();
   auto* volatile number = new int(3);
-  guard_is_on = false;
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 1);
   delete number;
-  EXPECT_EQ(guarded_allocations, 1U);
 }
 
 TEST(AllocationGuard, AWholeOperationAllocatesNothing) {
@@ -76,11 +36,9 @@ TEST(AllocationGuard, AWholeOperationAllocatesNothing) {
   op.command({CommandKind::Finish, 0, 0, 0});
 
   World world(test::posed_wrist(), procedure::ProcedureId::DorsalScaphoidFixation, 1);
-  guarded_allocations = 0;
-  guard_is_on = true;
+  carpus::test::start_counting_allocations();
   for (const Input& input : inputs) world.step(input);
-  guard_is_on = false;
-  EXPECT_EQ(guarded_allocations, 0U);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
   EXPECT_EQ(world.now().state_hash, op.now().state_hash);
   EXPECT_GT(inputs.size(), 10000U);
 }

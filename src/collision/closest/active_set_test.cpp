@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/closest/detail/checks.hpp"
 #include "collision/closest/wide_nearest.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -152,13 +152,13 @@ TEST(ClosestActiveSet, DoesNotAllocateInAQuery) {
   const ConvexBody body = test::body_of(test::lattice_ball_points(5));
   ClosestActiveSet query(body, body);
   Rng rng(26);
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
     const PairPose pose = test::random_pose(rng, 12);
     (void)query.meets(pose);
     (void)query.closest(pose);
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 TEST(ClosestActiveSet, SaysUnknownForAPoseThatIsNotANumber) {

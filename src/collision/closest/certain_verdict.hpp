@@ -12,7 +12,7 @@ namespace carpus::collision {
 
 /// GJK's verdict, warm, if it is proven beyond rounding: a plane with the bodies on its two sides
 /// by more than the rounding of a height; or a tetrahedron of the difference whose faces all pass
-/// the origin by more than that. Else exactly_meet() decides (1 to 10 us, bodies that all but
+/// the origin by more than that. Else exactly_meet() decides (slow: bodies that all but
 /// touch). Unknown only where the pose is not a number or the scale out of range.
 [[nodiscard]] Verdict certain_verdict(GjkWalk& walk,
                                       const PosedPair& pair,

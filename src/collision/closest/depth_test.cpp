@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/closest/detail/checks.hpp"
 #include "collision/closest/epa.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -162,13 +162,13 @@ TEST(DepthExact, DoesNotAllocateInAQuery) {
   DepthExact query(body, body);
   Epa epa(body, body);
   Rng rng(46);
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
     const PairPose pose = test::random_pose(rng, 6);
     (void)query.penetration(pose);
     (void)epa.penetration(pose);
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 TEST(DepthExact, GivesNoAnswerForAPoseThatIsNotANumber) {

@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/closest/detail/checks.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -67,13 +67,13 @@ TEST(Gjk, DoesNotAllocateInAQuery) {
   const ConvexBody body = test::body_of(test::lattice_ball_points(5));
   Gjk query(body, body, ClimbStart::Table);
   Rng rng(13);
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
     const PairPose pose = test::random_pose(rng, 12);
     (void)query.meets(pose);
     (void)query.closest(pose);
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 TEST(Gjk, SaysUnknownForAPoseThatIsNotANumberAndRecovers) {

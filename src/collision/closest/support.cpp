@@ -77,55 +77,43 @@ SupportGraph::SupportGraph(const ConvexBody& body) : centre_(body.interior_point
   }
 }
 
+inline SupportGraph::Rise SupportGraph::steepest_from(std::uint32_t from,
+                                                      const Vec3& direction) const noexcept {
+  const Corner& here = corners_[from];
+  Rise best{from, -std::numeric_limits<double>::infinity()};
+  for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
+    const double height = dot(corners_[neighbours_[k]].at - here.at, direction);
+    if (height > best.height) best = {neighbours_[k], height};
+  }
+  return best;
+}
+
 std::uint32_t SupportGraph::climb(const Vec3& direction, std::uint32_t from) const noexcept {
   // Heights are compared as differences along edges, whose rounding is relative to the edge: a
   // slope is wrong by a few roundings however short the edge, so the answer's height is too. Among
   // slopes that are rounding the walk could go round in circles, hence the limit.
-  const Corner* corners = corners_.data();
-  const std::uint32_t* ends = neighbours_.data();
   for (std::size_t step = 0; step < corners_.size(); ++step) {
-    const Corner& here = corners[from];
-    double highest = 0;
-    std::uint32_t next = from;
-    for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
-      const double rise = dot(corners[ends[k]].at - here.at, direction);
-      if (rise > highest) {
-        highest = rise;
-        next = ends[k];
-      }
-    }
-    if (next == from) break;
-    from = next;
+    const Rise rise = steepest_from(from, direction);
+    if (!(rise.height > 0)) break;
+    from = rise.corner;
   }
   return from;
 }
 
 CertainTop SupportGraph::certain_climb(const Vec3& direction, std::uint32_t from) const noexcept {
-  const Corner* corners = corners_.data();
-  const std::uint32_t* ends = neighbours_.data();
   const double size =
       (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z)) * radius_mm_;
-  double highest = 0;
-  for (std::size_t step = 0; step <= corners_.size(); ++step) {
-    const Corner& here = corners[from];
-    highest = -std::numeric_limits<double>::infinity();
-    std::uint32_t next = from;
-    for (std::uint32_t k = here.first; k < here.first + here.count; ++k) {
-      const double rise = dot(corners[ends[k]].at - here.at, direction);
-      if (rise > highest) {
-        highest = rise;
-        next = ends[k];
-      }
-    }
-    if (!(highest > 0)) break;
-    from = next;
+  Rise rise = steepest_from(from, direction);
+  for (std::size_t step = 0; step < corners_.size() && rise.height > 0; ++step) {
+    from = rise.corner;
+    rise = steepest_from(from, direction);
   }
   // A rise: corners rounded by u of their distance from the centre, their difference, three
   // products and two sums; under 12 u of `size`. A height: under 6 u. A small number for underflow.
   CertainTop top;
   top.corner = from;
-  top.is_certain = highest < -(16 * kRoundoff * size + kUnderflowBound);
-  top.reach = dot(direction, corners[from].at) + 8 * kRoundoff * size + kUnderflowBound;
+  top.is_certain = rise.height < -(16 * kRoundoff * size + kUnderflowBound);
+  top.reach = dot(direction, corners_[from].at) + 8 * kRoundoff * size + kUnderflowBound;
   return top;
 }
 

@@ -66,6 +66,13 @@ class SupportGraph {
     std::uint32_t count = 0;
   };
 
+  /// The neighbour that lies highest, and by how much.
+  struct Rise {
+    std::uint32_t corner = 0;
+    double height = 0;
+  };
+  [[nodiscard]] Rise steepest_from(std::uint32_t from, const Vec3& direction) const noexcept;
+
   std::vector<Corner> corners_;
   std::vector<std::uint32_t> neighbours_;
   std::vector<std::uint16_t> table_;  // 0 where the corner's number does not fit: a worse start

@@ -11,9 +11,9 @@
 #include <optional>
 #include <string>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/features/feature_test_support.hpp"
 #include "collision/pair_query.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -170,14 +170,14 @@ TEST_P(FeatureMethods, AllocateNothingInQueries) {
   const ConvexBody second = test::round_body(rng, 150);
   const auto query = method().make(first, second);
   test::Trajectory trajectory(12);
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int step = 0; step < 300; ++step) {
     const PairPose pose = trajectory.next(14);
     (void)query->meets(pose);
     (void)query->closest(pose);
     if (step % 50 == 0) query->forget();
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All,

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/features/feature_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -89,13 +89,13 @@ TEST(ICollide, AllocatesNothingInATick) {
   ICollide collide(bodies);
   std::vector<BodyPose> poses;
   for (std::size_t i = 0; i < bodies.size(); ++i) poses.push_back(random_place(rng));
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int tick = 0; tick < 100; ++tick) {
     step(poses, rng);
     collide.update(poses);
     if (tick == 50) collide.forget();
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "hull/fast_hull.hpp"
@@ -143,9 +143,9 @@ TEST(IvriCd, DoesNotAllocateInAQuery) {
   Rng rng(3);
   const ConvexBody a(hull::build_fast_hull(surface(rng, 300)).polytope);
   const auto query = find_method("ivri")->make(a, a);
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 100; ++i) (void)query->meets(moved({0.1 * i + 5, 1, 2}));
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ struct GrowthAnswer {
 
 /// Exact: a proof in doubles where their rounding leaves no doubt, exact arithmetic elsewhere.
 /// Unknown only for a pose that is not finite or larger than kLargestCoordinate.
-/// Cost: some 10 ns where the last proof still holds; about 50 ns a pivot, 0 to 3 of them after a
-/// small step; about 1 us where bodies touch to the last bits.
+/// Cost: see README.md.
 class alignas(64) GrowthQuery final : public PairQuery {
  public:
   GrowthQuery(const ConvexBody& first, const ConvexBody& second);

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/lp/exact_meeting.hpp"
 #include "collision/lp/test_bodies.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::collision {
@@ -122,7 +122,7 @@ TEST(GrowthScene, DoesNotAllocateInAnUpdate) {
   const std::vector<ConvexBody> bodies = some_bodies(rng);
   GrowthScene scene(pointers_to(bodies));
   std::vector<BodyPose> poses(bodies.size());
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int tick = 0; tick < 100; ++tick) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       poses[i].translation = {3.0 * static_cast<double>(i), 0.1 * tick, 0};
@@ -130,7 +130,7 @@ TEST(GrowthScene, DoesNotAllocateInAnUpdate) {
     (void)scene.update(poses);
     if (tick % 20 == 0) scene.forget();
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/lp/test_bodies.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::collision {
@@ -168,13 +168,13 @@ TEST(Growth, DoesNotAllocateInAQuery) {
   const ConvexBody cube = lp_test::box({1, 1, 1});
   GrowthQuery pebbles(first, first);
   GrowthQuery cubes(cube, cube);
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
     (void)pebbles.meets({rotation_about({0, 1, 0}, 0.03 * i), {0.15 * i, 0, 3}});
     (void)cubes.meets({Mat3::identity(), {2, 0.01 * i, 0}});
     (void)pebbles.growth({rotation_about({0, 1, 0}, 0.03 * i), {0.15 * i, 0, 3}});
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
   EXPECT_GT(cubes.counts().exact, 100U);
 }
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/lp/growth.hpp"
 #include "collision/lp/seidel.hpp"
 #include "collision/lp/test_bodies.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::collision {
@@ -124,11 +124,11 @@ TEST(ThreeRows, DoNotAllocateInAQuery) {
   const ConvexBody body = lp_test::pebble(rng, 100);
   for (const char* name : {"lp_scan", "lp_partial", "lp_walk", "seidel"}) {
     const auto query = find_method(name)->make(body, body);
-    test::start_counting_allocations();
+    carpus::test::start_counting_allocations();
     for (int i = 0; i < 50; ++i) {
       (void)query->meets({rotation_about({0, 1, 0}, 0.03 * i), {0.5 * i, 0, 3}});
     }
-    EXPECT_EQ(test::stop_counting_allocations(), 0) << name;
+    EXPECT_EQ(carpus::test::stop_counting_allocations(), 0) << name;
   }
 }
 

@@ -16,7 +16,7 @@ namespace carpus::collision {
 /// apart, and, below the features themselves, that they meet.
 ///
 /// Unknown wherever that is not certain; never wrong: every sign is that of a value larger than
-/// the bound of its rounding. Real-time, no allocation; about 0.5 us.
+/// the bound of its rounding. Real-time, no allocation.
 [[nodiscard]] Verdict touching_features_meet(const PlacedBody& first,
                                              const PlacedBody& second,
                                              const ExactHint& hint) noexcept;

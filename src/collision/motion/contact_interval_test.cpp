@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 #include "hull/fast_hull.hpp"
 
@@ -180,7 +180,7 @@ TEST(ContactInterval, AnswersWarmAsColdWithFewerPivotsAndWithoutAllocation) {
   Vec3 velocity{-30, 2, 1};
   double worst_mm = 0;
   int differences = 0;
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 500; ++i) {
     pose.rotation = rotation_about({0.6, 0, 0.8}, 0.002) * pose.rotation;
     pose.translation += velocity * 0.001 + Vec3{rng.normal(), rng.normal(), rng.normal()} * 0.02;
@@ -192,7 +192,7 @@ TEST(ContactInterval, AnswersWarmAsColdWithFewerPivotsAndWithoutAllocation) {
     if (a.outcome == MotionOutcome::NeverMeet) continue;
     worst_mm = std::max(worst_mm, a.speed_mm_per_s * std::abs(a.t_min_s - b.t_min_s));
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
   EXPECT_EQ(differences, 0);
   EXPECT_LT(worst_mm, 1e-8);
   EXPECT_GT(warm.statistics().warm_programs, 800U);

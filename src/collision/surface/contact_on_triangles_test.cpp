@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/surface/distance_field.hpp"
 #include "collision/surface/exact_surface.hpp"
 #include "collision/surface/surface_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -31,9 +31,9 @@ TEST(ContactOnTriangles, PutsTheContactOnTheTrianglesAndKeepsTheBounds) {
     const ToolPose pose{test::turned_to(shaft), centre - shaft * rng.uniform(1.5, 22.5)};
     SurfaceContact contact = find_contact(field, bar, pose, 1.0);
     const SurfaceContact before = contact;
-    test::start_counting_allocations();
+    carpus::test::start_counting_allocations();
     const bool is_put = put_on_triangles(exact.tree(), field, bar, pose, contact);
-    ASSERT_EQ(test::stop_counting_allocations(), 0);
+    ASSERT_EQ(carpus::test::stop_counting_allocations(), 0);
     if (!is_put) continue;
     ++put;
     const Vec3 ball = (pose * Point<frame::Tool>{{0, 0, contact.z_mm}}).v;

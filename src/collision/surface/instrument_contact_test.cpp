@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/surface/distance_field.hpp"
 #include "collision/surface/exact_surface.hpp"
 #include "collision/surface/surface_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -309,13 +309,13 @@ TEST(InstrumentContact, AllocatesNothing) {
   Rng rng(7);
   const Body& body = cup();
   const auto shapes = instruments();
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 100; ++i) {
     for (const InstrumentShape& shape : shapes) {
       (void)find_contact(body.field, shape, pose_near(body, shape, rng), 2.0);
     }
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 }  // namespace

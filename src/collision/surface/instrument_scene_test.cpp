@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
 #include "collision/surface/distance_field.hpp"
 #include "collision/surface/surface_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/error.hpp"
 
 namespace carpus::collision {
@@ -184,12 +184,12 @@ TEST(InstrumentScene, NamesPosesThatAreNotFiniteAndRecovers) {
 TEST(InstrumentScene, AllocatesNothing) {
   Wandering wandering(4);
   InstrumentScene scene(bones(), instruments());
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int tick = 0; tick < 300; ++tick) {
     for (auto& pose : wandering.tool_poses) wandering.move(pose, 0.5, 0.05);
     scene.update(wandering.bone_poses, wandering.tool_poses);
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
   EXPECT_GT(scene.counts().by_field, 0U);
 }
 

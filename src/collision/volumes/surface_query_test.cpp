@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
@@ -180,14 +180,14 @@ TYPED_TEST(SurfaceQueryOf, AllocatesNothing) {
   SurfaceQuery<TypeParam> query(tree, tree);
   Rng rng(3);
   PairPose pose;
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 100; ++i) {
     if (i % 10 == 0) pose = jump(rng, 10);
     if (i % 20 == 0) query.forget();
     (void)query.query(pose);
     step(pose, rng);
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
 }
 
 TYPED_TEST(SurfaceQueryOf, RefusesSurfacesThatAreNone) {

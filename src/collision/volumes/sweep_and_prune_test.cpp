@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
@@ -178,14 +178,14 @@ TEST(SweepAndPrune, AllocatesNothingInAnUpdate) {
   std::vector<Aabb> boxes(30);
   SweepAndPrune sweep(30);
   std::size_t seen = 0;
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int step = 0; step < 50; ++step) {
     for (Aabb& box : boxes) box = random_box(rng, 8);
     if (step % 10 == 0) sweep.forget();
     sweep.update(boxes);
     sweep.for_each_overlapping([&](IndexPair) { ++seen; });
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
   EXPECT_GT(seen, 0U);
 }
 

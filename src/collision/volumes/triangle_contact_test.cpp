@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/allocation_test_support.hpp"
+#include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::collision {
@@ -143,7 +143,7 @@ TEST(TriangleContact, SeesTheLastBitOfAGap) {
 TEST(TriangleContact, AllocatesNothingEvenWhereOnlyExactSignsTell) {
   Rng rng(4);
   int met = 0;
-  test::start_counting_allocations();
+  carpus::test::start_counting_allocations();
   for (int i = 0; i < 500; ++i) {
     TrianglePoints a = random_triangle(rng, 4, rng.below(6));
     TrianglePoints b = random_triangle(rng, 4, rng.below(6));
@@ -151,7 +151,7 @@ TEST(TriangleContact, AllocatesNothingEvenWhereOnlyExactSignsTell) {
     for (Vec3& v : b) v = without_tiny_coordinates(v * 0.1 + Vec3{1e-300, 1e-70, 0});
     met += triangles_meet(a, b) ? 1 : 0;
   }
-  EXPECT_EQ(test::stop_counting_allocations(), 0);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
   EXPECT_GT(met, 50);
 }
 
