@@ -153,7 +153,7 @@ ScoreItem score_length(const Facts& facts, const ScoreReport& report) {
   item.reason = kNoScrew;
   const auto catalogue = screw_catalogue();
   if (!facts.screw) return item;
-  if (report.ideal_screw_index < 0) {
+  if (!report.true_length_mm || report.ideal_screw_index < 0) {
     item.grade = Grade::Fail;
     item.reason = "On this line the bone is too short for any screw on the tray.";
     return item;

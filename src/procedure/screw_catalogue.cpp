@@ -45,8 +45,8 @@ std::vector<Screw> read_catalogue() {
 }  // namespace
 
 std::span<const Screw> screw_catalogue() {
-  static const std::vector<Screw> catalogue = read_catalogue();
-  return catalogue;
+  static const std::vector<Screw> kCatalogue = read_catalogue();
+  return kCatalogue;
 }
 
 int ideal_screw_index(std::span<const Screw> catalogue, double measured_mm) noexcept {

@@ -16,14 +16,13 @@ namespace {
 
 constexpr std::string_view kMagic = "CARPREC1";
 
-enum ChangeBit : std::uint8_t {
-  kTipChanged = 1,
-  kShaftChanged = 2,
-  kThrustChanged = 4,
-  kDriverChanged = 8,
-  kCommandChanged = 16,
-  kAllChanges = 31,
-};
+// What of an input changed since the tick before: bits of one byte.
+constexpr std::uint8_t kTipChanged = 1;
+constexpr std::uint8_t kShaftChanged = 2;
+constexpr std::uint8_t kThrustChanged = 4;
+constexpr std::uint8_t kDriverChanged = 8;
+constexpr std::uint8_t kCommandChanged = 16;
+constexpr std::uint8_t kAllChanges = 31;
 
 class Writer {
  public:

@@ -23,11 +23,11 @@ constexpr std::array<std::array<std::uint8_t, 4>, 6> kFaces{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
 std::uint8_t edge_between(std::uint8_t a, std::uint8_t b) {
-  for (std::uint8_t e = 0; e < kCubeEdges.size(); ++e) {
+  for (std::size_t e = 0; e < kCubeEdges.size(); ++e) {
     const CubeEdge& edge = kCubeEdges[e];
     if ((edge.low_corner == a && edge.high_corner == b) ||
         (edge.low_corner == b && edge.high_corner == a)) {
-      return e;
+      return static_cast<std::uint8_t>(e);
     }
   }
   return 0xFF;
@@ -106,12 +106,12 @@ CubeCase case_of(unsigned inside) {
 }  // namespace
 
 const std::array<CubeCase, 256>& cube_table() {
-  static const std::array<CubeCase, 256> table = [] {
+  static const std::array<CubeCase, 256> kTable = [] {
     std::array<CubeCase, 256> cases;
     for (unsigned inside = 0; inside < 256; ++inside) cases[inside] = case_of(inside);
     return cases;
   }();
-  return table;
+  return kTable;
 }
 
 }  // namespace carpus::mesh
