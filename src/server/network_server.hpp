@@ -46,10 +46,12 @@ class PageHandler {
 struct NetworkOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0 lets the system choose
-  /// For a request to arrive as a whole, an answer to leave, a handshake.
+  /// For a request to arrive as a whole, a handshake.
   std::chrono::milliseconds request_timeout{10000};
+  /// For an answer to leave: a busy page reads a large scene slowly.
+  std::chrono::milliseconds answer_timeout{60000};
   /// A page that does not answer pings for so long is gone.
-  std::chrono::milliseconds page_timeout{10000};
+  std::chrono::milliseconds page_timeout{30000};
   std::chrono::milliseconds ping_interval{400};
   std::size_t max_connections = 64;
 };

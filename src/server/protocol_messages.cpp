@@ -52,11 +52,15 @@ std::string_view name_of(CaseDescriptionSide value) noexcept {
 
 namespace {
 
-void read(FieldReader& in, Hello& out) { out.protocol = in.integer("protocol", 1, 1000); }
+void read(FieldReader& in, Hello& out) {
+  out.protocol = in.integer("protocol", 1, 1000);
+  out.page = in.string("page", 64);
+}
 
 void write(FieldWriter& out, const Hello& message) {
   out.text("type", "hello");
   out.value("protocol", message.protocol);
+  out.text("page", message.page);
 }
 
 void read(FieldReader& in, Start& out) {

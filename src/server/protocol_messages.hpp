@@ -19,16 +19,18 @@
 
 namespace carpus::server::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 1;
+inline constexpr std::int64_t kProtocolVersion = 2;
 /// Largest text frame from the page [bytes].
 inline constexpr std::size_t kMaxTextBytes = 16384;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
-/// First message of a connection.
+/// First message of a connection. `page` is a word that the page chose at random and says each time
+/// it comes: it gives a page that lost its connection its seat back.
 struct Hello {
   /// 1 to 1000
   std::int64_t protocol = 0;
+  std::string page;
   bool operator==(const Hello&) const = default;
 };
 
@@ -104,7 +106,7 @@ struct Pause {
 using PageMessage =
     std::variant<Hello, Start, Tool, TakeShot, Measure, SelectScrew, Undo, Finish, Pause>;
 
-/// Answer to hello.
+/// Answer to hello. When an exercise runs, its pictures follow.
 struct Welcome {
   /// 1 to 1000
   std::int64_t protocol = 0;

@@ -51,12 +51,16 @@ void send_error(PageConnection& page, std::string reason, std::string what_to_do
 
 }  // namespace
 
-Station::Station(const cases::CaseData& posed_case, records::AttemptKeeper& records, Log log)
+Station::Station(const cases::CaseData& posed_case,
+                 records::AttemptKeeper& records,
+                 Log log,
+                 StationPatience patience)
     : posed_case_(posed_case),
       case_fingerprint_(simulation::fingerprint_of(posed_case)),
       broken_scaphoid_(has_broken_scaphoid(posed_case)),
       records_(records),
-      log_(std::move(log)) {}
+      log_(std::move(log)),
+      patience_(patience) {}
 
 Station::~Station() { store_running(); }
 
@@ -65,13 +69,19 @@ void Station::attach(NetworkServer& network) {
   pictures_ = std::make_unique<PictureWorker>(
       posed_case_, [this](std::uint64_t exercise, std::string frame) {
         network_->post([this, exercise, frame = std::move(frame)]() mutable {
-          // A picture of the exercise before is of no use to this one.
-          if (!operator_ || exercise != exercise_number_) return;
-          if (frame.empty()) return refuse("The picture could not be made", "Take it again.");
-          operator_->send_binary(std::move(frame));
+          deliver(exercise, std::move(frame));
         });
       });
   network.repeat(kStateInterval, [this] { update(); });
+}
+
+void Station::deliver(std::uint64_t exercise, std::string frame) {
+  // A picture of the exercise before is of no use to this one.
+  if (exercise != exercise_number_) return;
+  if (frame.empty()) return refuse("The picture could not be made", "Take it again.");
+  shown_.push_back(std::move(frame));
+  if (shown_.size() > kPicturesKept) shown_.pop_front();
+  if (operator_) operator_->send_binary(shown_.back());
 }
 
 void Station::on_open(const std::shared_ptr<PageConnection>& page) { visitors_[page.get()]; }
@@ -80,7 +90,14 @@ void Station::on_close(const std::shared_ptr<PageConnection>& page) {
   visitors_.erase(page.get());
   if (page != operator_) return;
   operator_.reset();
-  store_running();
+  left_at_ = steady_clock::now();
+  if (!exercise_) return;
+  // Whoever comes back finds the driver off and time where it stood.
+  const simulation::Snapshot& last = exercise_->state().snapshot;
+  exercise_->loop().hold({last.tip_in_patient, last.shaft_in_patient, 0.0});
+  last_heard_ = {};
+  watch_silence();
+  log_("the page has lost its connection; its exercise waits for it");
 }
 
 void Station::on_alive(const std::shared_ptr<PageConnection>& page) {
@@ -130,13 +147,37 @@ void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol:
                "Reload the page.");
     return page->close();
   }
-  if (operator_ && operator_ != page) {
-    return page->send_text(serialize(protocol::HostMessage(
-        protocol::Busy{"Another page operates on this station. Close it there, then try again."})));
+  if (std::string reason = why_busy(*page, hello.page); !reason.empty()) {
+    return page->send_text(serialize(protocol::HostMessage(protocol::Busy{std::move(reason)})));
   }
-  operator_ = page;
+  const auto before = std::exchange(operator_, page);
+  if (before && before != page) before->close();
+  operator_word_ = hello.page;
   last_heard_ = steady_clock::now();
   send(protocol::Welcome{protocol::kProtocolVersion, kProgramVersion, exercise_ != nullptr});
+  if (exercise_) show_again();
+}
+
+std::string Station::why_busy(const PageConnection& page, const std::string& word) const {
+  const auto now = steady_clock::now();
+  const bool is_known = !word.empty() && word == operator_word_;
+  if (operator_ && operator_.get() != &page) {
+    // A page that comes back before its old connection is known to be dead.
+    if (is_known && now - last_heard_ > kSilence) return {};
+    return "Another page operates on this station. Close it there, then try again.";
+  }
+  if (!operator_ && exercise_ && !is_known && now - left_at_ < patience_.seat) {
+    return "The page that operates here has just lost its connection; its seat is kept for a "
+           "moment.";
+  }
+  return {};
+}
+
+/// The exercise as a page must know it that comes back.
+void Station::show_again() {
+  for (const std::string& frame : shown_) operator_->send_binary(frame);
+  send(snapshot_message(exercise_->state(), paused_by_page_ || paused_by_silence_,
+                        broken_scaphoid_));
 }
 
 void Station::on_message(const protocol::Hello&) {}
@@ -153,6 +194,7 @@ void Station::on_message(const protocol::Start& start) {
   exercise_ = std::make_unique<Exercise>(posed_case_, case_fingerprint_, std::move(setup));
   ++exercise_number_;
   pictures_->clear();
+  shown_.clear();
   last_heard_ = steady_clock::now();
 }
 
@@ -204,6 +246,7 @@ void Station::apply_pause() {
 
 void Station::update() {
   if (!exercise_) return;
+  if (!operator_ && steady_clock::now() - left_at_ > patience_.exercise) return store_running();
   watch_silence();
   send_news();
   send_state();

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -25,6 +26,14 @@ namespace carpus::server {
 /// One line for the person who runs the station.
 using Log = std::function<void(const std::string& line)>;
 
+/// How long a station waits for a page that lost its connection.
+struct StationPatience {
+  /// For so long only that page may operate.
+  std::chrono::milliseconds seat{30'000};
+  /// So long its exercise stands still before it is stored as unfinished.
+  std::chrono::milliseconds exercise{600'000};
+};
+
 class Station : public PageHandler {
  public:
   /// How often the page is told the state.
@@ -33,7 +42,10 @@ class Station : public PageHandler {
   static constexpr std::chrono::milliseconds kSilence{1000};
 
   /// @param posed_case  in its operative posture; it and the records must outlive the station.
-  Station(const cases::CaseData& posed_case, records::AttemptKeeper& records, Log log);
+  Station(const cases::CaseData& posed_case,
+          records::AttemptKeeper& records,
+          Log log,
+          StationPatience patience = {});
   ~Station() override;
 
   /// Begins to serve: pictures and states go out through this network.
@@ -55,6 +67,8 @@ class Station : public PageHandler {
   /// A tool pose a tick is the most that can have an effect.
   static constexpr double kMessagesPerSecond = 1000;
   static constexpr double kMessageBurst = 2000;
+  /// As many as the page shows.
+  static constexpr std::size_t kPicturesKept = 6;
 
   void on_message(const protocol::Hello& hello);
   void on_message(const protocol::Start& start);
@@ -67,6 +81,10 @@ class Station : public PageHandler {
   void on_message(const protocol::Pause& pause);
 
   void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
+  /// Why this page may not operate now; empty when it may.
+  [[nodiscard]] std::string why_busy(const PageConnection& page, const std::string& word) const;
+  void show_again();
+  void deliver(std::uint64_t exercise, std::string frame);
   [[nodiscard]] bool may_speak(const std::shared_ptr<PageConnection>& page);
   void command(const simulation::Command& command);
   void update();
@@ -85,7 +103,10 @@ class Station : public PageHandler {
   bool broken_scaphoid_;
   records::AttemptKeeper& records_;
   Log log_;
+  StationPatience patience_;
   std::shared_ptr<PageConnection> operator_;
+  std::string operator_word_;  ///< what the operating page, or the one that was lost, said in hello
+  std::chrono::steady_clock::time_point left_at_;  ///< when it was lost
   std::unordered_map<PageConnection*, Visitor> visitors_;
   std::unique_ptr<Exercise> exercise_;
   std::uint64_t exercise_number_ = 0;
@@ -94,6 +115,7 @@ class Station : public PageHandler {
   std::chrono::steady_clock::time_point last_heard_;
   NetworkServer* network_ = nullptr;
   std::unique_ptr<PictureWorker> pictures_;
+  std::deque<std::string> shown_;  ///< the exercise's last pictures, for a page that comes back
 };
 
 }  // namespace carpus::server

@@ -29,7 +29,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":1})";
+constexpr const char* kHello = R"({"type":"hello","protocol":2,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":2,"page":"second"})";
 constexpr const char* kStart =
     R"({"type":"start","trainee":"Ada","procedure":"dorsal_scaphoid_fixation",)"
     R"("input_device":"mouse","seed":7})";
@@ -49,7 +50,8 @@ class StationTest : public ::testing::Test {
     folder_ = ::mkdtemp(name.data());
     std::ofstream(folder_ / "index.html") << "<title>Carpus</title>";
     records_ = std::make_unique<records::AttemptKeeper>(folder_ / "attempts.sqlite");
-    station_ = std::make_unique<Station>(wrist(), *records_, [](const std::string&) {});
+    station_ = std::make_unique<Station>(
+        wrist(), *records_, [](const std::string&) {}, patience());
     http_ = std::make_unique<StationHttp>(wrist(), "glTF", *records_, folder_);
     NetworkOptions options;
     options.port = 0;
@@ -69,6 +71,7 @@ class StationTest : public ::testing::Test {
     network_->stop();
     if (thread_.joinable()) thread_.join();
   }
+  [[nodiscard]] virtual StationPatience patience() const { return {400ms, 600s}; }
   [[nodiscard]] std::uint16_t port() const { return network_->port(); }
 
   [[nodiscard]] static std::unique_ptr<PageClient> operate(std::uint16_t port) {
@@ -188,7 +191,7 @@ TEST_F(StationTest, CommandsWithoutAnExerciseAndTalkWithoutHelloAreRefused) {
   PageClient page(port());
   page.send(kStart);
   EXPECT_THAT(page.wait_for_type("error"), HasSubstr("Say hello first"));
-  page.send(R"({"type":"hello","protocol":2})");
+  page.send(R"({"type":"hello","protocol":1,"page":""})");
   EXPECT_THAT(page.wait_for_type("error"), HasSubstr("Reload the page"));
   EXPECT_TRUE(page.wait_until_closed());
   PageClient other(port());
@@ -197,21 +200,85 @@ TEST_F(StationTest, CommandsWithoutAnExerciseAndTalkWithoutHelloAreRefused) {
   EXPECT_THAT(other.wait_for_type("error"), HasSubstr("No exercise runs"));
 }
 
-TEST_F(StationTest, SecondPageIsBusyUntilTheFirstLeavesAndHttpStillWorks) {
+TEST_F(StationTest, SecondPageIsBusyWhileTheFirstOperatesAndHttpStillWorks) {
   auto first = operate(port());
   PageClient second(port());
-  second.send(kHello);
+  second.send(kSecondHello);
   EXPECT_THAT(second.wait_for_type("busy"), HasSubstr("Another page operates"));
   second.send(R"({"type":"finish"})");
   EXPECT_THAT(second.wait_for_type("error"), HasSubstr("does not operate"));
   EXPECT_EQ(request(port(), "/").result_int(), 200U);
+  first->send(R"({"type":"finish"})");
+  (void)first->wait_for_type("score");
   first->vanish();
-  wait_for_attempts(1);
-  second.send(kHello);
+  std::this_thread::sleep_for(50ms);
+  second.send(kSecondHello);
   EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":false"));
 }
 
-TEST_F(StationTest, DisconnectInTheMiddleLeavesAnUnfinishedAttemptThatReplays) {
+TEST_F(StationTest, SeatOfALostPageIsKeptForIt) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->vanish();
+  std::this_thread::sleep_for(50ms);
+  PageClient second(port());
+  second.send(kSecondHello);
+  EXPECT_THAT(second.wait_for_type("busy"), HasSubstr("seat is kept"));
+  PageClient again(port());
+  again.send(kHello);
+  EXPECT_THAT(again.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  again.vanish();
+  std::this_thread::sleep_for(600ms);
+  second.send(kSecondHello);
+  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  EXPECT_EQ(records_->list().size(), 0U);
+  second.send(kStart);
+  wait_for_attempts(1);
+  EXPECT_EQ(records_->find(1)->summary.outcome, records::Outcome::Unfinished);
+}
+
+TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsPictures) {
+  auto page = operate(port());
+  page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5})");
+  const auto is_picture = [](const auto& frame) { return frame.is_binary; };
+  const auto picture = page->wait_for(is_picture);
+  ASSERT_TRUE(picture.has_value());
+  const Json before = wait_for_snapshot(*page, [](const Json&) { return true; });
+  page->vanish();
+  std::this_thread::sleep_for(1500ms);  // time stands still meanwhile
+  PageClient again(port());
+  again.send(kHello);
+  EXPECT_THAT(again.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  const auto shown = again.wait_for(is_picture);
+  ASSERT_TRUE(shown.has_value());
+  EXPECT_EQ(shown->content, picture->content);
+  const Json now = wait_for_snapshot(again, [](const Json&) { return true; });
+  EXPECT_GE(now["tick"], before["tick"]);
+  EXPECT_LT(now["tick"].get<int>() - before["tick"].get<int>(), 1300);
+  (void)wait_for_snapshot(again, [&](const Json& s) { return s["tick"] > now["tick"]; });
+  again.send(R"({"type":"finish"})");
+  EXPECT_EQ(Json::parse(again.wait_for_type("score"))["attempt_id"], 1);
+}
+
+TEST_F(StationTest, PageThatComesBackBeforeItsOldConnectionIsKnownDeadGetsItsSeat) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  PageClient twin(port());
+  twin.send(kHello);
+  EXPECT_THAT(twin.wait_for_type("busy"), HasSubstr("Another page operates"));
+  std::this_thread::sleep_for(1300ms);  // the old connection answers no ping
+  twin.send(kHello);
+  EXPECT_THAT(twin.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  EXPECT_TRUE(page->wait_until_closed());
+  (void)wait_for_snapshot(twin, [](const Json& s) { return s["tick"] > 20; });
+}
+
+class ImpatientStationTest : public StationTest {
+ protected:
+  [[nodiscard]] StationPatience patience() const override { return {100ms, 200ms}; }
+};
+
+TEST_F(ImpatientStationTest, PageThatDoesNotComeBackLeavesAnUnfinishedAttemptThatReplays) {
   auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   page->vanish();
@@ -222,6 +289,9 @@ TEST_F(StationTest, DisconnectInTheMiddleLeavesAnUnfinishedAttemptThatReplays) {
   const auto decoded = simulation::decode(attempt->recording);
   ASSERT_TRUE(decoded.has_value());
   EXPECT_TRUE(simulation::replay(wrist(), *decoded).hash_matches);
+  PageClient second(port());
+  second.send(kSecondHello);
+  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":false"));
 }
 
 TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {
@@ -231,6 +301,7 @@ TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {
   wait_for_attempts(1);
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] < 20; });
   stop();
+  station_->store_running();
   EXPECT_EQ(records_->list().size(), 2U);
 }
 

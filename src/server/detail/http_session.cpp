@@ -111,7 +111,7 @@ void HttpSession::answer(const HttpResponse& from) {
 }
 
 void HttpSession::write(bool keep_alive) {
-  stream_.expires_after(context_.options.request_timeout);
+  stream_.expires_after(context_.options.answer_timeout);
   serializer_.emplace(*response_);
   const bool head_only = parser_->is_done() && parser_->get().method() == http::verb::head;
   auto done = [self = shared_from_this(), keep_alive](error_code error, std::size_t) {

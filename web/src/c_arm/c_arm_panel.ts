@@ -127,7 +127,9 @@ export class CArmPanel {
     this.redrawStrip();
   }
 
+  /** Pictures that are here already come again after a lost connection. */
   add(picture: CArmPicture): void {
+    if (this.pictures.some((known) => known.shot === picture.shot)) return;
     this.pictures.push(picture);
     if (this.pictures.length > HISTORY) this.pictures.shift();
     this.shown = this.pictures.length - 1;

@@ -47,10 +47,14 @@ describe("HostLink", () => {
     vi.useFakeTimers();
     sockets = [];
     handlers = { onState: vi.fn(), onMessage: vi.fn(), onPicture: vi.fn(), onRefused: vi.fn() };
-    link = new HostLink(() => {
-      sockets.push(new FakeSocket());
-      return last();
-    }, handlers);
+    link = new HostLink(
+      () => {
+        sockets.push(new FakeSocket());
+        return last();
+      },
+      "word",
+      handlers,
+    );
   });
   afterEach(() => {
     link.dispose();
@@ -60,10 +64,18 @@ describe("HostLink", () => {
   it("says hello first and sends nothing else before the welcome", () => {
     expect(link.send({ type: "measure" })).toBe(false);
     last().open();
-    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 1 });
+    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 2, page: "word" });
     expect(link.send({ type: "measure" })).toBe(false);
     last().bring(welcome);
     expect(link.send({ type: "measure" })).toBe(true);
+  });
+
+  it("says the same word when it comes again", () => {
+    last().open();
+    last().lose();
+    vi.advanceTimersByTime(500);
+    last().open();
+    expect(sockets.map((s) => s.sent[0])).toEqual(Array(2).fill(sockets[0]?.sent[0]));
   });
 
   it.each(["", "{", "[]", '{"type":"snapshot"}', '{"type":"nonsense"}', new ArrayBuffer(5), 7])(

@@ -48,6 +48,7 @@ export class HostLink {
 
   constructor(
     private readonly makeSocket: () => Socket,
+    private readonly word: string,
     private readonly handlers: LinkHandlers,
   ) {
     this.connect();
@@ -97,7 +98,7 @@ export class HostLink {
   }
 
   private sayHello(): void {
-    this.socket?.send(serialize({ type: "hello", protocol: PROTOCOL_VERSION }));
+    this.socket?.send(serialize({ type: "hello", protocol: PROTOCOL_VERSION, page: this.word }));
   }
 
   private receive(data: unknown): void {
@@ -140,6 +141,23 @@ export class HostLink {
     this.state = state;
     this.handlers.onState(state, why);
   }
+}
+
+const WORD_KEY = "carpus.page";
+
+/** What this tab says in each hello, after a reload too: the host keeps its seat for it. */
+export function pageWord(): string {
+  const word = Array.from(crypto.getRandomValues(new Uint32Array(4)), (n) => n.toString(16)).join(
+    "-",
+  );
+  try {
+    const known = sessionStorage.getItem(WORD_KEY);
+    if (known !== null) return known;
+    sessionStorage.setItem(WORD_KEY, word);
+  } catch {
+    // storage may be forbidden; the word then holds until the page is left
+  }
+  return word;
 }
 
 /** The host that served this page. */

@@ -7,7 +7,7 @@ import { fetchCase, fetchScrews, type Screw } from "../case_data";
 import { button, make, setText } from "../dom";
 import { faceNames, makeFrameMap } from "../frames";
 import { HelpOverlay } from "../help_overlay";
-import { HostLink, openPageSocket, type LinkState } from "../host_link";
+import { HostLink, openPageSocket, pageWord, type LinkState } from "../host_link";
 import { onceAction, whyNot, whyStuck, type KeyPress, type OnceAction } from "../operation";
 import {
   parseViews,
@@ -222,7 +222,7 @@ class TrainPage {
     this.listen();
     this.start.setReady(false, "Connecting to the host…");
     this.start.open();
-    this.link = new HostLink(openPageSocket, {
+    this.link = new HostLink(openPageSocket, pageWord(), {
       onState: (state, why) => {
         this.linkState(state, why);
       },
@@ -450,10 +450,14 @@ class TrainPage {
     const open = state === "open";
     const text =
       state === "busy"
-        ? `${why === "" ? "Another page operates here." : why} This page gets in when the other one is closed.`
+        ? `${why === "" ? "Another page operates here." : why} This page asks again by itself.`
         : state === "lost"
           ? "The connection is lost; the scene is frozen. Trying again by itself…"
           : "";
+    if (state === "busy" && this.running) {
+      this.running = false;
+      this.start.open();
+    }
     this.frozen.hidden = open || !this.running;
     setText(this.frozen, text);
     this.top.showLink(state === "lost" ? "not connected" : state === "busy" ? "busy" : "");
@@ -479,11 +483,25 @@ class TrainPage {
         );
         break;
       case "welcome":
-        this.start.offerResume(message.running && !this.running);
+        this.come(message.running);
         break;
       case "busy":
         break;
     }
+  }
+
+  /** The host takes this page, for the first time or again. */
+  private come(exerciseRuns: boolean): void {
+    this.start.offerResume(exerciseRuns && !this.running);
+    if (!this.running) return;
+    if (exerciseRuns) {
+      this.say("Connected again: the operation goes on where it was.");
+      return;
+    }
+    this.running = false;
+    this.hand.setEnabled(false);
+    this.start.setReady(true, "The operation has ended; it is among the past attempts.");
+    this.start.open();
   }
 
   private takeSnapshot(s: SnapshotMessage): void {
