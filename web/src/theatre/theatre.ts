@@ -23,7 +23,8 @@ import {
 import { studioLight, type StudioLight } from "./light";
 import { metalMaterial } from "./materials";
 import { OrientationCube } from "./orientation_cube";
-import { DrawingPace } from "./drawing_pace_model";
+import { DrawingPace, SOFTWARE_LEVEL, type Drawing } from "./drawing_pace_model";
+import { looksDifferent } from "./snapshot_look_model";
 
 export const VIEWS = ["dorsal", "radial", "volar", "ulnar", "wire"] as const;
 export type ViewId = (typeof VIEWS)[number];
@@ -34,11 +35,13 @@ const CUBE_PX = 88;
 /** A driver that comes towards the viewer more steeply than this would hide what it points at. */
 const HIDE_DRIVER_COSINE = 0.25;
 
-/** Whether WebGL runs on the processor: then the simplest drawing from the start. */
-function drawsInSoftware(renderer: THREE.WebGLRenderer): boolean {
-  const gl = renderer.getContext();
-  const names = gl.getExtension("WEBGL_debug_renderer_info");
-  const name = names === null ? "" : String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
+/** Whether WebGL runs on the processor: then a simple drawing from the start. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  if (gl === null || names === null || names === undefined) return false;
+  const name = String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
@@ -72,8 +75,12 @@ export class Theatre {
   private height = 1;
   private stale = true;
   private screwKey = "";
-  private readonly pace = new DrawingPace();
+  private readonly pace: DrawingPace;
+  private drawing: Drawing;
+  /** More shows nothing more. */
+  private readonly finestPixelRatio: number;
   private shown: SnapshotMessage | undefined;
+  private drawn: SnapshotMessage | undefined;
   private readonly observer: ResizeObserver;
 
   constructor(
@@ -82,23 +89,24 @@ export class Theatre {
     private readonly frames: FrameMap,
     private readonly facing: FaceNames,
   ) {
+    const software = drawsInSoftware();
+    this.pace = new DrawingPace(software ? SOFTWARE_LEVEL : 0);
+    this.drawing = this.pace.drawing;
+    // Without antialiasing a still picture is drawn larger than it is shown.
+    this.finestPixelRatio = Math.max(software ? 2 : 1, window.devicePixelRatio);
     this.renderer = new THREE.WebGLRenderer({
-      antialias: true,
+      antialias: !software,
       powerPreference: "high-performance",
     });
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
-    const software = drawsInSoftware(this.renderer);
-    this.renderer.setPixelRatio(software ? 0.75 : Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(this.pixelRatio());
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 0.9;
     this.light = studioLight(this.renderer, this.scene);
-    if (software) {
-      this.light.setShadowPixels(0);
-      this.pace.level = 2;
-    }
+    this.light.setShadowPixels(this.drawing.shadowPixels);
     this.cube = new OrientationCube(facing);
     this.names = new BoneNames(bones.bones);
     this.names.canvas.hidden = true;
@@ -146,7 +154,7 @@ export class Theatre {
 
   show(snapshot: SnapshotMessage): void {
     this.shown = snapshot;
-    this.stale = true;
+    if (this.drawn === undefined || looksDifferent(this.drawn, snapshot)) this.stale = true;
   }
 
   /** Draws the screw with this shape from now on. */
@@ -288,12 +296,13 @@ export class Theatre {
 
   /** Draws if anything changed since the last time. */
   draw(): void {
-    if (!this.stale || this.width < 2 || this.height < 2) {
-      this.pace.rest();
-      return;
-    }
+    if (this.width < 2 || this.height < 2) return;
+    const now = performance.now();
+    if (this.stale) this.pace.moves(now);
+    else if (!this.pace.rests(now)) return;
+    this.drawAs(this.pace.drawing);
     this.stale = false;
-    if (this.pace.drew(performance.now())) this.drawSimpler();
+    this.drawn = this.shown;
     this.pose();
     this.light.follow(this.camera, this.controls.target);
     this.renderer.setViewport(0, 0, this.width, this.height);
@@ -304,14 +313,19 @@ export class Theatre {
     }
   }
 
-  /** On a machine that cannot keep up: first coarser shadows, then none and fewer pixels. */
-  private drawSimpler(): void {
-    if (this.pace.level === 1) this.light.setShadowPixels(1024);
-    else {
-      this.light.setShadowPixels(0);
-      this.renderer.setPixelRatio(Math.max(0.75, 0.5 * this.renderer.getPixelRatio()));
-      this.resize();
-    }
+  /** On a machine that cannot keep up: coarser shadows, none, fewer pixels. */
+  private drawAs(drawing: Drawing): void {
+    const before = this.drawing;
+    this.drawing = drawing;
+    if (drawing.shadowPixels !== before.shadowPixels)
+      this.light.setShadowPixels(drawing.shadowPixels);
+    if (this.pixelRatio() === this.renderer.getPixelRatio()) return;
+    this.renderer.setPixelRatio(this.pixelRatio());
+    this.resize();
+  }
+
+  private pixelRatio(): number {
+    return Math.min(this.finestPixelRatio, this.drawing.pixelRatio);
   }
 
   dispose(): void {
