@@ -10,6 +10,17 @@ const { chromium } = createRequire(join(root, "web/package.json"))(
   "playwright-core",
 );
 
+/** A machine without graphics may take its time: no wait fails a check before this [ms]. */
+export const PATIENCE_MS = 180_000;
+const VIEWPORT = { width: 1120, height: 680 };
+
+/** A page with cookies and storage of its own, closed with its browser at the latest. */
+export async function newPage(browser) {
+  const context = await browser.newContext({ viewport: VIEWPORT });
+  context.setDefaultTimeout(PATIENCE_MS);
+  return context.newPage();
+}
+
 export function startBrowser() {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",

@@ -6,6 +6,7 @@
 // folder, as a practised eye would.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { PATIENCE_MS } from "./browser.mjs";
 
 const add = (a, b, f = 1) => a.map((v, i) => v + f * b[i]);
 const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
@@ -32,7 +33,7 @@ export class Operator {
   }
 
   /** Waits until the snapshot satisfies `holds`. Asked from here: the page forbids eval. */
-  async until(holds, what, timeout = 60_000) {
+  async until(holds, what, timeout = PATIENCE_MS) {
     const end = Date.now() + timeout;
     for (;;) {
       const now = await this.snapshot();
@@ -49,7 +50,11 @@ export class Operator {
   async tap(code) {
     await this.page.evaluate((key) => {
       for (const type of ["keydown", "keyup"]) {
-        const press = new KeyboardEvent(type, { code: key, key, bubbles: true });
+        const press = new KeyboardEvent(type, {
+          code: key,
+          key,
+          bubbles: true,
+        });
         document.activeElement.dispatchEvent(press);
       }
     }, code);
@@ -73,7 +78,7 @@ export class Operator {
     await this.page.goto(url);
     await this.page
       .locator("dialog.start button[type=submit]:not([disabled])")
-      .waitFor({ timeout: 90_000 });
+      .waitFor();
     await this.page.fill("#trainee-name", trainee);
     await this.page.click("dialog.start button[type=submit]");
     await this.until((s) => s.tick > 0, "the first ticks");
@@ -140,7 +145,7 @@ export class Operator {
   }
 
   /** Holds a key until the snapshot satisfies `holds`. */
-  async holdKey(key, holds, what, timeout = 60_000) {
+  async holdKey(key, holds, what, timeout = PATIENCE_MS) {
     await this.page.keyboard.down(key);
     try {
       await this.until(holds, what, timeout);
@@ -182,11 +187,11 @@ export class Operator {
   async shot(key) {
     const before = (await this.snapshot()).shots;
     await this.page.keyboard.press(key);
-    await this.until((s) => s.shots > before, `picture by key ${key}`, 30_000);
+    await this.until((s) => s.shots > before, `picture by key ${key}`);
     const shown = this.page.locator(
       `.c-arm-strip button[aria-label*="shot ${before + 1},"]`,
     );
-    await shown.waitFor({ timeout: 60_000 });
+    await shown.waitFor();
     await this.settle();
   }
 
