@@ -2,4 +2,4 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The room where one operates.
-export { mountTrain } from "./train_page";
+export { mountTrain } from "./mount_train";

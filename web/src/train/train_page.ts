@@ -3,12 +3,12 @@
 //
 // The room Train: joins link, theatre, hand, C-arm and bars. The host owns the truth; this shows it.
 import { CArmPanel } from "../c_arm";
-import { fetchCase, fetchScrews, type Screw } from "../case_data";
-import { button, make, setText } from "../dom";
+import type { Screw } from "../case_data";
+import { make, setText } from "../dom";
 import { faceNames, makeFrameMap } from "../frames";
 import { HelpOverlay } from "../help_overlay";
 import { HostLink, openPageSocket, pageWord, type LinkState } from "../host_link";
-import { onceAction, whyNot, whyStuck, type KeyPress, type OnceAction } from "../operation";
+import { whyNot, whyStuck, type OnceAction } from "../operation";
 import {
   parseViews,
   type CaseDescription,
@@ -18,10 +18,12 @@ import {
   type Vec3,
 } from "../protocol";
 import { StartDialog, type StartChoice } from "../start_dialog";
-import { loadCaseScene, Theatre, VIEWS, type CaseScene, type ViewId } from "../theatre";
+import { Theatre, VIEWS, type CaseScene, type ViewId } from "../theatre";
 import { BottomBar } from "./bottom_bar";
 import { ConfirmDialog } from "./confirm_dialog";
 import { Hand } from "./hand";
+import { listenToKeys } from "./keys";
+import { Notice } from "./notice";
 import { ScrewList } from "./screw_list";
 import { StepPanel } from "./step_panel";
 import { TopBar } from "./top_bar";
@@ -32,39 +34,6 @@ import { ViewBar } from "./view_bar";
 const READINGS_MS = 100;
 /** At most this often the hand is sent [1/s]. */
 const SEND_PER_S = 60;
-const NOTICE_MS = 9000;
-
-/** Shows the room in `app`; the returned function leaves it. */
-export function mountTrain(app: HTMLElement): () => void {
-  const waiting = make("main.waiting", {}, make("p", { role: "status" }, "Loading the case…"));
-  app.replaceChildren(waiting);
-  let page: TrainPage | undefined;
-  let left = false;
-  void (async () => {
-    try {
-      const [description, screws, scene] = await Promise.all([
-        fetchCase(),
-        fetchScrews(),
-        loadCaseScene("/api/scene.glb"),
-      ]);
-      if (!left) page = new TrainPage(app, description, screws, scene);
-    } catch (error) {
-      const why = error instanceof Error ? error.message : String(error);
-      const again = button("Try again", "", () => {
-        location.reload();
-      });
-      waiting.replaceChildren(
-        make("h1", {}, "The case cannot be shown"),
-        make("p", {}, why),
-        again,
-      );
-    }
-  })();
-  return () => {
-    left = true;
-    page?.dispose();
-  };
-}
 
 declare global {
   interface Window {
@@ -77,7 +46,7 @@ declare global {
   }
 }
 
-class TrainPage {
+export class TrainPage {
   private readonly theatre: Theatre;
   private readonly hand: Hand;
   private readonly link: HostLink;
@@ -91,7 +60,7 @@ class TrainPage {
   private readonly views: ViewBar;
   private readonly finishQuestion: ConfirmDialog;
   private readonly restartQuestion: ConfirmDialog;
-  private readonly notice = make("p.notice", { role: "status" });
+  private readonly notice = new Notice();
   private readonly frozen = make("p.frozen", { role: "alert" });
   private readonly abort = new AbortController();
   private latest: SnapshotMessage | undefined;
@@ -99,7 +68,6 @@ class TrainPage {
   private trainee = "";
   private sequence = 0;
   private view: ViewId = "dorsal";
-  private noticeTimer = 0;
   private readonly readingsTimer: number;
   private frameRequest = 0;
   private lastSentMs = -Infinity;
@@ -194,7 +162,7 @@ class TrainPage {
           stage,
           this.frozen,
           this.views.element,
-          this.notice,
+          this.notice.element,
         ),
         this.arm.element,
         this.bottom.element,
@@ -219,7 +187,21 @@ class TrainPage {
       snapshot: () => this.latest,
     });
     this.hand.reset(this.theatre.startPointMm(), frames.directionToPatient(0, -0.55, 0.83));
-    this.listen();
+    listenToKeys(
+      {
+        hand: this.hand,
+        canvas: this.theatre.canvas,
+        act: (action) => {
+          this.act(action);
+        },
+        closeHelp: () => {
+          const { open } = this.help.element;
+          if (open) this.help.toggle();
+          return open;
+        },
+      },
+      this.abort.signal,
+    );
     this.start.setReady(false, "Connecting to the host…");
     this.start.open();
     this.link = new HostLink(openPageSocket, pageWord(), {
@@ -254,7 +236,7 @@ class TrainPage {
   dispose(): void {
     cancelAnimationFrame(this.frameRequest);
     clearInterval(this.readingsTimer);
-    clearTimeout(this.noticeTimer);
+    this.notice.dispose();
     this.abort.abort();
     delete window.carpus;
     this.link.dispose();
@@ -268,62 +250,6 @@ class TrainPage {
       this.hand.frame(performance.now());
     }
     this.theatre.draw();
-  }
-
-  private listen(): void {
-    const { signal } = this.abort;
-    window.addEventListener(
-      "keydown",
-      (event) => {
-        this.keyDown(event);
-      },
-      { signal },
-    );
-    window.addEventListener(
-      "keyup",
-      (event) => {
-        this.hand.keyUp(event.code, performance.now());
-      },
-      { signal },
-    );
-    // After a click the keys go to the hand again; who came by Tab stays where they are.
-    document.addEventListener(
-      "click",
-      (event) => {
-        if (event.detail === 0 || document.querySelector("dialog[open]") !== null) return;
-        if (event.target instanceof Element && event.target.closest("button") !== null) {
-          this.theatre.canvas.focus({ preventScroll: true });
-        }
-      },
-      { signal },
-    );
-  }
-
-  private keyDown(event: KeyboardEvent): void {
-    if (event.altKey || event.metaKey) return;
-    const press: KeyPress = {
-      key: event.key,
-      code: event.code,
-      shift: event.shiftKey,
-      ctrl: event.ctrlKey,
-    };
-    const once = onceAction(press);
-    if (this.help.element.open && once?.kind === "help") {
-      event.preventDefault();
-      this.help.toggle();
-      return;
-    }
-    if (document.querySelector("dialog[open]") !== null) return;
-    const target = event.target instanceof HTMLElement ? event.target : undefined;
-    if (target instanceof HTMLInputElement) return;
-    if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
-    if (this.hand.keyDown(press, performance.now())) {
-      event.preventDefault();
-      return;
-    }
-    if (once === undefined) return;
-    event.preventDefault();
-    if (!event.repeat || once.kind === "turn_c_arm") this.act(once);
   }
 
   private act(action: OnceAction): void {
@@ -527,11 +453,7 @@ class TrainPage {
   }
 
   private say(text: string): void {
-    setText(this.notice, text);
-    clearTimeout(this.noticeTimer);
-    this.noticeTimer = window.setTimeout(() => {
-      setText(this.notice, "");
-    }, NOTICE_MS);
+    this.notice.say(text);
   }
 }
 
