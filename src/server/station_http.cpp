@@ -8,6 +8,8 @@
 
 #include "procedure/score_json.hpp"
 #include "server/case_messages.hpp"
+#include "server/exercise.hpp"
+#include "simulation/recording.hpp"
 
 namespace carpus::server {
 
@@ -50,8 +52,11 @@ std::string attempts_json(const std::vector<records::AttemptSummary>& attempts, 
   return dump({{"attempts", std::move(list)}}, indent);
 }
 
-std::string attempt_json(const records::Attempt& attempt, int indent) {
+std::string attempt_json(const records::Attempt& attempt,
+                         const std::string& open_case_fingerprint,
+                         int indent) {
   Json json = to_json(attempt.summary);
+  json["case_is_open"] = attempt.summary.case_fingerprint == open_case_fingerprint;
   json["score"] = stored(attempt.score_json);
   json["events"] = stored(attempt.events_json);
   json["recording_bytes"] = attempt.recording.size();
@@ -62,7 +67,8 @@ StationHttp::StationHttp(const cases::CaseData& posed_case,
                          std::string scene_glb,
                          const records::AttemptKeeper& records,
                          const std::filesystem::path& web_root)
-    : case_json_(serialize(case_description(posed_case))),
+    : case_fingerprint_(hexadecimal(simulation::fingerprint_of(posed_case))),
+      case_json_(serialize(case_description(posed_case))),
       screws_json_("{\"screws\":" + procedure::screw_catalogue_json() + "}"),
       scene_glb_(std::make_shared<const std::string>(std::move(scene_glb))),
       records_(records),
@@ -101,7 +107,7 @@ HttpResponse StationHttp::answer_attempt(std::string_view rest) const {
   }
   const auto attempt = records_.find(id);
   if (!attempt) return no_such_attempt();
-  if (what.empty()) return make_json(attempt_json(*attempt));
+  if (what.empty()) return make_json(attempt_json(*attempt, case_fingerprint_));
   HttpResponse response =
       make_response(200, "application/octet-stream",
                     std::string(reinterpret_cast<const char*>(attempt->recording.data()),

@@ -8,6 +8,8 @@ export interface AttemptSummary {
   readonly id: number;
   readonly trainee: string;
   readonly caseName: string;
+  /** Whether the station serves that case now; false too where the host does not say, as in the list. */
+  readonly caseIsOpen: boolean;
   readonly procedure: string;
   readonly inputDevice: string;
   readonly startedAt: string;
@@ -42,6 +44,7 @@ export function parseAttempt(json: Json | undefined): AttemptSummary | undefined
     id,
     trainee: text("trainee"),
     caseName: text("case_name") === "" ? text("case") : text("case_name"),
+    caseIsOpen: fields["case_is_open"] === true,
     procedure: text("procedure"),
     inputDevice: text("input_device"),
     startedAt: text("started_at"),

@@ -7,6 +7,7 @@ import { dateText, durationText, parseAttempt, procedureText } from "../attempts
 import { fetchCase, fetchJson } from "../case_data";
 import { button, make } from "../dom";
 import type { CaseDescription, Json } from "../protocol";
+import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
 import { itemPicture } from "./item_picture";
 import { placementPictures } from "./placement_pictures";
 import {
@@ -63,6 +64,7 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
   const fields = json as { readonly [key: string]: Json };
   const attempt = parseAttempt(json) ?? parseAttempt(fields["summary"]);
   const report = reportOf(json);
+  const operated = attemptedCase(attempt, description);
   const about =
     attempt === undefined
       ? ""
@@ -84,7 +86,7 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
       {},
       make("p.secondary", {}, `Carpus · attempt ${attempt?.id ?? ""}`),
       make("h1", {}, "Score"),
-      make("p.secondary", {}, about, description.simulated ? " " : "", simulatedBadge(description)),
+      make("p.secondary", {}, about, operated.simulated ? " " : "", simulatedBadge(operated)),
     ),
     make(
       "nav.page-ways",
@@ -112,6 +114,10 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
     ),
   );
   if (report.placement === undefined) return;
+  if (operated.notice !== "") {
+    pictures.append(make("p.secondary", {}, operated.notice));
+    return;
+  }
   pictures.append(make("p.secondary", { role: "status" }, "Drawing the placement…"));
   placementPictures(description, report.placement).then(
     (figures) => {
@@ -123,8 +129,8 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
   );
 }
 
-function simulatedBadge(description: CaseDescription): Node | string {
-  return description.simulated ? make("span.badge", {}, "simulated") : "";
+function simulatedBadge(operated: AttemptedCase): Node | string {
+  return operated.simulated ? make("span.badge", {}, "simulated") : "";
 }
 
 function legend(report: ScoreReport): HTMLElement {
