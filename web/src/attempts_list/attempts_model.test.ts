@@ -3,7 +3,7 @@
 //
 // The list shows every readable attempt, in the host's order.
 import { describe, expect, it } from "vitest";
-import { dateText, durationText, parseAttempts } from "./attempts_model";
+import { dateText, durationText, parseAttempt, parseAttempts } from "./attempts_model";
 
 describe("parseAttempts", () => {
   it("keeps the order and the figures, and passes over what is none", () => {
@@ -18,6 +18,14 @@ describe("parseAttempts", () => {
   });
   it.each([null, 1, {}, { attempts: 1 }])("takes %j as none", (json) => {
     expect(parseAttempts(json)).toEqual([]);
+  });
+});
+
+describe("parseAttempt", () => {
+  it("reads the state hash where the host writes it", () => {
+    expect(parseAttempt({ id: 1, state_hash: "0123456789abcdef" })?.stateHash).toBe(
+      "0123456789abcdef",
+    );
   });
 });
 

@@ -16,7 +16,7 @@ export interface AttemptSummary {
   readonly finished: boolean;
   readonly overall: number | undefined;
   readonly durationS: number | undefined;
-  readonly finalHash: string;
+  readonly stateHash: string;
 }
 
 type Fields = { readonly [key: string]: Json };
@@ -51,7 +51,7 @@ export function parseAttempt(json: Json | undefined): AttemptSummary | undefined
     finished: text("outcome") === "finished",
     overall: number("overall"),
     durationS,
-    finalHash: text("final_hash"),
+    stateHash: text("state_hash"),
   };
 }
 
