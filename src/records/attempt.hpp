@@ -28,10 +28,11 @@ struct AttemptSummary {
   std::string trainee;    ///< as typed; may be empty
   std::string case_name;  ///< the case's pseudonym
   std::string case_fingerprint;
-  std::string procedure;     ///< "dorsal_scaphoid_fixation"
-  std::string input_device;  ///< "mouse", "script", …
-  std::string started_at;    ///< UTC, ISO 8601
-  std::string ended_at;      ///< UTC, ISO 8601
+  std::optional<bool> case_simulated;  ///< not scanned from a person; none in records from before
+  std::string procedure;               ///< "dorsal_scaphoid_fixation"
+  std::string input_device;            ///< "mouse", "script", …
+  std::string started_at;              ///< UTC, ISO 8601
+  std::string ended_at;                ///< UTC, ISO 8601
   Outcome outcome = Outcome::Unfinished;
   std::optional<double> overall;     ///< score, 0 to 100; none when unfinished
   std::uint64_t duration_ticks = 0;  ///< simulated time [ms]

@@ -59,6 +59,8 @@ AttemptSummary read_summary(SQLite::Statement& row) {
   summary.trainee = row.getColumn("trainee").getString();
   summary.case_name = row.getColumn("case_name").getString();
   summary.case_fingerprint = row.getColumn("case_fingerprint").getString();
+  const SQLite::Column simulated = row.getColumn("case_simulated");
+  if (!simulated.isNull()) summary.case_simulated = simulated.getInt() != 0;
   summary.procedure = row.getColumn("procedure").getString();
   summary.input_device = row.getColumn("input_device").getString();
   summary.started_at = row.getColumn("started_at").getString();
@@ -77,6 +79,7 @@ void bind(SQLite::Statement& insert, const Attempt& attempt) {
   insert.bind(":trainee", summary.trainee);
   insert.bind(":case_name", summary.case_name);
   insert.bind(":case_fingerprint", summary.case_fingerprint);
+  if (summary.case_simulated) insert.bind(":case_simulated", *summary.case_simulated ? 1 : 0);
   insert.bind(":procedure", summary.procedure);
   insert.bind(":input_device", summary.input_device);
   insert.bind(":started_at", summary.started_at);
@@ -158,11 +161,11 @@ std::int64_t AttemptStore::save(const Attempt& attempt) {
     SQLite::Transaction transaction(connection_->database, SQLite::TransactionBehavior::IMMEDIATE);
     SQLite::Statement insert(
         connection_->database,
-        "INSERT INTO attempt (trainee, case_name, case_fingerprint, procedure, input_device, "
-        "started_at, ended_at, outcome, overall, duration_ticks, final_hash, score, events, "
-        "recording) VALUES (:trainee, :case_name, :case_fingerprint, :procedure, :input_device, "
-        ":started_at, :ended_at, :outcome, :overall, :duration_ticks, :final_hash, :score, "
-        ":events, :recording)");
+        "INSERT INTO attempt (trainee, case_name, case_fingerprint, case_simulated, procedure, "
+        "input_device, started_at, ended_at, outcome, overall, duration_ticks, final_hash, score, "
+        "events, recording) VALUES (:trainee, :case_name, :case_fingerprint, :case_simulated, "
+        ":procedure, :input_device, :started_at, :ended_at, :outcome, :overall, :duration_ticks, "
+        ":final_hash, :score, :events, :recording)");
     bind(insert, attempt);
     insert.exec();
     const std::int64_t id = connection_->database.getLastInsertRowid();
@@ -178,8 +181,9 @@ std::vector<AttemptSummary> AttemptStore::list() const {
     std::vector<AttemptSummary> attempts;
     SQLite::Statement rows(
         connection_->database,
-        "SELECT id, trainee, case_name, case_fingerprint, procedure, input_device, started_at, "
-        "ended_at, outcome, overall, duration_ticks, final_hash FROM attempt ORDER BY id DESC");
+        "SELECT id, trainee, case_name, case_fingerprint, case_simulated, procedure, input_device, "
+        "started_at, ended_at, outcome, overall, duration_ticks, final_hash FROM attempt ORDER BY "
+        "id DESC");
     while (rows.executeStep()) attempts.push_back(read_summary(rows));
     return attempts;
   } catch (const SQLite::Exception& error) {

@@ -16,7 +16,7 @@
 namespace carpus::records {
 
 /// Schema of the records file that this program writes; it reads and updates older ones.
-inline constexpr int kRecordsSchemaVersion = 1;
+inline constexpr int kRecordsSchemaVersion = 2;
 
 class AttemptStore {
  public:

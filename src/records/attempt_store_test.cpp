@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "records/detail/schema.hpp"
 #include "records/records_test_support.hpp"
 
 namespace carpus::records {
@@ -100,6 +101,39 @@ TEST(AttemptStore, FileThatCannotGrowKeepsWhatWasThere) {
   EXPECT_EQ(AttemptStore(folder / "attempts.sqlite").list().size(), 1U);
   store.save(make_attempt("after", 500000));
   EXPECT_EQ(store.list().size(), 2U);
+}
+
+TEST(AttemptStore, KeepsWhetherTheCaseIsSimulated) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  for (const std::optional<bool> simulated : {std::optional(true), std::optional(false), {}}) {
+    Attempt attempt = make_attempt("Ada");
+    attempt.summary.case_simulated = simulated;
+    const std::int64_t id = store.save(attempt);
+    EXPECT_EQ(store.find(id)->summary.case_simulated, simulated);
+    EXPECT_EQ(store.list().front().case_simulated, simulated);
+  }
+}
+
+TEST(AttemptStore, TakesOverRecordsFromBeforeAnybodyNotedWhetherTheCaseIsSimulated) {
+  const TemporaryFolder folder;
+  {
+    SQLite::Database database((folder / "attempts.sqlite").string(),
+                              SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    database.exec(detail::kMigrations[0]);
+    database.exec(
+        "INSERT INTO attempt VALUES (7, 'Ada', 'demo wrist', '00ff00ff00ff00ff', 'p', 'mouse', "
+        "'2026-01-31T12:00:00.000Z', '2026-01-31T12:05:00.250Z', 'unfinished', NULL, 5, "
+        "'0123456789abcdef', '', '[]', '')");
+    database.exec("PRAGMA application_id = " + std::to_string(detail::kApplicationId));
+    database.exec("PRAGMA user_version = 1");
+  }
+  AttemptStore store(folder / "attempts.sqlite");
+  ASSERT_EQ(store.list().size(), 1U);
+  EXPECT_EQ(store.find(7)->summary.case_name, "demo wrist");
+  EXPECT_EQ(store.find(7)->summary.case_simulated, std::nullopt);
+  EXPECT_EQ(store.save(make_attempt("Grace")), 8);
+  EXPECT_EQ(store.find(8)->summary.case_simulated, true);
 }
 
 TEST(AttemptStore, RefusesANewerSchema) {

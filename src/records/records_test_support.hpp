@@ -65,6 +65,7 @@ class FileSizeLimit {
   attempt.summary.trainee = trainee;
   attempt.summary.case_name = "demo wrist";
   attempt.summary.case_fingerprint = "00ff00ff00ff00ff";
+  attempt.summary.case_simulated = true;
   attempt.summary.procedure = "dorsal_scaphoid_fixation";
   attempt.summary.input_device = "mouse";
   attempt.summary.started_at = "2026-01-31T12:00:00.000Z";

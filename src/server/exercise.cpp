@@ -79,6 +79,7 @@ records::Attempt make_attempt(const AttemptParts& parts) {
   summary.trainee = parts.trainee;
   summary.case_name = parts.posed_case.pseudonym;
   summary.case_fingerprint = hexadecimal(parts.recording.case_fingerprint);
+  summary.case_simulated = parts.posed_case.provenance.simulated;
   summary.procedure = procedure::name_of(parts.recording.procedure);
   summary.input_device = parts.input_device;
   summary.started_at = parts.started_at;

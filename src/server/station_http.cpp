@@ -22,6 +22,7 @@ Json to_json(const records::AttemptSummary& attempt) {
           {"trainee", attempt.trainee},
           {"case", attempt.case_name},
           {"case_fingerprint", attempt.case_fingerprint},
+          {"case_simulated", attempt.case_simulated ? Json(*attempt.case_simulated) : Json()},
           {"procedure", attempt.procedure},
           {"input_device", attempt.input_device},
           {"started_at", attempt.started_at},

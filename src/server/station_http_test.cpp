@@ -58,5 +58,21 @@ TEST_F(StationHttpTest, TellsWhetherAnAttemptWasMadeOnTheOpenCase) {
   EXPECT_EQ(get("/api/attempts/2")["case_is_open"], false);
 }
 
+TEST_F(StationHttpTest, TellsWhetherTheCaseOfAnAttemptIsSimulatedWhereThatWasNoted) {
+  cases::CaseData scanned = wrist_;
+  scanned.provenance.simulated = false;
+  const simulation::Recording recording;
+  for (const cases::CaseData* data : {&wrist_, static_cast<const cases::CaseData*>(&scanned)}) {
+    (void)records_.save(make_attempt({*data, recording, {}, {}, "Ada", "script", ""}));
+  }
+  (void)records_.save({});
+  const Json list = get("/api/attempts")["attempts"];
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[2]["case_simulated"], true);
+  EXPECT_EQ(list[1]["case_simulated"], false);
+  EXPECT_TRUE(list[0]["case_simulated"].is_null());
+  EXPECT_EQ(get("/api/attempts/1")["case_simulated"], true);
+}
+
 }  // namespace
 }  // namespace carpus::server

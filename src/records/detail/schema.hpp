@@ -13,7 +13,7 @@ inline constexpr int kApplicationId = 0x43415250;
 
 /// kMigrations[v] turns a file of version v into one of version v + 1; a new file begins at 0.
 /// Never change one that was released: add the next.
-inline constexpr std::array<const char*, 1> kMigrations{
+inline constexpr std::array<const char*, 2> kMigrations{
     R"sql(
       CREATE TABLE attempt (
         id               INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -33,6 +33,10 @@ inline constexpr std::array<const char*, 1> kMigrations{
         recording        BLOB NOT NULL
       );
       CREATE INDEX attempt_by_start ON attempt (started_at);
+    )sql",
+    // NULL where nobody noted it.
+    R"sql(
+      ALTER TABLE attempt ADD COLUMN case_simulated INTEGER CHECK (case_simulated IN (0, 1));
     )sql",
 };
 

@@ -22,6 +22,14 @@ describe("parseAttempts", () => {
 });
 
 describe("parseAttempt", () => {
+  it.each([
+    [true, true],
+    [false, false],
+    [null, undefined],
+    ["true", undefined],
+  ])("takes case_simulated %j as %j", (said, known) => {
+    expect(parseAttempt({ id: 1, case_simulated: said })?.caseSimulated).toBe(known);
+  });
   it("reads the state hash where the host writes it", () => {
     expect(parseAttempt({ id: 1, state_hash: "0123456789abcdef" })?.stateHash).toBe(
       "0123456789abcdef",

@@ -10,6 +10,8 @@ export interface AttemptSummary {
   readonly caseName: string;
   /** Whether the station serves that case now; false too where the host does not say, as in the list. */
   readonly caseIsOpen: boolean;
+  /** Not scanned from a person; undefined where nobody noted it. */
+  readonly caseSimulated: boolean | undefined;
   readonly procedure: string;
   readonly inputDevice: string;
   readonly startedAt: string;
@@ -38,6 +40,7 @@ export function parseAttempt(json: Json | undefined): AttemptSummary | undefined
     const value = fields[name];
     return typeof value === "number" && Number.isFinite(value) ? value : undefined;
   };
+  const simulated = fields["case_simulated"];
   const ticks = number("duration_ticks") ?? number("duration_ms");
   const durationS = number("duration_s") ?? (ticks === undefined ? undefined : ticks / 1000);
   return {
@@ -45,6 +48,7 @@ export function parseAttempt(json: Json | undefined): AttemptSummary | undefined
     trainee: text("trainee"),
     caseName: text("case_name") === "" ? text("case") : text("case_name"),
     caseIsOpen: fields["case_is_open"] === true,
+    caseSimulated: typeof simulated === "boolean" ? simulated : undefined,
     procedure: text("procedure"),
     inputDevice: text("input_device"),
     startedAt: text("started_at"),

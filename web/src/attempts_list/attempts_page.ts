@@ -60,6 +60,11 @@ function table(attempts: readonly AttemptSummary[]): HTMLElement {
   );
 }
 
+function caseCell(attempt: AttemptSummary): (Node | string)[] {
+  const badge = make("span.badge", {}, "simulated");
+  return attempt.caseSimulated === true ? [attempt.caseName, " ", badge] : [attempt.caseName];
+}
+
 function row(attempt: AttemptSummary): HTMLElement {
   const score = attempt.finished && attempt.overall !== undefined;
   return make(
@@ -68,7 +73,7 @@ function row(attempt: AttemptSummary): HTMLElement {
     make("td", {}, String(attempt.id)),
     make("td", {}, dateText(attempt.startedAt)),
     make("td", {}, attempt.trainee === "" ? "not named" : attempt.trainee),
-    make("td", {}, attempt.caseName),
+    make("td", {}, ...caseCell(attempt)),
     make("td", {}, procedureText(attempt.procedure)),
     make("td", {}, attempt.inputDevice),
     make("td.figure", {}, durationText(attempt.durationS)),

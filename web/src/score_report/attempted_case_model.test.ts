@@ -24,6 +24,13 @@ describe("attemptedCase", () => {
     });
   });
 
+  it("believes what was noted with the attempt before what the open case says", () => {
+    const noted = { ...attempt, case_simulated: true };
+    expect(attemptedCase(parseAttempt(noted), { simulated: false }).simulated).toBe(true);
+    const scanned = { ...attempt, case_simulated: false, case_is_open: true };
+    expect(attemptedCase(parseAttempt(scanned), { simulated: true }).simulated).toBe(false);
+  });
+
   it("leaves out a name that is not known", () => {
     expect(attemptedCase(undefined, { simulated: true }).notice).toBe(
       "This attempt was made on another case; open that case to see the placement.",

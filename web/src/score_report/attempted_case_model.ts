@@ -13,13 +13,15 @@ export interface AttemptedCase {
 }
 
 export function attemptedCase(
-  attempt: Pick<AttemptSummary, "caseName" | "caseIsOpen"> | undefined,
+  attempt: Pick<AttemptSummary, "caseName" | "caseIsOpen" | "caseSimulated"> | undefined,
   open: Pick<CaseDescription, "simulated">,
 ): AttemptedCase {
-  if (attempt?.caseIsOpen === true) return { notice: "", simulated: open.simulated };
+  if (attempt?.caseIsOpen === true) {
+    return { notice: "", simulated: attempt.caseSimulated ?? open.simulated };
+  }
   const name = attempt === undefined || attempt.caseName === "" ? "" : `, ${attempt.caseName}`;
   return {
     notice: `This attempt was made on another case${name}; open that case to see the placement.`,
-    simulated: false,
+    simulated: attempt?.caseSimulated === true,
   };
 }
