@@ -78,7 +78,7 @@ void run(const ServeArguments& arguments) {
              " can operate and read the records: there is no password");
   }
   network.run();
-  station.store_running();
+  station.detach();
   if (records.waiting() > 0) {
     throw IoError(std::to_string(records.waiting()) + " attempts could not be stored in " +
                   arguments.records + "; the messages above say where they are");

@@ -136,14 +136,14 @@ void write(FieldWriter& out, const Pause& message) {
 void read(FieldReader& in, Welcome& out) {
   out.protocol = in.integer("protocol", 1, 1000);
   out.program = in.string("program", 64);
-  out.running = in.boolean("running");
+  out.exercise = in.integer("exercise", 0, 9007199254740991);
 }
 
 void write(FieldWriter& out, const Welcome& message) {
   out.text("type", "welcome");
   out.value("protocol", message.protocol);
   out.text("program", message.program);
-  out.value("running", message.running);
+  out.value("exercise", message.exercise);
 }
 
 void read(FieldReader& in, Snapshot& out) {

@@ -106,12 +106,15 @@ struct Pause {
 using PageMessage =
     std::variant<Hello, Start, Tool, TakeShot, Measure, SelectScrew, Undo, Finish, Pause>;
 
-/// Answer to hello. When an exercise runs, its pictures follow.
+/// Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does;
+/// none has a number twice. After hello a running exercise is paused until the page goes on with
+/// it, and its pictures follow.
 struct Welcome {
   /// 1 to 1000
   std::int64_t protocol = 0;
   std::string program;
-  bool running = false;
+  /// 0 to 9007199254740991
+  std::int64_t exercise = 0;
   bool operator==(const Welcome&) const = default;
 };
 

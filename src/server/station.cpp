@@ -44,6 +44,13 @@ std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
   return text.data();
 }
 
+/// No number comes twice, not even after the station was started anew.
+std::uint64_t first_exercise_number() {
+  using std::chrono::milliseconds;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<milliseconds>(now).count());
+}
+
 void send_error(PageConnection& page, std::string reason, std::string what_to_do) {
   page.send_text(serialize(protocol::HostMessage(
       protocol::Error{shortened(std::move(reason)), shortened(std::move(what_to_do))})));
@@ -60,9 +67,16 @@ Station::Station(const cases::CaseData& posed_case,
       broken_scaphoid_(has_broken_scaphoid(posed_case)),
       records_(records),
       log_(std::move(log)),
-      patience_(patience) {}
+      patience_(patience),
+      exercise_number_(first_exercise_number()) {}
 
 Station::~Station() { store_running(); }
+
+void Station::detach() {
+  store_running();
+  pictures_.reset();  // waits for the picture that is being made
+  network_ = nullptr;
+}
 
 void Station::attach(NetworkServer& network) {
   network_ = &network;
@@ -131,6 +145,8 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
   if (page != operator_) {
     return send_error(*page, "This page does not operate", "Say hello first.");
   }
+  operator_acts_ = true;
+  owner_word_ = operator_word_;
   try {
     std::visit([this](const auto& m) { on_message(m); }, *message);
   } catch (const Error& error) {
@@ -151,19 +167,30 @@ void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol:
     return page->send_text(serialize(protocol::HostMessage(protocol::Busy{std::move(reason)})));
   }
   const auto before = std::exchange(operator_, page);
-  if (before && before != page) before->close();
+  if (before == page) return welcome();
+  if (before) before->close();
   operator_word_ = hello.page;
+  operator_acts_ = false;
   last_heard_ = steady_clock::now();
-  send(protocol::Welcome{protocol::kProtocolVersion, kProgramVersion, exercise_ != nullptr});
+  // Time stands still until the page goes on.
+  paused_by_page_ = true;
+  apply_pause();
+  welcome();
   if (exercise_) show_again();
+}
+
+void Station::welcome() {
+  send(protocol::Welcome{protocol::kProtocolVersion, kProgramVersion,
+                         exercise_ ? static_cast<std::int64_t>(exercise_number_) : 0});
 }
 
 std::string Station::why_busy(const PageConnection& page, const std::string& word) const {
   const auto now = steady_clock::now();
-  const bool is_known = !word.empty() && word == operator_word_;
+  const bool is_known = !word.empty() && word == owner_word_;
   if (operator_ && operator_.get() != &page) {
-    // A page that comes back before its old connection is known to be dead.
-    if (is_known && now - last_heard_ > kSilence) return {};
+    // It comes back before its old connection is known to be dead, or its seat is not in use.
+    const bool in_use = operator_acts_ && now - last_heard_ <= kSilence;
+    if (is_known && exercise_ && !in_use) return {};
     return "Another page operates on this station. Close it there, then try again.";
   }
   if (!operator_ && exercise_ && !is_known && now - left_at_ < patience_.seat) {
@@ -196,6 +223,7 @@ void Station::on_message(const protocol::Start& start) {
   pictures_->clear();
   shown_.clear();
   last_heard_ = steady_clock::now();
+  welcome();
 }
 
 void Station::on_message(const protocol::Tool& tool) {
@@ -268,7 +296,7 @@ void Station::send_news() {
   }
   for (TakenShot& shot : news.shots) {
     shot.exercise = exercise_number_;
-    pictures_->request(shot);
+    if (pictures_) pictures_->request(shot);
   }
 }
 

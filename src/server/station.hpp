@@ -50,8 +50,8 @@ class Station : public PageHandler {
 
   /// Begins to serve: pictures and states go out through this network.
   void attach(NetworkServer& network);
-  /// Ends the exercise that runs, if any, and stores it as it is.
-  void store_running();
+  /// Stores what runs; the network may go after this, and must not before.
+  void detach();
 
   void on_open(const std::shared_ptr<PageConnection>& page) override;
   void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) override;
@@ -83,6 +83,7 @@ class Station : public PageHandler {
   void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
   /// Why this page may not operate now; empty when it may.
   [[nodiscard]] std::string why_busy(const PageConnection& page, const std::string& word) const;
+  void welcome();
   void show_again();
   void deliver(std::uint64_t exercise, std::string frame);
   [[nodiscard]] bool may_speak(const std::shared_ptr<PageConnection>& page);
@@ -92,6 +93,8 @@ class Station : public PageHandler {
   void apply_pause();
   void send_news();
   void send_state();
+  /// Ends the exercise that runs, if any, and stores it as it is.
+  void store_running();
   /// Ends and stores; sends the score when there is one.
   void conclude();
   void send(const protocol::HostMessage& message);
@@ -105,11 +108,13 @@ class Station : public PageHandler {
   Log log_;
   StationPatience patience_;
   std::shared_ptr<PageConnection> operator_;
-  std::string operator_word_;  ///< what the operating page, or the one that was lost, said in hello
+  std::string operator_word_;                      ///< what it said in hello
+  std::string owner_word_;                         ///< of the page that last acted in the exercise
+  bool operator_acts_ = false;                     ///< it did more than say hello
   std::chrono::steady_clock::time_point left_at_;  ///< when it was lost
   std::unordered_map<PageConnection*, Visitor> visitors_;
   std::unique_ptr<Exercise> exercise_;
-  std::uint64_t exercise_number_ = 0;
+  std::uint64_t exercise_number_;
   bool paused_by_page_ = false;
   bool paused_by_silence_ = false;
   std::chrono::steady_clock::time_point last_heard_;

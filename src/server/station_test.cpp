@@ -24,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using namespace std::chrono_literals;
 using testing::PageClient;
 using testing::request;
@@ -71,17 +72,33 @@ class StationTest : public ::testing::Test {
     network_->stop();
     if (thread_.joinable()) thread_.join();
   }
-  [[nodiscard]] virtual StationPatience patience() const { return {400ms, 600s}; }
+  [[nodiscard]] virtual StationPatience patience() const { return {600s, 600s}; }
   [[nodiscard]] std::uint16_t port() const { return network_->port(); }
 
   [[nodiscard]] static std::unique_ptr<PageClient> operate(std::uint16_t port) {
     auto page = std::make_unique<PageClient>(port);
     page->send(kHello);
-    EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"running\":false"));
+    EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"exercise\":0}"));
     page->send(kStart);
     page->send(kTool);
     return page;
   }
+  /// Says hello until it is answered by a message of this type, and returns that.
+  static std::string say_hello(PageClient& page, const char* hello, const std::string& type) {
+    std::string answer;
+    for (int i = 0; i < 200 && answer.find("\"type\":\"" + type) == std::string::npos; ++i) {
+      if (i > 0) std::this_thread::sleep_for(20ms);
+      page.send(hello);
+      const auto frame = page.wait_for([](const auto& f) {
+        return !f.is_binary && (f.content.find("\"type\":\"busy") != std::string::npos ||
+                                f.content.find("\"type\":\"welcome") != std::string::npos);
+      });
+      answer = frame ? frame->content : "";
+    }
+    return answer;
+  }
+  static constexpr const char* kGoOn = R"({"type":"pause","on":false})";
+
   /// Waits until the records hold so many attempts.
   void wait_for_attempts(std::size_t count) {
     for (int i = 0; i < 1000 && records_->list().size() < count; ++i) {
@@ -211,30 +228,19 @@ TEST_F(StationTest, SecondPageIsBusyWhileTheFirstOperatesAndHttpStillWorks) {
   first->send(R"({"type":"finish"})");
   (void)first->wait_for_type("score");
   first->vanish();
-  std::this_thread::sleep_for(50ms);
-  second.send(kSecondHello);
-  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":false"));
+  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0}"));
 }
 
 TEST_F(StationTest, SeatOfALostPageIsKeptForIt) {
   auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   page->vanish();
-  std::this_thread::sleep_for(50ms);
   PageClient second(port());
-  second.send(kSecondHello);
-  EXPECT_THAT(second.wait_for_type("busy"), HasSubstr("seat is kept"));
+  EXPECT_THAT(say_hello(second, kSecondHello, "busy"), HasSubstr("busy"));
   PageClient again(port());
-  again.send(kHello);
-  EXPECT_THAT(again.wait_for_type("welcome"), HasSubstr("\"running\":true"));
-  again.vanish();
-  std::this_thread::sleep_for(600ms);
-  second.send(kSecondHello);
-  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  EXPECT_THAT(say_hello(again, kHello, "welcome"), Not(HasSubstr("\"exercise\":0}")));
+  EXPECT_THAT(say_hello(second, kSecondHello, "busy"), HasSubstr("Another page operates"));
   EXPECT_EQ(records_->list().size(), 0U);
-  second.send(kStart);
-  wait_for_attempts(1);
-  EXPECT_EQ(records_->find(1)->summary.outcome, records::Outcome::Unfinished);
 }
 
 TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsPictures) {
@@ -243,42 +249,92 @@ TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsPictures) {
   const auto is_picture = [](const auto& frame) { return frame.is_binary; };
   const auto picture = page->wait_for(is_picture);
   ASSERT_TRUE(picture.has_value());
-  const Json before = wait_for_snapshot(*page, [](const Json&) { return true; });
   page->vanish();
-  std::this_thread::sleep_for(1500ms);  // time stands still meanwhile
   PageClient again(port());
-  again.send(kHello);
-  EXPECT_THAT(again.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  EXPECT_THAT(say_hello(again, kHello, "welcome"), Not(HasSubstr("\"exercise\":0}")));
   const auto shown = again.wait_for(is_picture);
   ASSERT_TRUE(shown.has_value());
   EXPECT_EQ(shown->content, picture->content);
-  const Json now = wait_for_snapshot(again, [](const Json&) { return true; });
-  EXPECT_GE(now["tick"], before["tick"]);
-  EXPECT_LT(now["tick"].get<int>() - before["tick"].get<int>(), 1300);
-  (void)wait_for_snapshot(again, [&](const Json& s) { return s["tick"] > now["tick"]; });
+  // Time stands still until the page goes on.
+  const auto is_paused = [](const Json& s) { return bool(s["paused"]); };
+  (void)wait_for_snapshot(again, is_paused);
+  const Json before = wait_for_snapshot(again, is_paused);
+  std::this_thread::sleep_for(400ms);
+  again.send(kGoOn);
+  const Json after = wait_for_snapshot(again, [](const Json& s) { return !s["paused"]; });
+  EXPECT_LT(after["tick"].get<int>() - before["tick"].get<int>(), 300);
+  (void)wait_for_snapshot(again, [&](const Json& s) { return s["tick"] > after["tick"]; });
   again.send(R"({"type":"finish"})");
   EXPECT_EQ(Json::parse(again.wait_for_type("score"))["attempt_id"], 1);
+}
+
+TEST_F(StationTest, DriverOfALostPageIsOffWhenItComesBack) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->send(R"({"type":"tool","sequence":2,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],)"
+             R"("thrust_n":5,"driver":"forward"})");
+  std::this_thread::sleep_for(20ms);
+  page->vanish();
+  PageClient again(port());
+  (void)say_hello(again, kHello, "welcome");
+  again.send(kGoOn);
+  (void)wait_for_snapshot(again, [](const Json& s) { return s["tick"] > 300; });
+  again.send(R"({"type":"finish"})");
+  (void)again.wait_for_type("score");
+  const auto attempt = records_->find(1);
+  ASSERT_TRUE(attempt.has_value());
+  const auto decoded = simulation::decode(attempt->recording);
+  ASSERT_TRUE(decoded.has_value());
+  ASSERT_FALSE(decoded->runs.empty());
+  const auto& last = decoded->runs.back().input;
+  EXPECT_EQ(last.driver, simulation::Driver::Off);
+  EXPECT_EQ(last.thrust_n, 0.0);
 }
 
 TEST_F(StationTest, PageThatComesBackBeforeItsOldConnectionIsKnownDeadGetsItsSeat) {
   auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   PageClient twin(port());
-  twin.send(kHello);
-  EXPECT_THAT(twin.wait_for_type("busy"), HasSubstr("Another page operates"));
-  std::this_thread::sleep_for(1300ms);  // the old connection answers no ping
-  twin.send(kHello);
-  EXPECT_THAT(twin.wait_for_type("welcome"), HasSubstr("\"running\":true"));
+  // The old connection answers no ping from now on.
+  EXPECT_THAT(say_hello(twin, kHello, "welcome"), Not(HasSubstr("\"exercise\":0}")));
   EXPECT_TRUE(page->wait_until_closed());
-  (void)wait_for_snapshot(twin, [](const Json& s) { return s["tick"] > 20; });
+  twin.send(kGoOn);
+  (void)wait_for_snapshot(twin, [](const Json& s) { return !s["paused"] && s["tick"] > 20; });
 }
 
 class ImpatientStationTest : public StationTest {
  protected:
-  [[nodiscard]] StationPatience patience() const override { return {100ms, 200ms}; }
+  [[nodiscard]] StationPatience patience() const override { return {50ms, 600s}; }
 };
 
-TEST_F(ImpatientStationTest, PageThatDoesNotComeBackLeavesAnUnfinishedAttemptThatReplays) {
+TEST_F(ImpatientStationTest, SeatLapsesButItsOwnerGetsItBackUntilAnotherActs) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->vanish();
+  PageClient second(port());
+  const std::string offered = say_hello(second, kSecondHello, "welcome");
+  EXPECT_THAT(offered, Not(HasSubstr("\"exercise\":0}")));
+  PageClient again(port());
+  EXPECT_EQ(say_hello(again, kHello, "welcome"), offered);
+  EXPECT_TRUE(second.wait_until_closed());
+  again.vanish();
+  PageClient third(port());
+  EXPECT_EQ(say_hello(third, kSecondHello, "welcome"), offered);
+  third.send(kStart);
+  EXPECT_NE(third.wait_for_type("welcome"), offered);
+  wait_for_attempts(1);
+  EXPECT_EQ(records_->find(1)->summary.outcome, records::Outcome::Unfinished);
+  PageClient late(port());
+  late.send(kHello);
+  EXPECT_THAT(late.wait_for_type("busy"), HasSubstr("Another page operates"));
+}
+
+class ForgetfulStationTest : public StationTest {
+ protected:
+  [[nodiscard]] StationPatience patience() const override { return {50ms, 100ms}; }
+};
+
+TEST_F(ForgetfulStationTest, PageThatDoesNotComeBackLeavesAnUnfinishedAttemptThatReplays) {
   auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   page->vanish();
@@ -290,8 +346,7 @@ TEST_F(ImpatientStationTest, PageThatDoesNotComeBackLeavesAnUnfinishedAttemptTha
   ASSERT_TRUE(decoded.has_value());
   EXPECT_TRUE(simulation::replay(wrist(), *decoded).hash_matches);
   PageClient second(port());
-  second.send(kSecondHello);
-  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"running\":false"));
+  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0}"));
 }
 
 TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {
@@ -301,7 +356,7 @@ TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {
   wait_for_attempts(1);
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] < 20; });
   stop();
-  station_->store_running();
+  station_.reset();
   EXPECT_EQ(records_->list().size(), 2U);
 }
 

@@ -340,6 +340,12 @@ async function goesWrong(browser, station, problems) {
       await operator.until((s) => s.tick > tick + 100, "ticks after the loss");
     },
   );
+  await check(page, "after a reload the operation waits to go on", async () => {
+    const { tick } = await operator.snapshot();
+    await page.reload();
+    await page.getByRole("button", { name: "Go on" }).click();
+    await operator.until((s) => s.tick > tick + 100, "ticks after the reload");
+  });
   await check(
     page,
     "a lost connection freezes the scene and says so",

@@ -127,9 +127,15 @@ export class CArmPanel {
     this.redrawStrip();
   }
 
-  /** Pictures that are here already come again after a lost connection. */
+  /** After a lost connection the last pictures come again: each takes its own place. */
   add(picture: CArmPicture): void {
-    if (this.pictures.some((known) => known.shot === picture.shot)) return;
+    const known = this.pictures.findIndex((one) => one.shot === picture.shot);
+    if (known >= 0) {
+      this.pictures[known] = picture;
+      this.redraw();
+      this.redrawStrip();
+      return;
+    }
     this.pictures.push(picture);
     if (this.pictures.length > HISTORY) this.pictures.shift();
     this.shown = this.pictures.length - 1;

@@ -31,7 +31,7 @@ class FakeSocket implements Socket {
   }
 }
 
-const welcome = JSON.stringify({ type: "welcome", protocol: 1, program: "carpus", running: false });
+const welcome = JSON.stringify({ type: "welcome", protocol: 2, program: "carpus", exercise: 0 });
 
 describe("HostLink", () => {
   let sockets: FakeSocket[];

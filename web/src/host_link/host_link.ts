@@ -36,7 +36,7 @@ export interface Socket {
 
 const FIRST_RETRY_MS = 500;
 const LONGEST_RETRY_MS = 5000;
-const BUSY_RETRY_MS = 3000;
+const BUSY_RETRY_MS = 1500;
 const OPEN = 1;
 
 export class HostLink {

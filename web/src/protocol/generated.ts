@@ -91,13 +91,14 @@ export type PageMessage =
   | FinishMessage
   | PauseMessage;
 
-/** Answer to hello. When an exercise runs, its pictures follow. */
+/** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. After hello a running exercise is paused until the page goes on with it, and its pictures follow. */
 export interface WelcomeMessage {
   readonly type: "welcome";
   /** 1 to 1000 */
   readonly protocol: number;
   readonly program: string;
-  readonly running: boolean;
+  /** 0 to 9007199254740991 */
+  readonly exercise: number;
 }
 
 /** State, about 60 times a second while an exercise runs. */
@@ -401,7 +402,7 @@ const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
   welcome: {
     protocol: {"type": "integer", "min": 1, "max": 1000},
     program: {"type": "string", "max_length": 64},
-    running: {"type": "boolean"},
+    exercise: {"type": "integer", "min": 0, "max": 9007199254740991},
   },
   snapshot: {
     tick: {"type": "integer", "min": 0, "max": 9007199254740991},

@@ -39,7 +39,7 @@ export class StartDialog {
   constructor(
     description: CaseDescription,
     onStart: (choice: StartChoice) => void,
-    onResume: () => void,
+    onResume: (choice: StartChoice) => void,
   ) {
     this.name = make("input", {
       type: "text",
@@ -50,7 +50,9 @@ export class StartDialog {
       value: rememberedName(),
     });
     this.start = make("button.primary", { type: "submit" }, "Start");
-    this.resume = button("Go on with the running exercise", "", onResume);
+    this.resume = button("Go on with the running exercise", "", () => {
+      onResume(this.choice());
+    });
     this.resume.hidden = true;
     const form = make(
       "form",
@@ -81,9 +83,7 @@ export class StartDialog {
     );
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const trainee = this.name.value.trim();
-      rememberName(trainee);
-      onStart({ trainee });
+      onStart(this.choice());
     });
     this.element = make("dialog.start", { "aria-labelledby": "start-title" }, form);
     // Escape has nothing to go back to.
@@ -112,9 +112,20 @@ export class StartDialog {
     );
   }
 
+  private choice(): StartChoice {
+    const trainee = this.name.value.trim();
+    rememberName(trainee);
+    return { trainee };
+  }
+
   open(): void {
-    if (!this.element.open) this.element.showModal();
-    this.name.focus();
+    if (this.element.open) return;
+    this.element.showModal();
+    this.nextStep().focus();
+  }
+
+  private nextStep(): HTMLElement {
+    return this.resume.hidden ? this.name : this.resume;
   }
 
   close(): void {
@@ -128,7 +139,13 @@ export class StartDialog {
     this.note.hidden = note === "";
   }
 
+  /** Going on comes before starting anew. */
   offerResume(on: boolean): void {
+    if (this.resume.hidden === !on) return;
     this.resume.hidden = !on;
+    this.resume.classList.toggle("primary", on);
+    this.start.classList.toggle("primary", !on);
+    setText(this.start, on ? "Start anew" : "Start");
+    if (this.element.open) this.nextStep().focus();
   }
 }

@@ -120,6 +120,10 @@ export class Theatre {
     this.controls.addEventListener("change", () => {
       this.stale = true;
     });
+    // A lost context comes back empty.
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.stale = true;
+    });
     this.lookFrom("dorsal");
     host.append(this.canvas, this.names.canvas);
     this.observer = new ResizeObserver(() => {

@@ -159,11 +159,14 @@ export class Hand {
     this.handlers.say(`Push of the hand: ${this.thrustN} N`);
   }
 
-  /** @return whether the key is one of the hand's. */
-  keyDown(press: KeyPress, nowMs: number): boolean {
+  /**
+   * @param repeats  the key was down before: held through a lost connection it does not drive on
+   * @return whether the key is one of the hand's
+   */
+  keyDown(press: KeyPress, nowMs: number, repeats: boolean): boolean {
     const action = heldAction(press);
     if (action === undefined) return false;
-    if (!this.enabled || this.held.has(press.code)) return true;
+    if (!this.enabled || repeats || this.held.has(press.code)) return true;
     const hint = this.hint(action.kind);
     if (hint !== undefined) {
       this.handlers.say(hint);

@@ -60,7 +60,7 @@ function keyDown({ hand, act, closeHelp }: KeyHandlers, event: KeyboardEvent): v
   const target = event.target instanceof HTMLElement ? event.target : undefined;
   if (target instanceof HTMLInputElement) return;
   if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
-  if (hand.keyDown(press, performance.now())) {
+  if (hand.keyDown(press, performance.now(), event.repeat)) {
     event.preventDefault();
     return;
   }

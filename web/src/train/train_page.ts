@@ -24,6 +24,7 @@ import { ConfirmDialog } from "./confirm_dialog";
 import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
 import { Notice } from "./notice";
+import { Participation } from "./participation_model";
 import { ScrewList } from "./screw_list";
 import { StepPanel } from "./step_panel";
 import { TopBar } from "./top_bar";
@@ -59,13 +60,15 @@ export class TrainPage {
   private readonly tray: ScrewList;
   private readonly views: ViewBar;
   private readonly finishQuestion: ConfirmDialog;
-  private readonly restartQuestion: ConfirmDialog;
+  private readonly anewQuestion: ConfirmDialog;
   private readonly notice = new Notice();
   private readonly frozen = make("p.frozen", { role: "alert" });
   private readonly abort = new AbortController();
   private latest: SnapshotMessage | undefined;
-  private running = false;
+  private readonly part = new Participation();
+  private pausedByHand = false;
   private trainee = "";
+  private wanted: StartChoice = { trainee: "" };
   private sequence = 0;
   private view: ViewId = "dorsal";
   private readonly readingsTimer: number;
@@ -98,7 +101,8 @@ export class TrainPage {
         this.act({ kind: "undo" });
       },
       restart: () => {
-        this.restartQuestion.ask();
+        this.wanted = { trainee: this.trainee };
+        this.anewQuestion.ask();
       },
       finish: () => {
         this.act({ kind: "finish" });
@@ -112,10 +116,12 @@ export class TrainPage {
     this.start = new StartDialog(
       description,
       (choice) => {
-        this.begin(choice);
+        this.wanted = choice;
+        if (this.part.isOffered) this.anewQuestion.ask();
+        else this.begin(choice);
       },
-      () => {
-        this.resume();
+      (choice) => {
+        this.resume(choice);
       },
     );
     this.tray = new ScrewList(screws, (screw) => {
@@ -129,12 +135,12 @@ export class TrainPage {
         this.tell({ type: "finish" });
       },
     );
-    this.restartQuestion = new ConfirmDialog(
+    this.anewQuestion = new ConfirmDialog(
       "Start anew?",
       "What was done so far is stored as unfinished.",
       "Start anew",
       () => {
-        this.begin({ trainee: this.trainee });
+        this.begin(this.wanted);
       },
     );
     this.views = new ViewBar({
@@ -171,7 +177,7 @@ export class TrainPage {
       this.help.element,
       this.tray.element,
       this.finishQuestion.element,
-      this.restartQuestion.element,
+      this.anewQuestion.element,
     );
     const frames = makeFrameMap(description.wrist_from_patient);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
@@ -285,7 +291,7 @@ export class TrainPage {
         this.tell({ type: "undo" });
         break;
       case "finish":
-        if (this.running) this.finishQuestion.ask();
+        if (this.part.operates) this.finishQuestion.ask();
         break;
       case "pause":
         this.togglePause();
@@ -346,25 +352,56 @@ export class TrainPage {
       seed: crypto.getRandomValues(new Uint32Array(1))[0] ?? 1,
     });
     if (!sent) return;
-    this.start.close();
-    this.running = true;
-    this.steps.clearLog();
-    this.arm.clear();
+    this.part.ask();
+    this.pausedByHand = false;
+    this.forget();
     this.say("Press ? for mouse and keys.");
+    this.enter();
+  }
+
+  private resume(choice: StartChoice): void {
+    this.trainee = choice.trainee;
+    this.part.goOn();
+    this.pausedByHand = false;
+    if (this.latest !== undefined) this.hand.takeOver(this.latest);
+    this.goOn();
+    this.enter();
+  }
+
+  /** The page operates from now on. */
+  private enter(): void {
+    this.start.offerResume(false);
+    this.start.close();
     this.hand.setEnabled(true);
     this.theatre.canvas.focus({ preventScroll: true });
   }
 
-  private resume(): void {
-    this.running = true;
-    this.start.close();
-    if (this.latest !== undefined) this.hand.takeOver(this.latest);
-    this.hand.setEnabled(true);
-    this.theatre.canvas.focus({ preventScroll: true });
+  /** The page does not operate any more; `note` says why. */
+  private leave(note: string): void {
+    this.hand.setEnabled(false);
+    this.frozen.hidden = true;
+    for (const { element } of [this.finishQuestion, this.anewQuestion, this.tray, this.help])
+      element.close();
+    this.start.offerResume(this.part.isOffered);
+    this.start.setReady(true, note);
+    this.start.open();
+  }
+
+  /** What was seen of an exercise that is over. */
+  private forget(): void {
+    this.steps.clearLog();
+    this.arm.clear();
+  }
+
+  /** The host lets time pass again, unless the trainee had stopped it. */
+  private goOn(): void {
+    this.tell({ type: "pause", on: this.pausedByHand });
   }
 
   private togglePause(): void {
-    if (this.latest !== undefined) this.tell({ type: "pause", on: !this.latest.paused });
+    if (this.latest === undefined || !this.part.operates) return;
+    this.pausedByHand = !this.latest.paused;
+    this.tell({ type: "pause", on: this.pausedByHand });
   }
 
   private tell(message: PageMessage): void {
@@ -380,15 +417,15 @@ export class TrainPage {
         : state === "lost"
           ? "The connection is lost; the scene is frozen. Trying again by itself…"
           : "";
-    if (state === "busy" && this.running) {
-      this.running = false;
-      this.start.open();
+    if (!open) {
+      this.part.lose();
+      this.start.offerResume(false);
     }
-    this.frozen.hidden = open || !this.running;
+    this.frozen.hidden = open || !this.part.operates;
     setText(this.frozen, text);
     this.top.showLink(state === "lost" ? "not connected" : state === "busy" ? "busy" : "");
     this.start.setReady(open, open ? "" : text);
-    this.hand.setEnabled(open && this.running);
+    this.hand.setEnabled(open && this.part.operates);
   }
 
   private receive(message: HostMessage): void {
@@ -400,7 +437,7 @@ export class TrainPage {
         this.steps.addLog(message.tick, message.text);
         break;
       case "score":
-        this.running = false;
+        this.part.finish();
         location.hash = `#/attempts/${message.attempt_id}`;
         break;
       case "error":
@@ -409,25 +446,41 @@ export class TrainPage {
         );
         break;
       case "welcome":
-        this.come(message.running);
+        this.arrive(message.exercise);
         break;
       case "busy":
         break;
     }
   }
 
-  /** The host takes this page, for the first time or again. */
-  private come(exerciseRuns: boolean): void {
-    this.start.offerResume(exerciseRuns && !this.running);
-    if (!this.running) return;
-    if (exerciseRuns) {
-      this.say("Connected again: the operation goes on where it was.");
-      return;
+  /** The host takes this page, for the first time or again, or has begun what it asked for. */
+  private arrive(exercise: number): void {
+    const arrival = this.part.arrive(exercise);
+    switch (arrival) {
+      case "begun":
+        // Pictures of the exercise before may have come after the request.
+        this.forget();
+        break;
+      case "goes_on":
+        this.goOn();
+        this.say("Connected again: the operation goes on where it was.");
+        break;
+      case "ended":
+        this.leave("The operation has ended; it is among the past attempts.");
+        break;
+      case "replaced":
+        this.forget();
+        this.leave(
+          "The operation has ended; it is among the past attempts. Another one waits here.",
+        );
+        break;
+      case "offered":
+        this.leave("An operation waits to go on where it was.");
+        break;
+      case "free":
+        this.leave("");
+        break;
     }
-    this.running = false;
-    this.hand.setEnabled(false);
-    this.start.setReady(true, "The operation has ended; it is among the past attempts.");
-    this.start.open();
   }
 
   private takeSnapshot(s: SnapshotMessage): void {
