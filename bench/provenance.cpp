@@ -5,6 +5,8 @@
 #include <fstream>
 #include <thread>
 
+#include "commit.hpp"  // written by the build
+
 namespace carpus::bench {
 
 Provenance provenance() {

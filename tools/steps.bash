@@ -28,16 +28,19 @@ require_debian_12() {
     say "note: Carpus is built and tested on Debian 12; this is '${id:-unknown} ${version:-}'. Going on."
 }
 
-# build_targets PRESET TARGET...: configures the preset if that was never done, then builds.
+# build_targets PRESET TARGET...: configures the preset if that was never done or packages came since
+# (a library that was missing may be there now), then builds.
 build_targets() {
   local preset=$1
   shift
-  if [ ! -f "build/$preset/build.ninja" ]; then
+  local configured=build/$preset/.configured
+  if [ ! -f "$configured" ] || [ /var/lib/dpkg/status -nt "$configured" ]; then
     mkdir -p build
     cmake --preset "$preset" >"build/configure-$preset.log" 2>&1 || {
       tail -n 30 "build/configure-$preset.log" >&2
       fail "configuring the build failed; the reason is above."
     }
+    touch "$configured"
   fi
   cmake --build "build/$preset" --target "$@" || fail "the build failed; the first error is above."
 }
