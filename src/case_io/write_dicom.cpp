@@ -10,6 +10,8 @@
 #include <bit>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -172,18 +174,21 @@ void write_slice(const fs::path& file,
                  const Series& series,
                  int slice,
                  std::span<const std::int16_t> hu) {
+  // Into memory first: where the disk is full, GDCM as Debian builds it aborts or does not notice.
+  std::ostringstream bytes;
   gdcm::Writer writer;
-  writer.SetFileName(file.string().c_str());
+  writer.SetStream(bytes);
   gdcm::File& content = writer.GetFile();
   content.GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
   Elements elements(content.GetDataSet());
   add_identity(elements, series, slice);
   add_geometry(elements, series, slice);
   add_pixels(elements, series, hu);
-  const bool is_written = writer.Write();
-  std::error_code error;
-  const auto size = fs::file_size(file, error);  // GDCM's stream may fail on closing, unseen
-  if (!is_written || error || size < hu.size_bytes()) throw_cannot_write(file);
+  const bool is_encoded = writer.Write();
+  std::ofstream out(file, std::ios::binary);
+  out << bytes.view();
+  out.close();
+  if (!is_encoded || !out) throw_cannot_write(file);
 }
 
 Series series_for(const GridView<const std::int16_t>& ct, const DicomDescription& description) {
