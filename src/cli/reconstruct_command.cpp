@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,6 +21,7 @@
 #include "core/version.hpp"
 #include "reconstruct/reconstruct_case.hpp"
 #include "reconstruct/reconstruction_report.hpp"
+#include "records/atomic_file.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -96,13 +96,6 @@ std::string source_in_words(const Arguments& a, const GridGeometry& g, bool simu
   return text.data();
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.flush();
-  if (!out) throw IoError(file.string() + ": could not be written; check the folder and the disk");
-}
-
 void run(const Arguments& a) {
   check_target(a);
   const auto started = reconstruct::StageClock::Clock::now();
@@ -133,10 +126,11 @@ void run(const Arguments& a) {
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
   const reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice);
-  if (!a.json.empty()) write_text(a.json, reconstruct::json_of(report));
   std::fputs(reconstruct::text_of(report).c_str(), stdout);
   std::printf("case: %s%s\n", a.out.string().c_str(),
               options.provenance.simulated ? " (simulated)" : "");
+  // After minutes of work the figures are on the terminal even where the file cannot be written.
+  if (!a.json.empty()) records::write_file_atomically(a.json, reconstruct::json_of(report));
 }
 
 }  // namespace
