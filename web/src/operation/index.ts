@@ -4,3 +4,4 @@
 // What the trainee can do and what comes next.
 export * from "./key_map";
 export * from "./step_guide";
+export * from "./tick_text";

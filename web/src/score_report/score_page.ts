@@ -8,6 +8,8 @@ import { fetchCase, fetchJson } from "../case_data";
 import { button, make } from "../dom";
 import type { CaseDescription, Json } from "../protocol";
 import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
+import { eventList } from "./event_list";
+import { parseEvents } from "./events_model";
 import { itemPicture } from "./item_picture";
 import { placementPictures } from "./placement_pictures";
 import {
@@ -99,7 +101,8 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
     ),
   );
   if (report === undefined) {
-    main.replaceChildren(head, make("p", {}, "This attempt was not finished: there is no score."));
+    const why = make("p", {}, "This attempt was not finished: there is no score.");
+    main.replaceChildren(head, why, eventList(parseEvents(json)));
     return;
   }
   const pictures = make("div.placement", { role: "group", "aria-label": "Placement" });
@@ -107,6 +110,7 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
     head,
     make("section.verdict-row", {}, verdict(report), pictures),
     table(report),
+    eventList(parseEvents(json)),
     make(
       "p.secondary.score-foot",
       {},

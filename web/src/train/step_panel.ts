@@ -3,7 +3,7 @@
 //
 // The steps: the current one in a sentence with its key, the rest by name.
 import { make, setText } from "../dom";
-import { isCompleted, STEPS, type StepText } from "../operation";
+import { isCompleted, STEPS, tickText, type StepText } from "../operation";
 import type { SnapshotMessage } from "../protocol";
 
 const MAX_LOG_LINES = 40;
@@ -68,10 +68,7 @@ export class StepPanel {
   }
 
   addLog(tickMs: number, text: string): void {
-    const seconds = tickMs / 1000;
-    const minutes = Math.floor(seconds / 60);
-    const time = `${minutes}:${(seconds - 60 * minutes).toFixed(1).padStart(4, "0")}`;
-    this.log.append(make("li", {}, make("time", {}, time), text));
+    this.log.append(make("li", {}, make("time", {}, tickText(tickMs)), text));
     while (this.log.childElementCount > MAX_LOG_LINES) this.log.firstElementChild?.remove();
     this.log.scrollTop = this.log.scrollHeight;
   }
