@@ -167,11 +167,17 @@ Grid<std::uint8_t> read_labels(const fs::path& file) {
   return with_canonical_axes(std::move(grid));
 }
 
-std::vector<SeriesSummary> list_series(const fs::path& folder) {
-  check_exists(folder);
-  std::vector<SeriesSummary> summaries;
-  for (DicomSeries& s : scan_dicom(folder)) summaries.push_back(std::move(s.summary));
-  return summaries;
+std::string read_description(const fs::path& input, const std::string& series_uid) {
+  check_exists(input);
+  ReadOptions options;
+  options.series_uid = series_uid;
+  if (fs::is_directory(input)) {
+    std::vector<DicomSeries> all = scan_dicom(input);
+    if (all.empty()) return description_of_volume_file(find_volume_file(input));
+    return choose_series(std::move(all), input, options).summary.description;
+  }
+  if (looks_like_dicom(input)) return series_of_file(input, options).summary.description;
+  return description_of_volume_file(input);
 }
 
 }  // namespace carpus::case_io

@@ -48,7 +48,10 @@ struct ReadOptions {
 /// @throws as read_ct; InvalidInput too where a value is not a whole number from 0 to 255.
 [[nodiscard]] Grid<std::uint8_t> read_labels(const std::filesystem::path& file);
 
-/// The DICOM series under a folder, most slices first, then by UID.
-[[nodiscard]] std::vector<SeriesSummary> list_series(const std::filesystem::path& folder);
+/// What the scan that read_ct would read says about itself: the SeriesDescription of DICOM, NIfTI's
+/// `descrip`, the field ITK_FileNotes of NRRD and MetaImage. May be empty.
+/// @throws as read_ct where there is nothing to choose from.
+[[nodiscard]] std::string read_description(const std::filesystem::path& input,
+                                           const std::string& series_uid = {});
 
 }  // namespace carpus::case_io

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_io/write_volume.hpp"
 
+#include <itkIOCommon.h>
+#include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
@@ -12,15 +14,21 @@
 #include "case_io/detail/disk_space.hpp"
 #include "case_io/detail/itk_image.hpp"
 #include "case_io/detail/nifti_check.hpp"
+#include "case_io/detail/nifti_description.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
 namespace fs = std::filesystem;
 namespace {
 
+bool is_nifti(const fs::path& file) {
+  const std::string name = file.string();
+  return name.ends_with(".nii") || name.ends_with(".nii.gz");
+}
+
 itk::ImageIOBase::Pointer volume_writer_for(const std::string& name) {
   const std::string_view n = name;
-  if (n.ends_with(".nii") || n.ends_with(".nii.gz")) return itk::NiftiImageIO::New().GetPointer();
+  if (is_nifti(name)) return itk::NiftiImageIO::New().GetPointer();
   if (n.ends_with(".nrrd")) return itk::NrrdImageIO::New().GetPointer();
   if (n.ends_with(".mha")) return itk::MetaImageIO::New().GetPointer();
   throw InvalidInput(name + ": has no ending that volumes are written to (.nii.gz, .nrrd, .mha)");
@@ -56,7 +64,7 @@ template <typename T>
 bool reads_back(const fs::path& file, const GridView<const T>& volume) {
   try {
     const itk::ImageIOBase::Pointer io = volume_writer_for(file.string());
-    if (file.string().find(".nii") != std::string::npos) check_nifti_is_whole(file);
+    if (is_nifti(file)) check_nifti_is_whole(file);
     const GridGeometry g = read_geometry(*io, file);
     if (g.size != volume.geometry().size) return false;
     std::vector<T> values(g.voxel_count());
@@ -68,25 +76,62 @@ bool reads_back(const fs::path& file, const GridView<const T>& volume) {
   }
 }
 
-}  // namespace
-
 template <typename T>
-void write_volume(const fs::path& file, const GridView<const T>& volume) {
-  itk::Object::SetGlobalWarningDisplay(false);
+void write_by_itk(const fs::path& file,
+                  const GridView<const T>& volume,
+                  const std::string& description) {
   const itk::ImageIOBase::Pointer io = volume_writer_for(file.string());
   try {
     io->SetFileName(file.string());
     describe<T>(*io, volume.geometry());
+    if (!description.empty()) {
+      itk::EncapsulateMetaData(io->GetMetaDataDictionary(), itk::ITK_FileNotes, description);
+    }
     io->SetUseCompression(file.string().ends_with(".gz"));
     io->Write(volume.values().data());
   } catch (const itk::ExceptionObject&) {
     throw_cannot_write(file);
   }
+}
+
+/// By way of a file beside it, which vanishes.
+template <typename T>
+void write_described_nifti(const fs::path& file,
+                           const GridView<const T>& volume,
+                           const std::string& description) {
+  struct Undescribed {
+    fs::path file;
+    ~Undescribed() {
+      std::error_code ignored;
+      fs::remove(file, ignored);
+    }
+  };
+  const Undescribed first{file.parent_path() / ("undescribed_" + file.filename().string())};
+  write_by_itk(first.file, volume, {});
+  copy_nifti_with_description(first.file, file, description);
+}
+
+}  // namespace
+
+template <typename T>
+void write_volume(const fs::path& file,
+                  const GridView<const T>& volume,
+                  const std::string& description) {
+  itk::Object::SetGlobalWarningDisplay(false);
+  if (!description.empty() && is_nifti(file)) {
+    write_described_nifti(file, volume, description);
+  } else {
+    write_by_itk(file, volume, description);
+  }
   if (!reads_back(file, volume)) throw_cannot_write(file);
 }
 
-template void write_volume(const fs::path&, const GridView<const std::int16_t>&);
-template void write_volume(const fs::path&, const GridView<const std::uint8_t>&);
-template void write_volume(const fs::path&, const GridView<const float>&);
+template void write_volume(const fs::path&,
+                           const GridView<const std::int16_t>&,
+                           const std::string&);
+template void write_volume(const fs::path&,
+                           const GridView<const std::uint8_t>&,
+                           const std::string&);
+template void write_volume(const fs::path&, const GridView<const float>&, const std::string&);
 
 }  // namespace carpus::case_io

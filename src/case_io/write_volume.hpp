@@ -17,9 +17,13 @@ namespace carpus::case_io {
 /// Writes a volume as its ending says: .nii, .nii.gz, .nrrd (raw) or .mha (raw). T is int16_t,
 /// uint8_t or float. The file is read back and compared, because the NIfTI library does not report
 /// a full disk.
+/// @param description  what the file says about itself wherever it is copied (read_description):
+/// NIfTI's `descrip`, which holds 79 bytes, or a field of the header; none when empty.
 /// @throws IoError where the file cannot be written whole; what is there then is not to be used.
 template <typename T>
-void write_volume(const std::filesystem::path& file, const GridView<const T>& volume);
+void write_volume(const std::filesystem::path& file,
+                  const GridView<const T>& volume,
+                  const std::string& description = {});
 
 /// What a DICOM series says about itself. Never holds a person's data: this writer exists for
 /// simulated scans, and says so in every file.

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -17,6 +16,7 @@
 #include "case_io/case_folder.hpp"
 #include "case_io/read_volume.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/simulated_scan.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "reconstruct/reconstruct_case.hpp"
@@ -67,26 +67,6 @@ void check_target(const Arguments& a) {
   }
 }
 
-bool says_simulated(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text.find("simulated") != std::string::npos;
-}
-
-/// Simulated scans say so in their series description, or have their truth beside them.
-bool is_simulated(const Arguments& a) {
-  if (a.simulated) return true;
-  const fs::path folder = fs::is_directory(a.input) ? a.input : a.input.parent_path();
-  for (const fs::path& place : {folder, folder / ".."}) {
-    if (fs::exists(place / "truth.json")) return true;
-  }
-  if (!fs::is_directory(a.input)) return false;
-  const auto series = case_io::list_series(a.input);
-  return std::any_of(series.begin(), series.end(), [&](const case_io::SeriesSummary& s) {
-    return (a.series.empty() || s.uid == a.series) && says_simulated(s.description);
-  });
-}
-
 std::string source_in_words(const Arguments& a, const GridGeometry& g, bool simulated) {
   const bool volume_file = !fs::is_directory(a.input) && a.input.extension() != ".dcm";
   std::array<char, 160> text{};
@@ -110,7 +90,7 @@ void run(const Arguments& a) {
 
   reconstruct::ReconstructOptions options;
   options.pseudonym = a.pseudonym;
-  options.provenance.simulated = is_simulated(a);
+  options.provenance.simulated = a.simulated || is_simulated_scan(a.input, a.series);
   options.provenance.source = source_in_words(a, ct.geometry(), options.provenance.simulated);
   options.provenance.made_by = kProgramVersion;
   options.provenance.made_at = utc_now();

@@ -3,16 +3,21 @@
 #include "phantom/phantom.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "anatomy/wrist_model.hpp"
+#include "case_io/read_volume.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "phantom/write_phantom.hpp"
 
 namespace carpus::phantom {
 namespace {
@@ -196,6 +201,14 @@ TEST(Phantom, GivesTheSameBytesForASeedOnAnyNumberOfThreads) {
   other.seed = 2;
   const Phantom three = make_phantom(other);
   EXPECT_NE(three.wrist_from_patient, one.wrist_from_patient);
+}
+
+TEST(Phantom, NiftiSaysThatItIsSimulatedAwayFromItsTruth) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("carpus_phantom_" + std::to_string(::getpid()));
+  write_phantom(demo(), folder, CtFormat::Nifti);
+  EXPECT_EQ(case_io::read_description(folder / "ct.nii.gz"), "simulated wrist, seed 1");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Phantom, RefusesImpossibleOptions) {

@@ -102,14 +102,16 @@ void write_phantom(const Phantom& phantom,
                    case_io::Overwrite overwrite,
                    const Progress& progress) {
   case_io::AtomicFolder out(folder, overwrite);
+  const std::string description = "simulated wrist, seed " + std::to_string(phantom.options.seed);
   if (format == CtFormat::Dicom) {
     case_io::DicomDescription text;
-    text.series_description = "simulated wrist, seed " + std::to_string(phantom.options.seed);
+    text.series_description = description;
     text.side = phantom.options.side;
     text.seed = phantom.options.seed;
     case_io::write_dicom_series(out.staging() / "dicom", phantom.ct.view(), text, progress);
   } else {
-    case_io::write_volume<std::int16_t>(out.staging() / "ct.nii.gz", phantom.ct.view());
+    case_io::write_volume<std::int16_t>(out.staging() / "ct.nii.gz", phantom.ct.view(),
+                                        description);
   }
   case_io::write_volume<std::uint8_t>(out.staging() / "labels.nii.gz", phantom.labels.view());
   write_json(out.staging() / "labels.json", label_numbers(phantom));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_io/detail/volume_file.hpp"
 
+#include <itkIOCommon.h>
+#include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
@@ -12,6 +14,7 @@
 
 #include "case_io/detail/meta_image_check.hpp"
 #include "case_io/detail/nifti_check.hpp"
+#include "case_io/detail/nifti_description.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
@@ -25,9 +28,12 @@ bool ends_with(const fs::path& file, std::string_view ending) {
   return std::string_view(name).ends_with(ending);
 }
 
+bool is_nifti(const fs::path& file) {
+  return ends_with(file, ".nii") || ends_with(file, ".nii.gz");
+}
+
 itk::ImageIOBase::Pointer volume_reader_for(const fs::path& file) {
-  if (ends_with(file, ".nii") || ends_with(file, ".nii.gz"))
-    return itk::NiftiImageIO::New().GetPointer();
+  if (is_nifti(file)) return itk::NiftiImageIO::New().GetPointer();
   if (ends_with(file, ".nrrd") || ends_with(file, ".nhdr"))
     return itk::NrrdImageIO::New().GetPointer();
   if (ends_with(file, ".mha") || ends_with(file, ".mhd"))
@@ -39,6 +45,22 @@ itk::ImageIOBase::Pointer volume_reader_for(const fs::path& file) {
 
 bool is_volume_file(const fs::path& file) { return volume_reader_for(file).IsNotNull(); }
 
+std::string description_of_volume_file(const fs::path& file) {
+  if (is_nifti(file)) return read_nifti_description(file);
+  itk::Object::SetGlobalWarningDisplay(false);
+  const itk::ImageIOBase::Pointer io = volume_reader_for(file);
+  std::string description;
+  if (!io) return description;
+  try {
+    io->SetFileName(file.string());
+    io->ReadImageInformation();
+    itk::ExposeMetaData(io->GetMetaDataDictionary(), itk::ITK_FileNotes, description);
+  } catch (const itk::ExceptionObject&) {
+    // Whoever reads the volume is told what is wrong with it.
+  }
+  return description;
+}
+
 template <typename T>
 Grid<T> read_volume_file(const fs::path& file, ValueCount& count) {
   itk::Object::SetGlobalWarningDisplay(false);  // our messages say what to do
@@ -47,7 +69,7 @@ Grid<T> read_volume_file(const fs::path& file, ValueCount& count) {
     throw InvalidInput(file.string() + ": is none of the formats this program reads: " +
                        std::string(kKnownFormats) + "; convert it and open the result");
   }
-  if (ends_with(file, ".nii") || ends_with(file, ".nii.gz")) check_nifti_is_whole(file);
+  if (is_nifti(file)) check_nifti_is_whole(file);
   const GridGeometry geometry = read_geometry(*io, file);
   if (ends_with(file, ".mha") || ends_with(file, ".mhd")) {
     check_meta_image_is_whole(file, static_cast<std::uintmax_t>(io->GetImageSizeInBytes()));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "case_io/detail/itk_image.hpp"
@@ -17,6 +18,9 @@ inline constexpr std::string_view kKnownFormats =
 
 /// Whether the name ends like a volume file that can be read.
 [[nodiscard]] bool is_volume_file(const std::filesystem::path& file);
+
+/// What the file's header says about it; empty where it says nothing or cannot be read.
+[[nodiscard]] std::string description_of_volume_file(const std::filesystem::path& file);
 
 /// Reads geometry and values; T is int16_t, uint8_t or float.
 /// @throws IoError on missing, damaged or cut files; InvalidInput on other formats or unusable
