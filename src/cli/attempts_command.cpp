@@ -3,6 +3,7 @@
 #include "cli/attempts_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -37,21 +38,6 @@ void export_recording(const records::AttemptStore& store, const AttemptsArgument
               arguments.out.c_str());
 }
 
-void print_list(const std::vector<records::AttemptSummary>& attempts) {
-  std::printf("%6s  %-24s  %-20s  %-16s  %-8s  %8s  %7s  %s\n", "id", "started (UTC)", "trainee",
-              "case", "input", "seconds", "score", "state hash");
-  for (const records::AttemptSummary& attempt : attempts) {
-    const std::string score = attempt.overall ? std::to_string(*attempt.overall).substr(0, 5)
-                                              : std::string(name_of(attempt.outcome)).substr(0, 7);
-    std::printf("%6lld  %-24s  %-20.20s  %-16.16s  %-8.8s  %8.1f  %7.7s  %s\n",
-                static_cast<long long>(attempt.id), attempt.started_at.c_str(),
-                attempt.trainee.c_str(), attempt.case_name.c_str(), attempt.input_device.c_str(),
-                static_cast<double>(attempt.duration_ticks) / 1000.0, score.c_str(),
-                attempt.final_hash.c_str());
-  }
-  std::printf("%zu attempts\n", attempts.size());
-}
-
 void run(const AttemptsArguments& arguments) {
   if (!std::filesystem::exists(arguments.records)) {
     throw IoError(arguments.records + ": no such file; name the records with --records");
@@ -59,13 +45,34 @@ void run(const AttemptsArguments& arguments) {
   const records::AttemptStore store(arguments.records);
   if (arguments.export_id != 0) return export_recording(store, arguments);
   const auto attempts = store.list();
-  print_list(attempts);
+  std::fputs(attempts_table(attempts).c_str(), stdout);
   if (!arguments.json.empty()) {
     records::write_file_atomically(arguments.json, server::attempts_json(attempts, 2) + "\n");
   }
 }
 
 }  // namespace
+
+std::string attempts_table(const std::vector<records::AttemptSummary>& attempts) {
+  std::array<char, 256> line{};
+  std::snprintf(line.data(), line.size(), "%6s  %-24s  %-20s  %-28s  %-8s  %8s  %7s  %s\n", "id",
+                "started (UTC)", "trainee", "case", "input", "seconds", "score", "state hash");
+  std::string table = line.data();
+  for (const records::AttemptSummary& attempt : attempts) {
+    const std::string score = attempt.overall ? std::to_string(*attempt.overall).substr(0, 5)
+                                              : std::string(name_of(attempt.outcome)).substr(0, 7);
+    const std::string of_case =
+        attempt.case_name.substr(0, 16) + simulated_mark(attempt.case_simulated.value_or(false));
+    std::snprintf(line.data(), line.size(),
+                  "%6lld  %-24s  %-20.20s  %-28s  %-8.8s  %8.1f  %7.7s  %s\n",
+                  static_cast<long long>(attempt.id), attempt.started_at.c_str(),
+                  attempt.trainee.c_str(), of_case.c_str(), attempt.input_device.c_str(),
+                  static_cast<double>(attempt.duration_ticks) / 1000.0, score.c_str(),
+                  attempt.final_hash.c_str());
+    table += line.data();
+  }
+  return table + std::to_string(attempts.size()) + " attempts\n";
+}
 
 void add_attempts_command(CLI::App& app) {
   auto arguments = std::make_shared<AttemptsArguments>();

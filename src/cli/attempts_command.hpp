@@ -4,6 +4,11 @@
 // `carpus attempts`: lists what is in the records and takes recordings out of them.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "records/attempt.hpp"
+
 namespace CLI {
 class App;
 }
@@ -12,5 +17,8 @@ namespace carpus::cli {
 
 /// Registers the subcommand; its callback throws carpus::Error where it fails.
 void add_attempts_command(CLI::App& app);
+
+/// The list for people: one line an attempt.
+[[nodiscard]] std::string attempts_table(const std::vector<records::AttemptSummary>& attempts);
 
 }  // namespace carpus::cli

@@ -120,10 +120,10 @@ nlohmann::ordered_json figures_of(const cases::CaseData& posed_case, TickTimes t
           {"flags", build_flags()}};
 }
 
-void print(const nlohmann::ordered_json& f) {
-  std::printf("one simulation tick on '%s' (%d bones), %zu ticks of %d scripted operations\n",
-              f["case"].get<std::string>().c_str(), f["bones"].get<int>(),
-              f["ticks"].get<std::size_t>(), f["operations"].get<int>());
+void print(const cases::CaseData& posed_case, const nlohmann::ordered_json& f) {
+  std::printf("one simulation tick on %s (%d bones), %zu ticks of %d scripted operations\n",
+              in_words(posed_case).c_str(), f["bones"].get<int>(), f["ticks"].get<std::size_t>(),
+              f["operations"].get<int>());
   std::printf("%12s %12s %12s %12s %16s\n", "p50 us", "p99 us", "p99.9 us", "worst us",
               "ticks over 1 ms");
   std::printf("%12.2f %12.2f %12.2f %12.2f %16lld\n", f["p50_us"].get<double>(),
@@ -149,7 +149,7 @@ void run(const BenchTickArguments& arguments) {
             wanted, times);
   }
   const nlohmann::ordered_json figures = figures_of(posed_case, std::move(times));
-  print(figures);
+  print(posed_case, figures);
   if (!arguments.json.empty()) {
     records::write_file_atomically(arguments.json, figures.dump(2) + "\n");
   }

@@ -4,14 +4,36 @@
 
 #include <array>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "case_io/case_folder.hpp"
 #include "cases/posture.hpp"
 #include "core/error.hpp"
+#include "procedure/score_json.hpp"
 #include "records/atomic_file.hpp"
 
 namespace carpus::cli {
+
+namespace {
+
+std::string measured(const std::optional<double>& value, const char* unit) {
+  if (!value) return "not measured";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f %s", *value, unit);
+  return text.data();
+}
+
+std::string length_lines(const procedure::ScoreReport& report) {
+  return "central axis: " + measured(report.central_axis_length_mm, "mm") +
+         "\nlongest line through the bone: " + measured(report.longest_line_mm, "mm") +
+         ", angle to it: " + measured(report.angle_to_longest_line_deg, "deg") +
+         "\ntrue length along the wire: " + measured(report.true_length_mm, "mm") +
+         ", gauge reading: " + measured(report.gauge_reading_mm, "mm") + "\n";
+}
+
+}  // namespace
 
 cases::CaseData load_posed_case(const std::filesystem::path& folder) {
   cases::CaseData data = case_io::read_case(folder);
@@ -38,6 +60,12 @@ simulation::Replay replay_on_its_case(const cases::CaseData& posed_case,
   return replay;
 }
 
+std::string simulated_mark(bool is_simulated) { return is_simulated ? " (simulated)" : ""; }
+
+std::string in_words(const cases::CaseData& data) {
+  return "'" + data.pseudonym + "'" + simulated_mark(data.provenance.simulated);
+}
+
 std::string score_table(const procedure::ScoreReport& report) {
   std::string table;
   std::array<char, 512> line{};
@@ -50,12 +78,14 @@ std::string score_table(const procedure::ScoreReport& report) {
                   std::string(procedure::name_of(item.grade)).c_str(), item.points,
                   item.points_possible, item.target.c_str());
     add();
+    if (!item.reason.empty()) table += "    " + item.reason + "\n";
   }
   for (const procedure::MustHave& must : report.must_haves) {
     std::snprintf(line.data(), line.size(), "must have: %-60.60s %s\n", must.label.c_str(),
                   must.fulfilled ? "yes" : "NO");
     add();
   }
+  table += length_lines(report);
   std::snprintf(line.data(), line.size(), "screw chosen: %s, ideal: %s\n",
                 report.chosen_screw.empty() ? "none" : report.chosen_screw.c_str(),
                 report.ideal_screw.empty() ? "none" : report.ideal_screw.c_str());
@@ -64,6 +94,13 @@ std::string score_table(const procedure::ScoreReport& report) {
                 report.is_fixation_acceptable ? "acceptable" : "not acceptable");
   add();
   return table;
+}
+
+std::string score_file(const cases::CaseData& data, const procedure::ScoreReport& report) {
+  auto json = nlohmann::ordered_json::parse(procedure::score_json(report));
+  json["case"] = data.pseudonym;
+  json["case_simulated"] = data.provenance.simulated;
+  return json.dump(2) + "\n";
 }
 
 }  // namespace carpus::cli

@@ -30,7 +30,18 @@ inline constexpr const char* kDefaultRecords = "recordings/attempts.sqlite";
 [[nodiscard]] simulation::Replay replay_on_its_case(const cases::CaseData& posed_case,
                                                     const simulation::Recording& recording);
 
-/// The score for people: one line an item with value, target, grade, points and reason.
+/// " (simulated)" after the name of such a case, nothing after others.
+[[nodiscard]] std::string simulated_mark(bool is_simulated);
+
+/// How a verb names its case: "'demo wrist' (simulated)".
+[[nodiscard]] std::string in_words(const cases::CaseData& data);
+
+/// The score for people: two lines an item, with value, grade, points and target, then the reason;
+/// what must hold; the lengths in the scaphoid.
 [[nodiscard]] std::string score_table(const procedure::ScoreReport& report);
+
+/// The score report of docs/json.md with the case that it is about.
+[[nodiscard]] std::string score_file(const cases::CaseData& data,
+                                     const procedure::ScoreReport& report);
 
 }  // namespace carpus::cli

@@ -34,12 +34,15 @@ void run(const ReplayArguments& arguments) {
   const std::string recorded = server::hexadecimal(recording.end_hash);
   const std::string replayed = server::hexadecimal(replay.last.state_hash);
   const double simulated_s = static_cast<double>(recording.tick_count()) / 1000.0;
+  std::printf("operation on %s\n", in_words(posed_case).c_str());
   std::printf("recorded  %s  by %s, %.3f s simulated\n", recorded.c_str(),
               recording.program_version.c_str(), simulated_s);
   std::printf("replayed  %s  in %.3f s\n", replayed.c_str(), seconds);
   std::printf("%s\n", replay.hash_matches ? "the hashes match" : "THE HASHES DIFFER");
   if (!arguments.json.empty()) {
-    const nlohmann::ordered_json json{{"recorded_hash", recorded},
+    const nlohmann::ordered_json json{{"case", posed_case.pseudonym},
+                                      {"case_simulated", posed_case.provenance.simulated},
+                                      {"recorded_hash", recorded},
                                       {"replayed_hash", replayed},
                                       {"hash_matches", replay.hash_matches},
                                       {"recorded_by", recording.program_version},

@@ -9,7 +9,6 @@
 
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
-#include "procedure/score_json.hpp"
 #include "records/atomic_file.hpp"
 
 namespace carpus::cli {
@@ -32,10 +31,11 @@ void run(const ScoreArguments& arguments) {
         recording.program_version);
   }
   const procedure::ScoreReport report = procedure::score_operation(posed_case, replay.record);
+  std::printf("operation on %s\n", in_words(posed_case).c_str());
   if (!replay.last.finished) std::printf("The operation was not finished.\n");
   std::fputs(score_table(report).c_str(), stdout);
   if (!arguments.json.empty()) {
-    records::write_file_atomically(arguments.json, procedure::score_json(report, 2) + "\n");
+    records::write_file_atomically(arguments.json, score_file(posed_case, report));
   }
 }
 

@@ -13,7 +13,6 @@
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
-#include "procedure/score_json.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
 #include "records/utc_time.hpp"
@@ -58,9 +57,9 @@ void run(const SimulateArguments& arguments) {
       posed_case, trainee::skill_of(arguments.trainee).value(), arguments.seed, kProgramVersion);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  std::printf("scripted %s, seed %llu, on '%s': %.3f s simulated in %.2f s, state hash %s\n",
+  std::printf("scripted %s, seed %llu, on %s: %.3f s simulated in %.2f s, state hash %s\n",
               arguments.trainee.c_str(), static_cast<unsigned long long>(arguments.seed),
-              posed_case.pseudonym.c_str(),
+              in_words(posed_case).c_str(),
               static_cast<double>(attempt.recording.tick_count()) / 1000.0, seconds,
               server::hexadecimal(attempt.recording.end_hash).c_str());
   std::fputs(score_table(attempt.score).c_str(), stdout);
@@ -68,7 +67,7 @@ void run(const SimulateArguments& arguments) {
     records::write_file_atomically(arguments.out, simulation::encode(attempt.recording));
   }
   if (!arguments.json.empty()) {
-    records::write_file_atomically(arguments.json, procedure::score_json(attempt.score, 2) + "\n");
+    records::write_file_atomically(arguments.json, score_file(posed_case, attempt.score));
   }
   if (!arguments.records.empty()) store(posed_case, attempt, arguments, started_at);
   if (!attempt.last.finished) {
