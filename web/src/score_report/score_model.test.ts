@@ -3,7 +3,7 @@
 //
 // Whatever the host stored, the page shows what can be read and invents nothing.
 import { describe, expect, it } from "vitest";
-import { parseScore, valueText } from "./score_model";
+import { longestLineText, parseScore, valueText } from "./score_model";
 
 const item = {
   id: "angle_to_central_axis_deg",
@@ -45,6 +45,24 @@ describe("parseScore", () => {
     expect(score?.items.map((i) => i.id)).toEqual(["angle_to_central_axis_deg", "x"]);
     expect(score?.items[1]).toMatchObject({ value: undefined, grade: "not_measured" });
     expect(score?.placement).toBeUndefined();
+  });
+});
+
+describe("longestLineText", () => {
+  const line = (fields: object): string => {
+    const report = parseScore({ overall: 1, ...fields });
+    return report === undefined ? "no report" : longestLineText(report);
+  };
+  it("tells angle and length, and what was not measured", () => {
+    expect(line({ longest_line_mm: 27.46, angle_to_longest_line_deg: 6.25 })).toBe(
+      "To the longest line through the bone, 27.5 mm: 6.3°",
+    );
+    expect(line({ longest_line_mm: 27, angle_to_longest_line_deg: null })).toBe(
+      "To the longest line through the bone, 27.0 mm: not measured",
+    );
+  });
+  it("says nothing where the report has no such line", () => {
+    expect(line({ angle_to_longest_line_deg: 6.25 })).toBe("");
   });
 });
 

@@ -44,6 +44,8 @@ export interface ScoreReport {
   readonly mustHaves: readonly MustHave[];
   readonly items: readonly ScoreItem[];
   readonly axisLengthMm: number | undefined;
+  readonly longestLineMm: number | undefined;
+  readonly angleToLongestLineDeg: number | undefined;
   readonly cylinderRadiusMm: number | undefined;
   readonly trueLengthMm: number | undefined;
   readonly gaugeReadingMm: number | undefined;
@@ -142,6 +144,8 @@ export function parseScore(json: Json | undefined): ScoreReport | undefined {
     mustHaves,
     items: list(report["items"]).flatMap((entry) => itemOf(entry) ?? []),
     axisLengthMm: number(report["central_axis_length_mm"]),
+    longestLineMm: number(report["longest_line_mm"]),
+    angleToLongestLineDeg: number(report["angle_to_longest_line_deg"]),
     cylinderRadiusMm: number(report["central_cylinder_radius_mm"]),
     trueLengthMm: number(report["true_length_mm"]),
     gaugeReadingMm: number(report["gauge_reading_mm"]),
@@ -150,6 +154,16 @@ export function parseScore(json: Json | undefined): ScoreReport | undefined {
     penetrationAt: text(report["penetration_at"]),
     placement: placementOf(report["placement"]),
   };
+}
+
+/** What stands beside the angle to the central axis: the other line that a screw is judged by. */
+export function longestLineText(
+  report: Pick<ScoreReport, "longestLineMm" | "angleToLongestLineDeg">,
+): string {
+  const { longestLineMm: length, angleToLongestLineDeg: angle } = report;
+  if (length === undefined) return "";
+  const line = `the longest line through the bone, ${valueText({ value: length, unit: "mm" })}`;
+  return `To ${line}: ${valueText({ value: angle, unit: "deg" })}`;
 }
 
 /** A value with its unit, for people: "4.2 mm", "3", "2 min 5 s", "not measured". */

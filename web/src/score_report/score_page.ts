@@ -15,6 +15,7 @@ import { placementPictures } from "./placement_pictures";
 import {
   GRADE_SIGNS,
   GRADE_WORDS,
+  longestLineText,
   parseScore,
   valueText,
   type ScoreItem,
@@ -216,6 +217,7 @@ function table(report: ScoreReport): HTMLElement {
 
 function row(item: ScoreItem, report: ScoreReport): HTMLElement {
   const picture = itemPicture(item, report);
+  const besides = item.id === "angle_to_central_axis_deg" ? longestLineText(report) : "";
   const points =
     item.pointsPossible === 0
       ? ""
@@ -224,7 +226,12 @@ function row(item: ScoreItem, report: ScoreReport): HTMLElement {
     "tr",
     { "data-item": item.id },
     make("td.picture", {}, ...(picture === undefined ? [] : [picture])),
-    make("th", { scope: "row" }, item.label),
+    make(
+      "th",
+      { scope: "row" },
+      item.label,
+      ...(besides === "" ? [] : [make("div.secondary", {}, besides)]),
+    ),
     make("td.figure", {}, valueText(item)),
     make("td.secondary", {}, item.target),
     make(
