@@ -80,13 +80,11 @@ function row(attempt: AttemptSummary): HTMLElement {
     make(
       "td.figure",
       {},
-      score
-        ? make(
-            "a",
-            { href: `#/attempts/${attempt.id}` },
-            `${Math.round(attempt.overall ?? 0)} of 100`,
-          )
-        : make("span.secondary", {}, "not finished"),
+      make(
+        score ? "a" : "a.secondary",
+        { href: `#/attempts/${attempt.id}` },
+        score ? `${Math.round(attempt.overall ?? 0)} of 100` : "not finished",
+      ),
     ),
   );
 }
