@@ -26,6 +26,10 @@ namespace {
 using Neighbours = std::vector<std::array<std::uint32_t, 3>>;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+/// Squared lengths of normals between these come from products that neither under- nor overflowed.
+constexpr double kLeastSquare = 1e-200;
+constexpr double kLargestSquare = 1e200;
+
 std::size_t edge_towards(const std::array<std::uint32_t, 3>& neighbours, std::uint32_t facet) {
   return neighbours[0] == facet ? 0 : (neighbours[1] == facet ? 1 : 2);
 }
@@ -167,12 +171,18 @@ std::vector<Triangle> triangulate_faces(std::size_t point_count,
 Plane facet_plane(const Vec3& a, const Vec3& b, const Vec3& c, bool contains_corners) {
   const Vec3 u = b - a;
   const Vec3 v = c - a;
-  const auto size_of = [](const Vec3& d) {
-    return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-  };
   Plane plane;
-  const Vec3 normal = cross(u / size_of(u), v / size_of(v));
-  plane.normal = normalized_or(normal / size_of(normal), {0, 0, 1});
+  plane.normal = cross(u, v);
+  const double square = dot(plane.normal, plane.normal);
+  if (square > kLeastSquare && square < kLargestSquare) {
+    plane.normal *= 1 / std::sqrt(square);
+  } else {  // products under- or overflow: scaled first
+    const auto size_of = [](const Vec3& d) {
+      return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+    };
+    const Vec3 normal = cross(u / size_of(u), v / size_of(v));
+    plane.normal = normalized_or(normal / size_of(normal), {0, 0, 1});
+  }
   plane.offset = dot(plane.normal, a);
   if (contains_corners) {
     plane.offset = std::max({plane.offset, dot(plane.normal, b), dot(plane.normal, c)});

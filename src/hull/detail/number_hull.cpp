@@ -20,6 +20,9 @@ namespace {
 /// Above this many facets of one lowest vertex they are sorted, not inserted one by one.
 constexpr std::uint32_t kMostInserted = 24;
 
+/// So many facets ahead memory is asked for.
+constexpr std::size_t kAhead = 16;
+
 /// A set of input indices that knows how many members are below one.
 class IndexSet {
  public:
@@ -69,33 +72,36 @@ std::vector<std::uint32_t> number_vertices(std::span<const Vec3> points,
   return number;
 }
 
-/// Turns each facet to begin with the vertex of the lowest number.
-void turn_to_lowest(const std::vector<std::uint32_t>& number, std::vector<FinalFacet>& facets) {
+/// Numbers each facet's corners, and turns it to begin with the lowest number.
+void number_corners(const std::vector<std::uint32_t>& number, std::vector<FinalFacet>& facets) {
   for (FinalFacet& facet : facets) {
-    const auto [a, b, c] = facet.corners;
     const auto [x, y, z] = facet.neighbours;
-    if (number[b] < number[a] && number[b] < number[c]) {
+    const std::uint32_t a = number[facet.corners[0]];
+    const std::uint32_t b = number[facet.corners[1]];
+    const std::uint32_t c = number[facet.corners[2]];
+    if (b < a && b < c) {
       facet = {{b, c, a}, {y, z, x}};
-    } else if (number[c] < number[a] && number[c] < number[b]) {
+    } else if (c < a && c < b) {
       facet = {{c, a, b}, {z, x, y}};
+    } else {
+      facet.corners = {a, b, c};
     }
   }
 }
 
-/// Where each facet comes in the order of their numbered corners.
-std::vector<std::uint32_t> places_of(const std::vector<FinalFacet>& facets,
-                                     const std::vector<std::uint32_t>& number,
-                                     std::size_t vertex_count) {
+struct Entry {
+  std::uint32_t second;  ///< corner, by which the facets of one lowest corner are put in order
+  std::uint32_t facet;
+};
+
+/// The facets in the order of their numbered corners.
+std::vector<Entry> ordered(const std::vector<FinalFacet>& facets, std::size_t vertex_count) {
   std::vector<std::uint32_t> end(vertex_count + 1, 0);
-  for (const FinalFacet& facet : facets) ++end[number[facet.corners[0]] + 1];
+  for (const FinalFacet& facet : facets) ++end[facet.corners[0] + 1];
   for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
-  struct Entry {
-    std::uint32_t second;
-    std::uint32_t facet;
-  };
   std::vector<Entry> entries(facets.size());
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
-    entries[end[number[facets[f].corners[0]]]++] = {number[facets[f].corners[1]], f};
+    entries[end[facets[f].corners[0]]++] = {facets[f].corners[1], f};
   }
   // Now end[v] is where the facets of v end; those of v - 1 end where they begin.
   const auto is_before = [](const Entry& a, const Entry& b) { return a.second < b.second; };
@@ -112,9 +118,7 @@ std::vector<std::uint32_t> places_of(const std::vector<FinalFacet>& facets,
     }
     begin = end[v];
   }
-  std::vector<std::uint32_t> places(facets.size());
-  for (std::uint32_t i = 0; i < entries.size(); ++i) places[entries[i].facet] = i;
-  return places;
+  return entries;
 }
 
 }  // namespace
@@ -125,19 +129,23 @@ ConvexPolytope number_hull(std::span<const Vec3> points,
   ConvexPolytope polytope;
   std::vector<FinalFacet> facets = whole_faces(hull, statistics);
   const std::vector<std::uint32_t> number = number_vertices(points, hull, facets, polytope);
-  turn_to_lowest(number, facets);
-  const std::vector<std::uint32_t> places = places_of(facets, number, polytope.vertices.size());
-  polytope.facets.resize(facets.size());
-  polytope.neighbours.resize(facets.size());
-  polytope.planes.resize(facets.size());
-  // In the order of growth, in which what is read lies together; only what is written is scattered.
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto& [a, b, c] = facets[f].corners;
-    const auto& [x, y, z] = facets[f].neighbours;
-    const std::uint32_t to = places[f];
-    polytope.facets[to] = {number[a], number[b], number[c]};
-    polytope.neighbours[to] = {places[x], places[y], places[z]};
-    polytope.planes[to] = facet_plane(hull.vertices[a], hull.vertices[b], hull.vertices[c], true);
+  number_corners(number, facets);
+  const std::vector<Entry> entries = ordered(facets, polytope.vertices.size());
+  std::vector<std::uint32_t> places(facets.size());
+  for (std::uint32_t i = 0; i < entries.size(); ++i) places[entries[i].facet] = i;
+  polytope.facets.reserve(facets.size());
+  polytope.neighbours.reserve(facets.size());
+  polytope.planes.reserve(facets.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    // What is read is scattered; what comes soon is asked for.
+    __builtin_prefetch(&facets[entries[std::min(i + kAhead, entries.size() - 1)].facet]);
+    const auto& [corners, neighbours] = facets[entries[i].facet];
+    const auto& [a, b, c] = corners;
+    polytope.facets.push_back(corners);
+    polytope.neighbours.push_back(
+        {places[neighbours[0]], places[neighbours[1]], places[neighbours[2]]});
+    polytope.planes.push_back(
+        facet_plane(polytope.vertices[a], polytope.vertices[b], polytope.vertices[c], true));
   }
   return polytope;
 }

@@ -27,17 +27,11 @@ class FaceMerger {
   FaceMerger(const GrownHull& hull, HullStatistics& statistics)
       : facets_(hull.facets), hull_(hull), statistics_(statistics), number_(facets_.size()) {
     CARPUS_CHECK(facets_.size() < kIsFinal / 4);
-    find_coplanar_edges();
-    if (!coplanar_.empty()) join_faces();
-    final_.reserve(hull.vertices.size() * 2);
-    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
-      if (facets_[f].round == kNone) continue;
-      if (is_alone(f)) {
-        number_[f] = static_cast<std::uint32_t>(final_.size());
-        final_.push_back({facets_[f].corners, facets_[f].across});
-      } else if (!is_done_[face_[f]]) {
-        add_face_of(f);
-      }
+    final_.reserve(2 * hull.vertices.size());
+    take_facets_alone();
+    if (!coplanar_.empty()) {
+      join_faces();
+      take_faces();
     }
     for (FinalFacet& facet : final_) {
       for (std::uint32_t& s : facet.neighbours) s = resolved(s);
@@ -46,13 +40,29 @@ class FaceMerger {
   [[nodiscard]] std::vector<FinalFacet> take() { return std::move(final_); }
 
  private:
-  void find_coplanar_edges() {
+  /// The facets as if no two were coplanar; notes those that are.
+  void take_facets_alone() {
     for (std::uint32_t f = 0; f < facets_.size(); ++f) {
       const GrowingFacet& facet = facets_[f];
       if (facet.round == kNone) continue;
+      number_[f] = static_cast<std::uint32_t>(final_.size());
+      final_.push_back({facet.corners, facet.across});
       for (std::uint32_t e = 0; e < 3; ++e) {
         const std::uint32_t outer = facet.across[e];
         if (facet_of(outer) > f && !is_convex(facet, outer)) coplanar_.push_back(outer);
+      }
+    }
+  }
+
+  void take_faces() {
+    final_.clear();
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+      if (facets_[f].round == kNone) continue;
+      if (!is_joined_[f]) {
+        number_[f] = static_cast<std::uint32_t>(final_.size());
+        final_.push_back({facets_[f].corners, facets_[f].across});
+      } else if (!is_done_[face_[f]]) {
+        add_face_of(f);
       }
     }
   }
