@@ -5,14 +5,14 @@
 // 1. Many points: the hull of the extremes in fourteen directions comes first, and an ellipsoid in
 //    it; what is inside is passed over in one sweep.
 // 2. Facets are served first in, first out: breadth first, so that far points come early. That
-//    creates a third fewer facets than depth first does.
+//    creates a third fewer facets than depth first does. Where points are many, one cell of a grid
+//    after another, so that what is at work stays in the caches (detail/facet_queue.hpp).
 // 3. Points wait coordinates apart in consecutive memory, and are tested in loops without branches
 //    (detail/growing_hull.cpp).
 // 4. Signs come from the filter, or from planes in which rounding cannot occur; the few that are
 //    left open are decided exactly.
 // 5. Only coplanar facets are triangulated anew (detail/whole_faces.cpp), and the result is
-// numbered
-//    by counting (detail/number_hull.cpp).
+//    numbered by counting (detail/number_hull.cpp).
 #include "hull/fast_hull.hpp"
 
 #include <cstddef>

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <set>
 #include <tuple>
@@ -70,6 +71,23 @@ TEST(FastHull, GivesTheSameBytesAsQuickhullOnLargeInput) {
              0.5 * static_cast<double>(rng.below(40))};
     }
     expect_same_as_quickhull(points, seed);
+    if (HasFatalFailure()) return;
+  }
+}
+
+/// So many on the surface that the growing goes on by cells; rounded to a lattice, so that points
+/// repeat and facets are coplanar.
+TEST(FastHull, GivesTheSameBytesAsQuickhullCellByCell) {
+  for (const double spacing : {1e-6, 0.125}) {
+    Rng rng(11);
+    std::vector<Vec3> points(100'000);
+    for (Vec3& p : points) {
+      const Vec3 on_ball = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
+      p = {30 * on_ball.x, 20 * on_ball.y, 10 * on_ball.z};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        p[axis] = spacing * std::round(p[axis] / spacing);
+    }
+    expect_same_as_quickhull(points, 11);
     if (HasFatalFailure()) return;
   }
 }

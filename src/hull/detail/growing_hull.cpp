@@ -22,12 +22,20 @@ namespace {
 /// Set aside at most; what is not used is never touched.
 constexpr std::size_t kReservedFacets = 1 << 24;
 
+/// From so many waiting points on, which with their facets fill the nearer caches, the growing goes
+/// on by cells of about kPointsInCell: their facets and points take a third of a megabyte.
+constexpr std::size_t kManyWaiting = 30'000;
+constexpr std::size_t kPointsInCell = 1000;
+/// A surface crosses about this many of k^3 cells, divided by k^2.
+constexpr double kCellsCrossed = 3;
+
 }  // namespace
 
 GrowingHull::GrowingHull(std::span<const Vec3> points,
                          const StartSimplex& start,
                          HullStatistics& statistics)
     : points_(points),
+      low_(start.low),
       extent_(start.extent),
       statistics_(statistics),
       arena_capacity_(3 * points.size()),
@@ -175,7 +183,7 @@ void GrowingHull::reserve_ranges() {
     GrowingFacet& facet = hull_.facets[target.facet];
     facet.first_conflict = at;
     facet.conflicts = target.count;
-    pending_.push_back({target.facet, at});
+    queue_.push({target.facet, at}, place_of(facet));
     at += target.count;
     target.count = facet.first_conflict;
   }
@@ -199,33 +207,68 @@ void GrowingHull::place_batch() {
   for (std::size_t i = 0; i < batch_count_; ++i) place(batch_[i], batch_[i].slot);
 }
 
-/// Leaves only what waits in the arena; once in points_.size() placements at most.
+/// Moves what waits at a facet, if it still does, to the end of the arena.
+bool GrowingHull::keep(FacetQueue::Entry& entry, const Conflict* from) {
+  GrowingFacet& facet = hull_.facets[entry.facet];
+  if (!is_waiting(entry)) return false;
+  std::copy_n(from + facet.first_conflict, facet.conflicts, &arena_[arena_end_]);
+  entry.first_conflict = facet.first_conflict = static_cast<std::uint32_t>(arena_end_);
+  arena_end_ += facet.conflicts;
+  return true;
+}
+
+/// Leaves only what waits in the arena, other cells' points first; once in points_.size()
+/// placements at most.
 void GrowingHull::close_gaps() {
-  arena_end_ = 0;
-  std::size_t kept = 0;
-  for (std::size_t i = head_; i < pending_.size(); ++i) {
-    const auto [f, first] = pending_[i];
-    GrowingFacet& facet = hull_.facets[f];
-    if (facet.conflicts == 0 || facet.first_conflict != first) continue;
-    std::copy_n(&arena_[first], facet.conflicts, &arena_[arena_end_]);
-    facet.first_conflict = static_cast<std::uint32_t>(arena_end_);
-    pending_[kept++] = {f, facet.first_conflict};
-    arena_end_ += facet.conflicts;
+  ConflictArray old;
+  const Conflict* from = arena_.get();
+  if (queue_.is_divided()) {  // not in the order of the arena
+    old = unwritten_conflicts(arena_capacity_ + 1);
+    old.swap(arena_);
+    from = old.get();
   }
-  pending_.resize(kept);
-  head_ = 0;
+  const auto keeps = [&](FacetQueue::Entry& entry) { return keep(entry, from); };
+  arena_end_ = 0;
+  queue_.filter_other_cells(keeps);
+  cell_begin_ = arena_end_;
+  queue_.filter_current(keeps);
+}
+
+/// Many points, but few for a facet: time to go on by cells.
+bool GrowingHull::is_to_be_divided() const {
+  return !queue_.is_divided() && waiting_ > kManyWaiting &&
+         waiting_ < kPointsInCell / 4 * queue_.count();
+}
+
+void GrowingHull::divide() {
+  const double cells = static_cast<double>(waiting_) / kPointsInCell;
+  queue_.divide(low_, extent_, static_cast<std::uint32_t>(std::sqrt(cells / kCellsCrossed)));
+  for (const FacetQueue::Entry& entry : queue_.coming()) {
+    if (is_waiting(entry)) queue_.push(entry, place_of(hull_.facets[entry.facet]));
+  }
+  queue_.next_cell();
+  close_gaps();
+}
+
+/// What the cell at work leaves to others moves to where its own points were.
+bool GrowingHull::next_cell() {
+  arena_end_ = cell_begin_;
+  for (FacetQueue::Deferred& d : queue_.deferred()) keep(d.entry, arena_.get());
+  cell_begin_ = arena_end_;
+  return queue_.next_cell();
 }
 
 void GrowingHull::grow() {
-  while (head_ < pending_.size()) {
-    if (arena_end_ + waiting_ > arena_capacity_) close_gaps();
-    const auto [f, first] = pending_[head_++];
-    const GrowingFacet& facet = hull_.facets[f];
-    if (facet.conflicts != 0 && facet.first_conflict == first) add_point(f);
-  }
-  pending_.clear();
-  head_ = 0;
-  arena_end_ = 0;
+  do {
+    while (!queue_.is_empty()) {
+      if (arena_end_ + waiting_ > arena_capacity_) close_gaps();
+      const FacetQueue::Entry entry = queue_.pop();
+      if (is_waiting(entry)) add_point(entry.facet);
+      if (is_to_be_divided()) divide();
+    }
+  } while (next_cell());
+  queue_.clear();
+  arena_end_ = cell_begin_ = 0;
 }
 
 std::size_t GrowingHull::farthest_conflict(const GrowingFacet& facet) const {

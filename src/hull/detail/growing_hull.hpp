@@ -14,6 +14,7 @@
 
 #include "geometry/vec3.hpp"
 #include "hull/detail/conflict_points.hpp"
+#include "hull/detail/facet_queue.hpp"
 #include "hull/detail/hull_facet.hpp"
 #include "hull/detail/input_check.hpp"
 #include "hull/hull_result.hpp"
@@ -39,10 +40,6 @@ class GrowingHull {
     std::uint32_t facet;
     std::uint32_t count;
   };
-  struct Pending {
-    std::uint32_t facet;
-    std::uint32_t first_conflict;  ///< as the facet's, or the facet is another by now
-  };
 
   [[nodiscard]] const Vec3& corner(const GrowingFacet& facet, std::size_t i) const {
     return hull_.vertices[facet.corners[i]];
@@ -62,8 +59,19 @@ class GrowingHull {
   void place(const Conflict& conflict, std::uint32_t slot);
   void place_batch();
   void close_gaps();
+  [[nodiscard]] bool is_waiting(const FacetQueue::Entry& entry) const {
+    const GrowingFacet& facet = hull_.facets[entry.facet];
+    return facet.conflicts != 0 && facet.first_conflict == entry.first_conflict;
+  }
+  [[nodiscard]] Vec3 place_of(const GrowingFacet& facet) const {
+    return (corner(facet, 0) + corner(facet, 1) + corner(facet, 2)) / 3;
+  }
+  bool keep(FacetQueue::Entry& entry, const Conflict* from);
 
   void grow();
+  [[nodiscard]] bool is_to_be_divided() const;
+  void divide();
+  bool next_cell();
   [[nodiscard]] std::size_t farthest_conflict(const GrowingFacet& facet) const;
   [[nodiscard]] bool sees(const GrowingFacet& facet, const Vec3& p);
   void find_horizon(std::uint32_t start, const Vec3& p);
@@ -74,18 +82,19 @@ class GrowingHull {
   void redistribute_many(std::size_t apex);
 
   std::span<const Vec3> points_;
+  Vec3 low_;
   Vec3 extent_;
   HullStatistics& statistics_;
   GrownHull hull_;
   std::vector<std::uint32_t> free_;  ///< removed facets
   std::uint32_t round_ = 0;
 
-  std::vector<Pending> pending_;  ///< facets with conflicts, in order of creation
-  std::size_t head_ = 0;
+  FacetQueue queue_;  ///< facets with conflicts
   std::size_t arena_capacity_;
   ConflictArray arena_;
   std::size_t arena_end_ = 0;
-  std::size_t waiting_ = 0;  ///< conflicts of all facets
+  std::size_t cell_begin_ = 0;  ///< of the arena's part that the cell at work has written
+  std::size_t waiting_ = 0;     ///< conflicts of all facets
 
   PointBlock block_;
 

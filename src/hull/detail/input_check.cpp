@@ -54,6 +54,7 @@ StartSimplex find_start_simplex(std::span<const Vec3> points, HullStatistics& st
     return result;
   }
   result.extremes = found.index;
+  result.low = found.low;
   result.extent = (found.high - found.low) * (1 + 4 * kRoundoff);
   const auto [ia, ib] = far_pair(result.extremes, result.extent);
   const Vec3 a = points[ia];

@@ -18,6 +18,7 @@ namespace carpus::hull {
 struct StartSimplex {
   HullStatus status = HullStatus::TooFewPoints;
   std::array<std::uint32_t, 4> corners{};
+  Vec3 low;     ///< the least coordinate on each axis
   Vec3 extent;  ///< a bound on the coordinate differences of any two points, per axis
   /// The points that are farthest along the axes and the diagonals of the octants; some repeated.
   std::array<std::uint32_t, 14> extremes{};
