@@ -106,6 +106,7 @@ nlohmann::ordered_json figures_of(const cases::CaseData& posed_case, TickTimes t
   };
   constexpr float kTickMicroseconds = 1000.0F;
   return {{"case", posed_case.pseudonym},
+          {"case_simulated", posed_case.provenance.simulated},
           {"bones", posed_case.bones.size()},
           {"ticks", sorted.size()},
           {"operations", times.operations},
