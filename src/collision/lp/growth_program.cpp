@@ -230,6 +230,17 @@ class GrowthProgram::Run {
   /// One pivot; false where the rows no longer define a point.
   bool exchange() noexcept {
     const bool is_first = in_first_.gauge >= in_second_.gauge;
+    if (!enter(is_first)) return false;
+    // The other body's facet enters as well where it still exceeds: a pivot without walks.
+    const double other = is_first ? in_second_.gauge : in_first_.gauge;
+    if (other <= basis_.t) return true;
+    const Vec3 x = basis_.point();
+    const double gauge = is_first ? dot(b_.row(in_second_.face).normal(), pose_.into_second(x - pose_.offset))
+                                  : dot(a_.row(in_first_.face).normal(), x);
+    return gauge <= basis_.t + kOptimumTolerance * (1 + std::abs(basis_.t)) || enter(!is_first);
+  }
+
+  bool enter(bool is_first) noexcept {
     const Vec3 row = is_first ? a_.row(in_first_.face).normal() : b_.row(in_second_.face).normal();
     const Vec3 turned = is_first ? row : pose_.rotation * row;
     const std::size_t leaving = basis_.leaving(turned);
