@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace carpus::imaging {
 namespace {
@@ -20,13 +19,14 @@ class Merger {
     for (std::size_t i = 0; i < into_.size(); ++i) into_[i] = static_cast<RegionLabel>(i);
   }
 
-  [[nodiscard]] std::optional<Pair> widest_neck(double limit) const {
-    std::optional<Pair> best;
+  /// Two regions; {0, 0} where no neck is as wide as the limit.
+  [[nodiscard]] Pair widest_neck(double limit) const {
+    Pair best{0, 0};
     double best_ratio = limit;
     for (const auto& [pair, contact] : table_.contacts) {
       const float peak = std::min(table_.peak[pair.first], table_.peak[pair.second]);
       const double ratio = peak > 0 ? static_cast<double>(contact.saddle / peak) : 0.0;
-      if (ratio > best_ratio || (!best && ratio >= limit)) {
+      if (ratio > best_ratio || (best.first == 0 && ratio >= limit)) {
         best = pair;
         best_ratio = ratio;
       }
@@ -132,8 +132,10 @@ std::vector<RegionLabel> merge_regions(RegionTable table,
                                        double voxel_volume_mm3,
                                        const MergeOptions& options) {
   Merger merger(std::move(table));
-  while (const std::optional<Pair> pair = merger.widest_neck(options.neck_ratio)) {
-    merger.join(pair->first, pair->second);
+  while (true) {
+    const auto [to, from] = merger.widest_neck(options.neck_ratio);
+    if (to == 0) break;
+    merger.join(to, from);
   }
   const double min_voxels = options.min_volume_mm3 / voxel_volume_mm3;
   while (const RegionLabel small = merger.smallest_below(min_voxels)) {
