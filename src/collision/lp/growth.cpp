@@ -11,7 +11,7 @@ GrowthQuery::GrowthQuery(const ConvexBody& first, const ConvexBody& second)
       second_(&second),
       first_proofs_(first),
       second_proofs_(second),
-      program_(*first_proofs_.facets, *second_proofs_.facets),
+      program_(first_proofs_, second_proofs_),
       second_radius_mm_(program_.second().outer_radius_mm()),
       is_usable_(program_.first().is_usable() && program_.second().is_usable()) {}
 

@@ -3,7 +3,8 @@
 //
 // The dual simplex method on four rows:
 // 1. Warm: the last rows at the new pose; one of them is exchanged if their weights are not all
-//    >= 0. Cold: the facets where the line of origins leaves the bodies, and two implied rows.
+//    >= 0. Cold: from the facets where the line of origins leaves the bodies to a face of one and
+//    the vertex of the other that lies deepest behind it: that face, and three about the vertex.
 // 2. t > 1: the rows prove that the bodies are apart.
 // 3. The facets above the rows' point, by walks: if both gauges are at most 1 the point proves that
 //    the bodies meet; if neither exceeds t this is the optimum.
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace carpus::collision {
 namespace {
@@ -26,41 +28,8 @@ constexpr double kOptimumTolerance = 1e-13;
 /// Bounds below this much above 1 are not tried as proofs: they would not bear their rounding.
 constexpr double kProofMargin = 1e-15;
 
-/// A vertex of a body lies on all its faces among some rows.
-bool is_on_all(const ConvexBody& body,
-               const PolarGraph& graph,
-               const std::array<GrowthRow, 4>& rows,
-               bool is_second,
-               std::uint32_t vertex) noexcept {
-  return std::all_of(rows.begin(), rows.end(), [&](const GrowthRow& row) {
-    if (row.is_second != is_second || row.face == GrowthRow::kNoFace) return true;
-    const auto& corners = body.faces()[graph.face_of_body(row.face)].corners;
-    return std::find(corners.begin(), corners.end(), vertex) != corners.end();
-  });
-}
-
-/// Up to three vertices of a body that all its faces among some rows share: a vertex, an edge, or
-/// corners of a face.
-struct Feature {
-  std::array<std::uint32_t, 3> vertices{};
-  std::uint32_t count = 0;
-};
-
-Feature feature_of(const ConvexBody& body,
-                   const PolarGraph& graph,
-                   const std::array<GrowthRow, 4>& rows,
-                   bool is_second) noexcept {
-  Feature shared;
-  const auto own = std::find_if(rows.begin(), rows.end(), [&](const GrowthRow& row) {
-    return row.is_second == is_second && row.face != GrowthRow::kNoFace;
-  });
-  if (own == rows.end()) return shared;
-  for (const std::uint32_t c : body.faces()[graph.face_of_body(own->face)].corners) {
-    if (shared.count == shared.vertices.size()) break;
-    if (is_on_all(body, graph, rows, is_second, c)) shared.vertices[shared.count++] = c;
-  }
-  return shared;
-}
+/// Steps from a face to the one over its deepest vertex, at a cold start; two are usual.
+constexpr int kMostFeatureSteps = 4;
 
 }  // namespace
 
@@ -72,6 +41,8 @@ class GrowthProgram::Run {
       GrowthCounts& counts) noexcept
       : a_(program.first()),
         b_(program.second()),
+        first_corners_(*program.first_.corners),
+        second_corners_(*program.second_.corners),
         pose_(pose),
         memory_(memory),
         counts_(counts),
@@ -180,8 +151,77 @@ class GrowthProgram::Run {
     return product <= sum && is_common(in_second_point_ * (in_first_.gauge / sum));
   }
 
+  /// A face of one body, the vertex of the other that lies deepest behind it, and the bound of t
+  /// that they give.
+  struct FaceAndCorner {
+    double bound = -HUGE_VAL;
+    std::uint32_t face = 0;
+    std::uint32_t corner = 0;
+  };
+
+  /// From a face of the first body (or of the second) by steps to the face over the vertex, as long
+  /// as the bound rises.
+  [[nodiscard]] FaceAndCorner ascend(std::uint32_t face, bool is_of_second) const noexcept {
+    const PolarGraph& faces = is_of_second ? b_ : a_;
+    const SupportGraph& corners = is_of_second ? first_corners_ : second_corners_;
+    FaceAndCorner best;
+    for (int step = 0; step < kMostFeatureSteps; ++step) {
+      // p . x - shift <= t on the one, d . x <= t (d . at) on the other, each about its origin.
+      const Vec3 p = faces.row(face).normal();
+      const Vec3 d = is_of_second ? -(pose_.rotation * p) : -pose_.into_second(p);
+      const double along = is_of_second ? dot(d, pose_.offset) : dot(p, pose_.offset);
+      const std::uint32_t corner = corners.climb(d, corners.near(d));
+      const Vec3& at = corners.corner(corner);
+      const double bound = along / (1 + dot(d, at));
+      if (!(bound > best.bound)) break;
+      best = {bound, face, corner};
+      const Vec3 x =
+          is_of_second ? pose_.into_second(at - pose_.offset) : pose_.rotation * at + pose_.offset;
+      const std::uint32_t next = faces.climb(face, x).face;
+      if (next == face) break;
+      face = next;
+    }
+    return best;
+  }
+
+  /// From the facets on the line of origins to features that all but touch, which leave few pivots
+  /// to make. False where rounding leaves no basis.
+  bool start_at_features() noexcept {
+    const FaceAndCorner best = ascend(in_first_.face, false);
+    if (!(best.bound > 1)) {
+      const FaceAndCorner other = ascend(in_second_.face, true);
+      if (other.bound > best.bound) return set_rows(other, true);
+    }
+    return set_rows(best, false);
+  }
+
+  /// The face's row, and those three of the faces about the vertex whose cone holds the opposite
+  /// direction.
+  bool set_rows(const FaceAndCorner& pair, bool is_of_second) noexcept {
+    const PolarGraph& one = is_of_second ? b_ : a_;
+    const PolarGraph& other = is_of_second ? a_ : b_;
+    const Vec3 p = one.row(pair.face).normal();
+    const Vec3 d = is_of_second ? -(pose_.rotation * p) : -pose_.into_second(p);
+    const std::span<const std::uint32_t> fan = other.faces_about(pair.corner);
+    const Vec3 across = cross(d, other.row(fan[0]).normal());
+    std::size_t i = 2;
+    while (i + 1 < fan.size() && dot(across, other.row(fan[i]).normal()) > 0) ++i;
+    basis_.rows[0] = {p, pair.face, is_of_second};
+    std::size_t place = 1;
+    for (const std::uint32_t f : {fan[0], fan[i - 1], fan[i]}) {
+      basis_.rows[place++] = {other.row(f).normal(), f, !is_of_second};
+    }
+    basis_.place(pose_);
+    if (!basis_.solve() || !is_usable()) return false;
+    return memory_.has_basis = true;
+  }
+
   /// After look_along_line().
   void start_cold() noexcept {
+    if (!start_at_features()) start_on_line();
+  }
+
+  void start_on_line() noexcept {
     const Vec3& line = pose_.offset;
     const double alpha = in_first_.gauge;
     const double beta = in_second_.gauge;
@@ -235,8 +275,9 @@ class GrowthProgram::Run {
     const double other = is_first ? in_second_.gauge : in_first_.gauge;
     if (other <= basis_.t) return true;
     const Vec3 x = basis_.point();
-    const double gauge = is_first ? dot(b_.row(in_second_.face).normal(), pose_.into_second(x - pose_.offset))
-                                  : dot(a_.row(in_first_.face).normal(), x);
+    const double gauge =
+        is_first ? dot(b_.row(in_second_.face).normal(), pose_.into_second(x - pose_.offset))
+                 : dot(a_.row(in_first_.face).normal(), x);
     return gauge <= basis_.t + kOptimumTolerance * (1 + std::abs(basis_.t)) || enter(!is_first);
   }
 
@@ -289,6 +330,8 @@ class GrowthProgram::Run {
 
   const PolarGraph& a_;
   const PolarGraph& b_;
+  const SupportGraph& first_corners_;
+  const SupportGraph& second_corners_;
   const RelativePose& pose_;
   GrowthMemory& memory_;
   GrowthCounts& counts_;
@@ -302,26 +345,6 @@ Verdict GrowthProgram::decide(const RelativePose& pose,
                               GrowthMemory& memory,
                               GrowthCounts& counts) const noexcept {
   return Run(*this, pose, memory, counts).decide();
-}
-
-ExactHint GrowthProgram::hint(const ConvexBody& first,
-                              const ConvexBody& second,
-                              const GrowthMemory& memory) const noexcept {
-  ExactHint hint;
-  hint.direction = memory.separation.n;
-  const Feature a = feature_of(first, this->first(), memory.rows, false);
-  const Feature b = feature_of(second, this->second(), memory.rows, true);
-  if (a.count == 0 || b.count == 0) return hint;
-  hint.first_vertex = a.vertices[0];
-  hint.second_vertex = b.vertices[0];
-  const std::uint32_t pairs = a.count * b.count;
-  if (pairs > hint.seeds.size()) return hint;
-  for (std::uint32_t i = 0; i < a.count; ++i) {
-    for (std::uint32_t j = 0; j < b.count; ++j) {
-      hint.seeds[hint.seed_count++] = {a.vertices[i], b.vertices[j]};
-    }
-  }
-  return hint;
 }
 
 GrowthOptimum GrowthProgram::optimum(const RelativePose& pose,

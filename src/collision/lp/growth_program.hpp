@@ -17,6 +17,7 @@
 #include "collision/lp/growth_basis.hpp"
 #include "collision/lp/pair_proofs.hpp"
 #include "collision/lp/polar_graph.hpp"
+#include "collision/lp/proof_body.hpp"
 #include "collision/lp/relative_pose.hpp"
 #include "collision/pair_query.hpp"
 
@@ -60,11 +61,11 @@ struct GrowthOptimum {
 
 class GrowthProgram {
  public:
-  GrowthProgram(const PolarGraph& first, const PolarGraph& second) noexcept
-      : first_(&first), second_(&second) {}
+  GrowthProgram(const ProofBody& first, const ProofBody& second) noexcept
+      : first_(first), second_(second) {}
 
-  [[nodiscard]] const PolarGraph& first() const noexcept { return *first_; }
-  [[nodiscard]] const PolarGraph& second() const noexcept { return *second_; }
+  [[nodiscard]] const PolarGraph& first() const noexcept { return *first_.facets; }
+  [[nodiscard]] const PolarGraph& second() const noexcept { return *second_.facets; }
 
   /// Unknown where doubles cannot tell; memory.separation then holds a direction to begin with.
   /// Does not try the last proof as it is.
@@ -82,8 +83,8 @@ class GrowthProgram {
 
  private:
   class Run;
-  const PolarGraph* first_;
-  const PolarGraph* second_;
+  ProofBody first_;
+  ProofBody second_;
 };
 
 }  // namespace carpus::collision

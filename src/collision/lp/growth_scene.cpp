@@ -171,8 +171,7 @@ Verdict GrowthScene::decide(Pair& pair) noexcept {
     if (verdict != Verdict::Unknown) ++counts_.pairs.by_walking;
   }
   if (verdict == Verdict::Unknown) {
-    verdict = GrowthProgram(*first.proofs.facets, *second.proofs.facets)
-                  .decide(pose, pair.memory, counts_.pairs);
+    verdict = GrowthProgram(first.proofs, second.proofs).decide(pose, pair.memory, counts_.pairs);
     if (verdict == Verdict::Unknown) return decide_exactly(pair);
     if (verdict == Verdict::Apart) {
       pair.ready.set(pair.memory.separation, first.proofs, second.proofs, in_first.translation);
@@ -189,8 +188,7 @@ Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
   const Body& second = bodies_[pair.bodies.second];
   ExactHint hint;
   if (first.is_ordinary && second.is_ordinary) {
-    hint = GrowthProgram(*first.proofs.facets, *second.proofs.facets)
-               .hint(*first.body, *second.body, pair.memory);
+    hint = GrowthProgram(first.proofs, second.proofs).hint(*first.body, *second.body, pair.memory);
     hint.direction = first.pose.rotation * hint.direction;
   }
   const ExactAnswer answer =

@@ -122,6 +122,31 @@ TEST(Growth, CountsHowQueriesWereDecided) {
   EXPECT_EQ(query.counts().queries, 5U);
 }
 
+TEST(Growth, StartsColdNearFeaturesThatTouch) {
+  Rng rng(23);
+  std::uint64_t queries = 0;
+  std::uint64_t pivots = 0;
+  for (int k = 0; k < 200; ++k) {
+    const ConvexBody first = lp_test::pebble(rng, 400);
+    const ConvexBody second = lp_test::pebble(rng, 400);
+    GrowthQuery query(first, second);
+    PairPose pose{lp_test::any_rotation(rng), lp_test::any_direction(rng) * 40};
+    const auto answer = query.growth(pose);
+    ASSERT_TRUE(answer.has_value());
+    // With the origins this much nearer the bodies all but touch.
+    const Vec3 offset =
+        pose.rotation * second.interior_point() + pose.translation - first.interior_point();
+    pose.translation += offset * (1 / answer->growth * (1 + 1e-7) - 1);
+    const std::uint64_t before = query.counts().pivots;
+    query.forget();
+    ASSERT_EQ(query.meets(pose), Verdict::Apart);
+    pivots += query.counts().pivots - before;
+    ++queries;
+  }
+  // From the line of origins alone there are twelve.
+  EXPECT_LT(static_cast<double>(pivots) / static_cast<double>(queries), 6);
+}
+
 TEST(Growth, GivesTheFactorAtWhichBodiesTouch) {
   const ConvexBody cube = lp_test::box({1, 1, 1});
   GrowthQuery query(cube, cube);

@@ -80,6 +80,7 @@ PolarGraph::PolarGraph(const ConvexBody& body) : origin_(body.interior_point()) 
   set_rows(body, face_of_body_);
   set_links(body, face_of_body_);
   set_triangles(body);
+  set_fans(body);
 
   const double far = std::max({std::abs(origin_.x), std::abs(origin_.y), std::abs(origin_.z)});
   is_usable_ = far <= kLargestLength && outer_radius_mm_ <= kLargestLength &&
@@ -136,6 +137,16 @@ void PolarGraph::set_triangles(const ConvexBody& body) {
     }
   }
   first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
+}
+
+void PolarGraph::set_fans(const ConvexBody& body) {
+  std::vector<std::uint32_t> number(size());
+  for (std::uint32_t i = 0; i < size(); ++i) number[face_of_body_[i]] = i;
+  for (std::uint32_t v = 0; v < body.vertices().size(); ++v) {
+    first_of_fan_.push_back(static_cast<std::uint32_t>(fans_.size()));
+    for (const std::uint32_t f : body.vertex_faces(v)) fans_.push_back(number[f]);
+  }
+  first_of_fan_.push_back(static_cast<std::uint32_t>(fans_.size()));
 }
 
 void PolarGraph::fill_table() {

@@ -100,6 +100,10 @@ class PolarGraph {
   [[nodiscard]] std::uint32_t corner_of(std::uint32_t face) const noexcept {
     return triangles_[first_triangle_[face]][0];
   }
+  /// The faces about a vertex of the body, counter-clockwise from outside.
+  [[nodiscard]] std::span<const std::uint32_t> faces_about(std::uint32_t vertex) const noexcept {
+    return {fans_.data() + first_of_fan_[vertex], fans_.data() + first_of_fan_[vertex + 1]};
+  }
 
  private:
   [[nodiscard]] double lead_of(std::uint32_t face, const Vec3& d) const noexcept;
@@ -107,6 +111,7 @@ class PolarGraph {
   void set_rows(const ConvexBody& body, const std::vector<std::uint32_t>& order);
   void set_links(const ConvexBody& body, const std::vector<std::uint32_t>& order);
   void set_triangles(const ConvexBody& body);
+  void set_fans(const ConvexBody& body);
   void fill_table();
   [[nodiscard]] std::size_t cell_of(const Vec3& d) const noexcept;
 
@@ -125,6 +130,8 @@ class PolarGraph {
   double gauge_slack_ = 0;
   double row_error_ = 0;  // of a row's gauge of d, per |d.x| + |d.y| + |d.z|
   bool is_usable_ = false;
+  std::vector<std::uint32_t> first_of_fan_;  // by vertex, and the end
+  std::vector<std::uint32_t> fans_;          // faces of this graph
   // What proofs need, apart from what the walk touches.
   std::vector<std::uint32_t> first_triangle_;            // of each face, and the end
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // vertices of the body

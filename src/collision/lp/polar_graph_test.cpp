@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -190,6 +192,30 @@ TEST(PolarGraphPitfall, WalksStickOnTrianglesOfOneFace) {
       neighbours.push_back(body.faces()[f].neighbours);
     }
     EXPECT_EQ(share_stuck(merged, neighbours, body.interior_point(), true), 0) << name;
+  }
+}
+
+TEST(PolarGraph, FacesAboutAVertexAreThoseThatHoldIt) {
+  for (const auto& [name, body] : many_bodies()) {
+    const PolarGraph graph(body);
+    for (std::uint32_t v = 0; v < body.vertices().size(); ++v) {
+      const Vec3 spoke = body.vertices()[v] - graph.origin();
+      std::vector<std::uint32_t> holding;
+      for (std::uint32_t f = 0; f < graph.size(); ++f) {
+        if (std::abs(graph.row(f).gauge(spoke) - 1) < 1e-9) holding.push_back(f);
+      }
+      const auto fan = graph.faces_about(v);
+      ASSERT_GE(fan.size(), 3U);
+      std::vector<std::uint32_t> sorted(fan.begin(), fan.end());
+      std::sort(sorted.begin(), sorted.end());
+      EXPECT_EQ(sorted, holding) << name;
+      for (std::size_t i = 0; i < fan.size(); ++i) {  // counter-clockwise from outside
+        const Vec3 p = graph.row(fan[i]).normal();
+        const Vec3 q = graph.row(fan[(i + 1) % fan.size()]).normal();
+        const Vec3 r = graph.row(fan[(i + 2) % fan.size()]).normal();
+      EXPECT_GT(dot(cross(q - p, r - q), spoke), 0) << name;
+      }
+    }
   }
 }
 

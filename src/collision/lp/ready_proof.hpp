@@ -12,23 +12,13 @@
 #include "collision/closest/support.hpp"
 #include "collision/lp/pair_proofs.hpp"
 #include "collision/lp/polar_graph.hpp"
+#include "collision/lp/proof_body.hpp"
 #include "collision/lp/relative_pose.hpp"
 #include "collision/pair_query.hpp"
 #include "geometry/tolerance.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::collision {
-
-/// What proofs read of a body: its facets, and its vertices about the same origin.
-struct ProofBody {
-  const PolarGraph* facets = nullptr;
-  const SupportGraph* corners = nullptr;
-
-  ProofBody() = default;
-  /// For set-up: see ConvexBody::derived().
-  explicit ProofBody(const ConvexBody& body)
-      : facets(&body.derived<PolarGraph>()), corners(&body.derived<SupportGraph>()) {}
-};
 
 /// The pose is within what the proofs' bounds of rounding cover.
 [[nodiscard]] inline bool is_covered(const PairPose& pose, double most_translation) noexcept {
