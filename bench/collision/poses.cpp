@@ -97,7 +97,7 @@ PoseScript poses_at_gap(double gap_mm,
     const Contact contact = contact_of(exact, second, rng);
     PairPose at = contact.pose;
     at.translation += contact.normal * gap_mm;
-    add(script, exact, stepped(at, second, rng), at);
+    add(script, exact, stepped(stepped(at, second, rng), second, rng), at);
   }
   return script;
 }
