@@ -24,7 +24,7 @@ struct HullRow {
   bool is_peer = false;
   bool ran = false;     ///< false: beyond its cost or the caps, "not run"
   bool agrees = false;  ///< same corners, facets and volume as the exact answer
-  double seconds = 0;   ///< median
+  double seconds = 0;   ///< median of the rounds' medians
   double fastest_seconds = 0;
   int runs = 0;
   double discarded_share = 0;
@@ -32,12 +32,12 @@ struct HullRow {
 
 struct HullBenchOptions {
   Caps caps;
-  double budget_seconds = 0.4;  ///< an engine repeats until this is used up, at least once
+  double budget_seconds = 0.4;  ///< an engine repeats until this is used up; see hull_bench.cpp
   int max_runs = 41;
 };
 
-/// Runs every engine on the set, each in a process of its own. The exact answer is quickhull's,
-/// which the module's tests verify independently.
+/// Runs every engine on the set, each in a process of its own, in rounds by turns. The exact answer
+/// is quickhull's, which the module's tests verify independently.
 [[nodiscard]] std::vector<HullRow> measure_hulls(const PointSet& set,
                                                  const std::vector<HullEngine>& engines,
                                                  const HullBenchOptions& options);
