@@ -3,8 +3,9 @@
 //
 // The dual simplex method on four rows:
 // 1. Warm: the last rows at the new pose; one of them is exchanged if their weights are not all
-//    >= 0. Cold: from the facets where the line of origins leaves the bodies to a face of one and
-//    the vertex of the other that lies deepest behind it: that face, and three about the vertex.
+//    >= 0. Cold: from the facets where the line of origins leaves the bodies, or those of rows that
+//    are of no use any more, to a face of one body and the vertex of the other that lies deepest
+//    behind it: that face, and three about the vertex.
 // 2. t > 1: the rows prove that the bodies are apart.
 // 3. The facets above the rows' point, by walks: if both gauges are at most 1 the point proves that
 //    the bodies meet; if neither exceeds t this is the optimum.
@@ -49,7 +50,7 @@ class GrowthProgram::Run {
         basis_(memory.rows) {}
 
   Verdict decide() noexcept {
-    bool is_warm = start_warm();
+    bool is_warm = start_warm() || start_at_faces_of_rows();
     if (!is_warm && meets_on_line()) return Verdict::Meet;
     if (!is_warm) start_cold();
     for (int pivot = 0; pivot < kMaxGrowthPivots; ++pivot) {
@@ -80,7 +81,7 @@ class GrowthProgram::Run {
   GrowthOptimum optimum() noexcept {
     GrowthOptimum best;
     if (pose_.offset == Vec3{}) return {0, 0, {}, {}};  // concentric: any growth meets
-    bool is_warm = start_warm();
+    bool is_warm = start_warm() || start_at_faces_of_rows();
     if (!is_warm) {
       look_along_line();
       start_cold();
@@ -186,13 +187,23 @@ class GrowthProgram::Run {
 
   /// From the facets on the line of origins to features that all but touch, which leave few pivots
   /// to make. False where rounding leaves no basis.
-  bool start_at_features() noexcept {
-    const FaceAndCorner best = ascend(in_first_.face, false);
+  bool start_at_features(std::uint32_t in_first, std::uint32_t in_second) noexcept {
+    const FaceAndCorner best = ascend(in_first, false);
     if (!(best.bound > 1)) {
-      const FaceAndCorner other = ascend(in_second_.face, true);
+      const FaceAndCorner other = ascend(in_second, true);
       if (other.bound > best.bound) return set_rows(other, true);
     }
     return set_rows(best, false);
+  }
+
+  /// From the faces of the last rows, where these no longer make a basis.
+  bool start_at_faces_of_rows() noexcept {
+    if (!memory_.has_basis) return false;
+    std::uint32_t in_first = GrowthRow::kNoFace;
+    std::uint32_t in_second = GrowthRow::kNoFace;
+    for (const GrowthRow& row : basis_.rows) (row.is_second ? in_second : in_first) = row.face;
+    if (in_first == GrowthRow::kNoFace || in_second == GrowthRow::kNoFace) return false;
+    return start_at_features(in_first, in_second);
   }
 
   /// The face's row, and those three of the faces about the vertex whose cone holds the opposite
@@ -218,7 +229,7 @@ class GrowthProgram::Run {
 
   /// After look_along_line().
   void start_cold() noexcept {
-    if (!start_at_features()) start_on_line();
+    if (!start_at_features(in_first_.face, in_second_.face)) start_on_line();
   }
 
   void start_on_line() noexcept {
