@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "collision/lp/exact_meeting.hpp"
 
@@ -41,6 +42,9 @@ GrowthScene::GrowthScene(std::span<const ConvexBody* const> bodies, bool uses_bu
     Body placed;
     placed.body = body;
     placed.proofs = ProofBody(*body);
+    placed.origin = placed.proofs.facets->origin();
+    placed.radius_mm = placed.proofs.facets->outer_radius_mm();
+    placed.is_usable = placed.proofs.facets->is_usable();
     bodies_.push_back(placed);
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -50,6 +54,8 @@ GrowthScene::GrowthScene(std::span<const ConvexBody* const> bodies, bool uses_bu
       pairs_.push_back(pair);
     }
   }
+  limits_mm_.assign(pairs_.size(), -1);
+  asked_.reserve(pairs_.size());
   verdicts_.assign(pairs_.size(), Verdict::Unknown);
 }
 
@@ -57,16 +63,16 @@ void GrowthScene::forget() noexcept {
   for (Pair& pair : pairs_) {
     pair.memory = {};
     pair.ready = {};
-    pair.limit_mm = -1;
   }
+  std::fill(limits_mm_.begin(), limits_mm_.end(), -1);
 }
 
 void GrowthScene::place(Body& body, const BodyPose& pose) const noexcept {
-  const Vec3& origin = body.proofs.facets->origin();
+  const Vec3& origin = body.origin;
   const Vec3 centre = pose.rotation * origin + pose.translation;
   const double error = 16 * kRoundoff * (taxicab(origin) + taxicab(pose.translation));
   const double rigidity = rigidity_error_of(pose.rotation);
-  const bool is_ordinary = body.proofs.facets->is_usable() && rigidity <= kMostRigidityError &&
+  const bool is_ordinary = body.is_usable && rigidity <= kMostRigidityError &&
                            taxicab(pose.translation) <= kMostTranslation;
   if (is_ordinary && body.is_ordinary && body.has_moved) {
     const Mat3& r = pose.rotation;
@@ -74,9 +80,8 @@ void GrowthScene::place(Body& body, const BodyPose& pose) const noexcept {
     const double turn =
         std::sqrt(squared_length(r.rows[0] - q.rows[0]) + squared_length(r.rows[1] - q.rows[1]) +
                   squared_length(r.rows[2] - q.rows[2]));
-    const double motion = distance(centre, body.centre) +
-                          turn * body.proofs.facets->outer_radius_mm() + error +
-                          body.centre_error_mm;
+    const double motion =
+        distance(centre, body.centre) + turn * body.radius_mm + error + body.centre_error_mm;
     body.path_mm = (body.path_mm + motion) * (1 + 16 * kRoundoff);
   } else {
     body.path_mm = HUGE_VAL;  // unknown motion: every proof must be tried anew
@@ -98,21 +103,37 @@ SceneTick GrowthScene::update(std::span<const BodyPose> world_from_body) noexcep
   }
   if (is_path_lost) {
     for (Body& body : bodies_) body.path_mm = 0;
-    for (Pair& pair : pairs_) pair.limit_mm = -1;
+    std::fill(limits_mm_.begin(), limits_mm_.end(), -1);
   }
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    Pair& pair = pairs_[i];
-    const double used = bodies_[pair.bodies.first].path_mm + bodies_[pair.bodies.second].path_mm;
-    if (used < pair.limit_mm) {
-      ++counts_.by_budget;
-    } else {
-      verdicts_[i] = decide(pair);
-      ++tick.queries;
-    }
-    tick.meeting += verdicts_[i] == Verdict::Meet ? 1U : 0U;
-    tick.unknown += verdicts_[i] == Verdict::Unknown ? 1U : 0U;
+  find_asked();
+  counts_.by_budget += pairs_.size() - asked_.size();
+  tick.queries = asked_.size();
+  for (std::size_t k = 0; k < asked_.size(); ++k) {
+    if (k + 2 < asked_.size()) fetch(asked_[k + 2]);
+    verdicts_[asked_[k]] = decide(asked_[k]);
+  }
+  for (const Verdict verdict : verdicts_) {
+    tick.meeting += verdict == Verdict::Meet ? 1U : 0U;
+    tick.unknown += verdict == Verdict::Unknown ? 1U : 0U;
   }
   return tick;
+}
+
+void GrowthScene::find_asked() noexcept {
+  asked_.clear();
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (std::size_t j = i + 1; j < bodies_.size(); ++j, ++number) {
+      const bool is_spared = bodies_[i].path_mm + bodies_[j].path_mm < limits_mm_[number];
+      if (!is_spared) asked_.push_back(number);
+    }
+  }
+}
+
+/// Asks for a pair's memory, which takes longer to come than a proof to try.
+void GrowthScene::fetch(std::size_t number) const noexcept {
+  const auto* bytes = reinterpret_cast<const char*>(&pairs_[number]);
+  for (std::size_t at = 0; at < offsetof(Pair, memory); at += 64) __builtin_prefetch(bytes + at);
 }
 
 RelativePose GrowthScene::relative(const Body& first, const Body& second) noexcept {
@@ -131,21 +152,20 @@ RelativePose GrowthScene::relative(const Body& first, const Body& second) noexce
   return pose;
 }
 
-Verdict GrowthScene::decide(Pair& pair) noexcept {
+Verdict GrowthScene::decide(std::size_t number) noexcept {
+  Pair& pair = pairs_[number];
   const Body& first = bodies_[pair.bodies.first];
   const Body& second = bodies_[pair.bodies.second];
-  pair.limit_mm = -1;
+  limits_mm_[number] = -1;
   if (!first.is_ordinary || !second.is_ordinary) return decide_exactly(pair);
   const double used = first.path_mm + second.path_mm;
   const auto grant = [&](double margin_mm) {
     if (uses_budget_) {
-      pair.limit_mm = (used + margin_mm * kMarginShare) * (1 - 8 * kRoundoff);
+      limits_mm_[number] = (used + margin_mm * kMarginShare) * (1 - 8 * kRoundoff);
     }
   };
 
-  const double reach =
-      (first.proofs.facets->outer_radius_mm() + second.proofs.facets->outer_radius_mm()) *
-      (1 + kMostRigidityError);
+  const double reach = (first.radius_mm + second.radius_mm) * (1 + kMostRigidityError);
   const double gap = distance(first.centre, second.centre) * (1 - 8 * kRoundoff) -
                      first.centre_error_mm - second.centre_error_mm - reach;
   if (gap > 0) {
@@ -156,13 +176,12 @@ Verdict GrowthScene::decide(Pair& pair) noexcept {
 
   ++counts_.pairs.queries;
   const RelativePose pose = relative(first, second);
-  const Vec3& second_origin = second.proofs.facets->origin();
-  const PairPose in_first{
-      pose.rotation, pose.offset + first.proofs.facets->origin() - pose.rotation * second_origin};
+  const Vec3& second_origin = second.origin;
+  const PairPose in_first{pose.rotation,
+                          pose.offset + first.origin - pose.rotation * second_origin};
   const double slack_mm =
-      pose.offset_error_mm + pose.rotation_error * second.proofs.facets->outer_radius_mm() +
-      16 * kRoundoff *
-          (taxicab(pose.offset) + taxicab(second_origin) + taxicab(first.proofs.facets->origin()));
+      pose.offset_error_mm + pose.rotation_error * second.radius_mm +
+      16 * kRoundoff * (taxicab(pose.offset) + taxicab(second_origin) + taxicab(first.origin));
   Verdict verdict = pair.ready.again(in_first, slack_mm);
   if (verdict != Verdict::Unknown) {
     ++counts_.pairs.by_last_proof;

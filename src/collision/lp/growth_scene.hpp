@@ -48,6 +48,9 @@ class GrowthScene {
   struct Body {
     const ConvexBody* body = nullptr;
     ProofBody proofs;
+    Vec3 origin;  ///< of the graph, in the body
+    double radius_mm = 0;
+    bool is_usable = false;  ///< the graph is
     BodyPose pose;
     Vec3 centre;  ///< of the graph's origin, in the world
     double centre_error_mm = 0;
@@ -58,18 +61,23 @@ class GrowthScene {
   };
   struct Pair {
     IndexPair bodies{};
-    double limit_mm = -1;  ///< the verdict holds until both paths add up to this
     ReadyProof ready;
     GrowthMemory memory;
   };
 
   void place(Body& body, const BodyPose& pose) const noexcept;
-  [[nodiscard]] Verdict decide(Pair& pair) noexcept;
+  void find_asked() noexcept;
+  void fetch(std::size_t number) const noexcept;
+  [[nodiscard]] Verdict decide(std::size_t number) noexcept;
   [[nodiscard]] Verdict decide_exactly(Pair& pair) noexcept;
   [[nodiscard]] static RelativePose relative(const Body& first, const Body& second) noexcept;
 
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
+  /// By pair: the verdict holds until both bodies' paths add up to this [mm]. Apart from the rest
+  /// of a pair, which is not read while that is so.
+  std::vector<double> limits_mm_;
+  std::vector<std::uint32_t> asked_;  ///< pairs that this update has to ask
   std::vector<Verdict> verdicts_;
   bool uses_budget_;
   GrowthSceneCounts counts_;
