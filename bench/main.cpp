@@ -25,6 +25,7 @@ struct HullArguments {
   std::filesystem::path json;
   std::filesystem::path plot;
   std::filesystem::path bones;
+  std::size_t min_points = 10'000;
   std::size_t max_points = 100'000;
   double budget_seconds = 0.4;
   unsigned cap_seconds = 60;
@@ -46,13 +47,15 @@ void append(std::vector<HullRow>& rows,
   rows.insert(rows.end(), more.begin(), more.end());
 }
 
-/// From 10 000 on, two in each decade and at least three, so that growth can be told.
-std::vector<std::size_t> sizes_up_to(std::size_t most) {
+/// From 10 000 on, two in each decade and at least three, so that growth can be told; of these the
+/// ones not below `least`.
+std::vector<std::size_t> sizes_between(std::size_t least, std::size_t most) {
   std::vector<std::size_t> sizes;
   for (std::size_t n = 10'000; n <= most; n *= 10) {
     sizes.push_back(n);
     if (n < 1'000'000 && 3 * n <= most) sizes.push_back(3 * n);
   }
+  std::erase_if(sizes, [&](std::size_t n) { return n < least; });
   return sizes;
 }
 
@@ -155,7 +158,7 @@ void run_hull(const HullArguments& a) {
       for (const BoneId bone : kAllBones) append(rows, model_bone(bone, 4500), engines, options);
     }
   } else {
-    const std::vector<std::size_t> sizes = sizes_up_to(a.max_points);
+    const std::vector<std::size_t> sizes = sizes_between(a.min_points, a.max_points);
     for (const std::string& name : distributions()) {
       for (const std::size_t n : sizes) append(rows, make_point_set(name, n, 1), engines, options);
     }
@@ -187,6 +190,9 @@ void add_hull(CLI::App& app, HullArguments& a) {
       "Folder of <bone>.ply, e.g. cases/demo/bones; default: the parametric wrist (simulated)");
   hull->add_option("--json", a.json, "Also write the rows here");
   hull->add_option("--plot", a.plot, "Also draw PREFIX_n and PREFIX_h, .svg and .png");
+  hull->add_option("--min-points", a.min_points, "Of the distributions; from 10000")
+      ->check(CLI::Range(10'000, 10'000'000))
+      ->capture_default_str();
   hull->add_option("--max-points", a.max_points, "Of the distributions; up to 10000000")
       ->check(CLI::Range(10'000, 10'000'000))
       ->capture_default_str();
