@@ -79,9 +79,10 @@ std::string text_of(const std::vector<HullRow>& rows) {
       const auto found = by_engine.find(engine);
       text += cell(found == by_engine.end() ? nullptr : found->second);
     }
-    text += fast > 0 && std::isfinite(best)
-                ? format("   %.2f x  %.2f x\n", best_exact / fast, best / fast)
-                : "\n";
+    const auto ratio = [fast](double peer) {
+      return fast > 0 && std::isfinite(peer) ? format("  %6.2f x", peer / fast) : "         -";
+    };
+    text += ratio(best_exact) + ratio(best) + "\n";
   }
   return text + "!: not the same corners, facets and volume as the exact answer\n";
 }
