@@ -213,7 +213,7 @@ TEST(PolarGraph, FacesAboutAVertexAreThoseThatHoldIt) {
         const Vec3 p = graph.row(fan[i]).normal();
         const Vec3 q = graph.row(fan[(i + 1) % fan.size()]).normal();
         const Vec3 r = graph.row(fan[(i + 2) % fan.size()]).normal();
-      EXPECT_GT(dot(cross(q - p, r - q), spoke), 0) << name;
+        EXPECT_GT(dot(cross(q - p, r - q), spoke), 0) << name;
       }
     }
   }
