@@ -10,6 +10,7 @@
 #include "bench/collision/tables.hpp"
 #include "bench/drawing.hpp"
 #include "bench/provenance.hpp"
+#include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -31,6 +32,7 @@ void run(const CollisionArguments& a) {
   options.caps = {a.cap_gib << 30U, a.cap_seconds};
   options.budget_seconds = a.budget_seconds;
   options.pairs = a.pairs;
+  options.engines = a.engines;
   std::vector<CollisionRow> rows;
   std::string bones = a.bones.empty() ? "parametric wrist (simulated)" : a.bones.string();
   std::string tail;
@@ -50,6 +52,7 @@ void run(const CollisionArguments& a) {
            : a.table == "surface"  ? surface_table(set, options)
                                    : pair_table(set, a.table == "cold", options);
   }
+  if (rows.empty()) throw InvalidInput("this table has none of the engines named");
   print_head(bones);
   if (a.table != "growth") std::fputs(text_of(rows).c_str(), stdout);
   std::fputs(tail.c_str(), stdout);
@@ -83,6 +86,8 @@ void add_collision(CLI::App& app, CollisionArguments& a) {
       ->capture_default_str();
   verb->add_option("--pairs", a.pairs, "At most so many pairs of bones; 0: all that are near")
       ->capture_default_str();
+  verb->add_option("--engines", a.engines,
+                   "Only these, e.g. --engines lp_growth fcl; default: all");
   verb->add_option("--cap-seconds", a.cap_seconds, "Longer than this: not run")
       ->capture_default_str();
   verb->add_option("--cap-gib", a.cap_gib, "More memory than this: not run")->capture_default_str();

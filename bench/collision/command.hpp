@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace carpus::bench {
 
@@ -17,6 +18,7 @@ struct CollisionArguments {
   std::filesystem::path bones;
   double budget_seconds = 8;
   std::size_t pairs = 0;
+  std::vector<std::string> engines;
   unsigned cap_seconds = 90;
   std::size_t cap_gib = 8;
 };

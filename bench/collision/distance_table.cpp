@@ -126,6 +126,7 @@ std::vector<CollisionRow> distance_table(const BoneSet& bones, const BenchOption
     }
     std::fprintf(stderr, "%s\n", gap.name.c_str());
     for (const PairEngine& engine : engines) {
+      if (!options.wants(engine.name)) continue;
       if (depth ? !engine.gives_depth : !engine.gives_distance) continue;
       CollisionRow row{gap.name,
                        depth ? "depth" : "distance",

@@ -48,6 +48,7 @@ std::vector<CollisionRow> growth_table(const BenchOptions& options) {
     scripts.push_back(
         {first.get(), second.get(), make_poses("trajectory", *first, *second, kPoses, facets)});
     for (const PairEngine& engine : engines) {
+      if (!options.wants(engine.name)) continue;
       if (facets > kMostForSlow && is_slow(engine.name)) continue;
       for (const bool cold : {false, true}) {
         rows.push_back(measure_verdicts(engine, cold ? "cold" : "warm", scripts, cold, options));

@@ -4,6 +4,7 @@
 // Numbers of many timed queries of one engine, and how they become rows.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -58,9 +59,14 @@ inline constexpr int kPasses = 3;
 
 struct BenchOptions {
   Caps caps{std::size_t{8} << 30U, 60};
-  double budget_seconds = 20;  ///< an engine on one case; what does not fit is not asked
-  std::size_t pairs = 0;       ///< how many pairs of bones; 0: all near ones
-  std::size_t poses = 100;     ///< a pair and case
+  double budget_seconds = 20;        ///< an engine on one case; what does not fit is not asked
+  std::size_t pairs = 0;             ///< how many pairs of bones; 0: all near ones
+  std::size_t poses = 100;           ///< a pair and case
+  std::vector<std::string> engines;  ///< only these; empty: all
+
+  [[nodiscard]] bool wants(const std::string& engine) const {
+    return engines.empty() || std::find(engines.begin(), engines.end(), engine) != engines.end();
+  }
 };
 
 /// Asks meets() for every pose; `cold` forgets before each.

@@ -27,6 +27,7 @@ std::vector<CollisionRow> pair_table(const BoneSet& bones, bool cold, const Benc
     }
     std::fprintf(stderr, "%s, %zu pairs\n", pose_case.c_str(), scripts.size());
     for (const PairEngine& engine : engines) {
+      if (!options.wants(engine.name)) continue;
       rows.push_back(measure_verdicts(engine, pose_case, scripts, cold, options));
     }
   }

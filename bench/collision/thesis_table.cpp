@@ -97,6 +97,7 @@ std::vector<CollisionRow> thesis_table(const std::filesystem::path& folder,
     scripts.push_back(
         {first.get(), second.get(), make_poses("trajectory", *first, *second, kPoses, i + 1)});
     for (const PairEngine& engine : engines_for(own.points, other.points)) {
+      if (!options.wants(engine.name)) continue;
       for (const bool cold : {true, false}) {
         CollisionRow row = measure_verdicts(engine, std::string(bone.name) + (cold ? "" : " warm"),
                                             scripts, cold, options);

@@ -340,6 +340,7 @@ std::vector<CollisionRow> tick_table(const BoneSet& bones, const BenchOptions& o
                                     (setup.empty_caches ? "_emptied" : "");
       std::fprintf(stderr, "tick, %s%s\n", pose_case.c_str(), setup.distance ? ", distance" : "");
       for (const NamedTick& engine : tick_engines(bones, bodies, setup)) {
+        if (!options.wants(engine.name)) continue;
         CollisionRow row{pose_case,
                          setup.distance ? "tick_distance" : "tick_boolean",
                          engine.name,

@@ -17,7 +17,6 @@ void ReadySeparation::set(const SeparationProof& proof,
   most_translation_ = 2 * taxicab(translation) + 1;
   squared_radius_ = radius * radius * (1 + 64 * kRoundoff);
   first_reach_ = proof.first_reach;
-  second_reach_ = proof.second_reach;
   // q is off by under 6 u size, as the matrix's norm is below 1.77; its product with the origin and
   // the turn's with the radius inherit that; sums lose 8 u of what enters, reaches that are
   // measured later among it: no reach exceeds 2 size times a radius.
@@ -26,36 +25,29 @@ void ReadySeparation::set(const SeparationProof& proof,
       proof.size * kRoundoff *
           (32 * (taxicab(first_origin) + taxicab(second_origin_) + most_translation_) +
            64 * radii) +
-      16 * kRoundoff * (first_reach_ + second_reach_);
+      16 * kRoundoff * (first_reach_ + proof.second_reach);
   base_ = dot(n_, first_origin) + rounding;
-  set_threshold();
+  threshold_ = threshold(proof.second_reach);
   has_second_corner_ = false;
-  is_first_measured_ = false;
 }
 
-bool ReadySeparation::walk(const ProofBody& first,
-                           const ProofBody& second,
+bool ReadySeparation::walk(const ProofBody& second,
                            const PairPose& pose,
                            double slack_mm) noexcept {
   if (!is_covered(pose, most_translation_)) return false;
   const Vec3 q = turned(pose);
-  const CertainTop top = second.corners->certain_climb(
-      -q, has_second_corner_ ? second_corner_ : second.corners->near(-q));
-  second_corner_ = top.corner;
+  const SupportGraph& corners = *second.corners;
+  if (!has_second_corner_) second_corner_ = corners.near(-q);
   has_second_corner_ = true;
+  // A corner beyond the plane ends the matter; often the last one still is.
+  const double least_reach = -dot(q, corners.corner(second_corner_));
+  if (!(gap_before_turn(pose, q, threshold(least_reach)) > 0)) return false;
+  const CertainTop top = corners.certain_climb(-q, second_corner_);
+  second_corner_ = top.corner;
   if (!top.is_certain) return false;
   m_ = -q;
-  second_reach_ = top.reach;
-  set_threshold();
-  if (gap_before_turn(pose, q) > slack_mm * size_) return true;
-  // Sums of rows bound the first body's reach from above only.
-  if (is_first_measured_) return false;
-  is_first_measured_ = true;
-  const CertainTop first_top = first.corners->certain_climb(n_, first.corners->near(n_));
-  if (!first_top.is_certain) return false;
-  first_reach_ = first_top.reach;
-  set_threshold();
-  return gap_before_turn(pose, q) > slack_mm * size_;
+  threshold_ = threshold(top.reach);
+  return gap_before_turn(pose, q, threshold_) > slack_mm * size_;
 }
 
 void ReadyBall::set(const CommonBallProof& proof,
@@ -82,8 +74,11 @@ bool ReadyBall::walk(const ProofBody& first, const PairPose& pose, double slack_
   const PolarGraph& graph = *first.facets;
   const Vec3 in_first = pose.rotation * in_second_ + pose.translation;
   const Vec3 d = in_first - graph.origin();
-  face_ = graph.climb(has_face_ ? face_ : graph.start_for(d), d).face;
+  if (!has_face_) face_ = graph.start_for(d);
   has_face_ = true;
+  // The face of the last walk may already lie before the point.
+  if (graph.row(face_).gauge(d) > 1) return false;
+  face_ = graph.climb(face_, d).face;
   const double radius =
       (1 - graph.gauge_bound(face_, d)) * graph.inner_radius_mm() * (1 - 4 * kRoundoff) -
       rounding_mm_;
@@ -99,11 +94,12 @@ Verdict ReadyProof::from_last(const ProofBody& first,
                               const PairPose& pose,
                               double slack_mm) noexcept {
   if (last_ == Verdict::Unknown) return last_;
-  const bool was_apart = last_ == Verdict::Apart;
-  if (was_apart && separation_.walk(first, second, pose, slack_mm)) return Verdict::Apart;
-  if (ball_.walk(first, pose, slack_mm)) return last_ = Verdict::Meet;
-  if (!was_apart && separation_.walk(first, second, pose, slack_mm)) return last_ = Verdict::Apart;
-  return Verdict::Unknown;
+  if (last_ == Verdict::Apart) {
+    if (separation_.walk(second, pose, slack_mm)) return last_;
+    return ball_.walk(first, pose, slack_mm) ? last_ = Verdict::Meet : Verdict::Unknown;
+  }
+  if (ball_.walk(first, pose, slack_mm)) return last_;
+  return separation_.walk(second, pose, slack_mm) ? last_ = Verdict::Apart : Verdict::Unknown;
 }
 
 }  // namespace carpus::collision

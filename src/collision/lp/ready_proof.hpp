@@ -39,7 +39,7 @@ class ReadySeparation {
   /// @param slack_mm  how far any point of the second body may be from where the pose puts it.
   [[nodiscard]] bool holds(const PairPose& pose, double slack_mm) const noexcept {
     const Vec3 q = turned(pose);
-    const double gap = gap_before_turn(pose, q) - slack_mm * size_;
+    const double gap = gap_before_turn(pose, q, threshold_) - slack_mm * size_;
     return gap > 0 && gap * gap > squared_length(q + m_) * squared_radius_ &&
            is_covered(pose, most_translation_);
   }
@@ -47,25 +47,28 @@ class ReadySeparation {
   /// A lower bound of the bodies' distance.
   [[nodiscard]] double margin_mm(const PairPose& pose, double slack_mm) const noexcept {
     const Vec3 q = turned(pose);
-    return (gap_before_turn(pose, q) - std::sqrt(squared_length(q + m_) * squared_radius_)) *
+    return (gap_before_turn(pose, q, threshold_) -
+            std::sqrt(squared_length(q + m_) * squared_radius_)) *
                (1 - 8 * kRoundoff) / size_ -
            slack_mm;
   }
 
-  /// Measures how far the second body reaches against n, walking over its vertices, and the first
-  /// along n, once for each n. True where that proves the bodies apart; it is the proof then.
-  [[nodiscard]] bool walk(const ProofBody& first,
-                          const ProofBody& second,
-                          const PairPose& pose,
-                          double slack_mm) noexcept;
+  /// Measures how far the second body reaches against n, walking over its vertices. True where that
+  /// proves the bodies apart; it is the proof then.
+  [[nodiscard]] bool walk(const ProofBody& second, const PairPose& pose, double slack_mm) noexcept;
 
  private:
   [[nodiscard]] Vec3 turned(const PairPose& pose) const noexcept {
     const auto& r = pose.rotation.rows;
     return r[0] * n_.x + r[1] * n_.y + r[2] * n_.z;
   }
-  [[nodiscard]] double gap_before_turn(const PairPose& pose, const Vec3& q) const noexcept {
-    return dot(q, second_origin_) + dot(n_, pose.translation) - threshold_;
+  [[nodiscard]] double gap_before_turn(const PairPose& pose,
+                                       const Vec3& q,
+                                       double threshold) const noexcept {
+    return dot(q, second_origin_) + dot(n_, pose.translation) - threshold;
+  }
+  [[nodiscard]] double threshold(double second_reach) const noexcept {
+    return base_ + (first_reach_ + second_reach);
   }
 
   Vec3 n_;
@@ -76,14 +79,10 @@ class ReadySeparation {
   double most_translation_ = 0;
   double size_ = 1;  // at least |n|
   // For walks:
-  void set_threshold() noexcept { threshold_ = base_ + (first_reach_ + second_reach_); }
-
   double base_ = 0;
   double first_reach_ = 0;
-  double second_reach_ = 0;
   std::uint32_t second_corner_ = 0;
   bool has_second_corner_ = false;
-  bool is_first_measured_ = false;
 };
 
 /// A CommonBallProof, its centres in the bodies' own frames.
