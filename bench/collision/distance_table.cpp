@@ -75,7 +75,7 @@ Timing time_values(const PairEngine& engine,
   std::vector<std::vector<double>> passes;
   Timing found;
   const Stopwatch watch;
-  for (int pass = 0; pass < kPasses && (pass == 0 || watch.seconds() < budget_seconds / 2);
+  for (int pass = 0; pass < kQueryPasses && (pass == 0 || watch.seconds() < budget_seconds / 2);
        ++pass) {
     std::vector<double> seconds;
     for (std::size_t s = 0; s < scripts.size() && watch.seconds() < budget_seconds; ++s) {
