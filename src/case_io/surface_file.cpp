@@ -116,11 +116,16 @@ void append(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-std::string obj_or_off(const TriangleMesh& mesh, bool is_obj) {
+/// @param faces  each a range of indices.
+template <class Faces>
+void write_obj_or_off(const fs::path& file,
+                      bool is_obj,
+                      std::span<const Vec3> vertices,
+                      const Faces& faces) {
   std::string text = is_obj ? "# carpus, mm\n"
-                            : "OFF\n" + std::to_string(mesh.vertices.size()) + " " +
-                                  std::to_string(mesh.facets.size()) + " 0\n";
-  for (const Vec3& p : mesh.vertices) {
+                            : "OFF\n" + std::to_string(vertices.size()) + " " +
+                                  std::to_string(faces.size()) + " 0\n";
+  for (const Vec3& p : vertices) {
     if (is_obj) text += "v ";
     append(text, p.x);
     text += ' ';
@@ -129,12 +134,15 @@ std::string obj_or_off(const TriangleMesh& mesh, bool is_obj) {
     append(text, p.z);
     text += '\n';
   }
-  for (const Triangle& t : mesh.facets) {
-    text += is_obj ? "f" : "3";
-    for (const std::uint32_t v : t) text += ' ' + std::to_string(is_obj ? v + 1 : v);
+  for (const auto& face : faces) {
+    text += is_obj ? "f" : std::to_string(face.size());
+    for (const std::uint32_t v : face) text += ' ' + std::to_string(is_obj ? v + 1 : v);
     text += '\n';
   }
-  return text;
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw_cannot_write(file);
 }
 
 }  // namespace
@@ -159,10 +167,17 @@ void write_surface(const fs::path& file, const TriangleMesh& mesh) {
   if (extension != ".obj" && extension != ".off") {
     throw IoError(file.string() + ": cannot be written; give .ply, .stl, .obj or .off");
   }
-  std::ofstream out(file, std::ios::binary);
-  out << obj_or_off(mesh, extension == ".obj");
-  out.close();
-  if (!out) throw_cannot_write(file);
+  write_obj_or_off(file, extension == ".obj", mesh.vertices, mesh.facets);
+}
+
+void write_polygons(const fs::path& file,
+                    std::span<const Vec3> vertices,
+                    std::span<const std::vector<std::uint32_t>> faces) {
+  const std::string extension = extension_of(file);
+  if (extension != ".obj" && extension != ".off") {
+    throw IoError(file.string() + ": whole faces can be written as .obj or .off only");
+  }
+  write_obj_or_off(file, extension == ".obj", vertices, faces);
 }
 
 std::vector<Vec2> read_planar_points(const fs::path& file) {
@@ -173,7 +188,11 @@ std::vector<Vec2> read_planar_points(const fs::path& file) {
   while (lines.next()) {
     const bool is_heading = is_first && !lines.is_number(0);
     is_first = false;
-    if (!is_heading) points.push_back({lines.number(0), lines.number(1)});
+    if (is_heading) continue;
+    if (lines.words().size() > 2 && lines.is_number(2)) {
+      lines.refuse("three numbers, a point in space; give those as .xyz, or two columns only");
+    }
+    points.push_back({lines.number(0), lines.number(1)});
   }
   return points;
 }

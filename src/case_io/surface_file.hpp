@@ -4,7 +4,9 @@
 // Surfaces and point sets in the formats that other programs write: PLY, STL, OBJ, OFF, XYZ, CSV.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "geometry/predicates.hpp"
@@ -25,9 +27,16 @@ namespace carpus::case_io {
 /// @throws IoError where the file cannot be written whole or the format is not known.
 void write_surface(const std::filesystem::path& file, const TriangleMesh& mesh);
 
+/// Writes faces of any number of corners, to .obj or .off only.
+/// @param faces  indices of vertices, counter-clockwise from outside.
+/// @throws IoError as write_surface.
+void write_polygons(const std::filesystem::path& file,
+                    std::span<const Vec3> vertices,
+                    std::span<const std::vector<std::uint32_t>> faces);
+
 /// Two numbers a line, between them a comma, a semicolon or blanks; the first line may hold names,
-/// further columns are skipped.
-/// @throws IoError as read_surface.
+/// as may further columns.
+/// @throws IoError as read_surface, and where a line holds three numbers: points in space.
 [[nodiscard]] std::vector<Vec2> read_planar_points(const std::filesystem::path& file);
 
 }  // namespace carpus::case_io

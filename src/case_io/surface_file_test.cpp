@@ -139,6 +139,22 @@ TEST_F(SurfaceFile, ReadsPlanarPointsFromCsv) {
   EXPECT_EQ(read_planar_points(file(".csv")), (std::vector<Vec2>{{1, 2}, {3.5, -4}, {5, 6}}));
   std::ofstream(file(".bad.csv")) << "x,y\nx,y\n";
   EXPECT_THROW((void)read_planar_points(file(".bad.csv")), IoError);
+  std::ofstream(file(".space.csv")) << "x,y,z\n0,0,1\n";
+  EXPECT_THROW((void)read_planar_points(file(".space.csv")), IoError);
+}
+
+TEST_F(SurfaceFile, KeepsWholeFaces) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 3}};
+  const std::vector<std::vector<std::uint32_t>> faces{
+      {3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  for (const char* extension : {".obj", ".off"}) {
+    write_polygons(file(extension), corners, faces);
+    const TriangleMesh mesh = read_surface(file(extension));
+    EXPECT_EQ(mesh.vertices, corners);
+    EXPECT_EQ(mesh.facets.size(), 6U);  // the square is cut in two
+    EXPECT_EQ(check_surface(mesh), SurfaceStatus::Ok);
+  }
+  EXPECT_THROW(write_polygons(file(".stl"), corners, faces), IoError);
 }
 
 }  // namespace

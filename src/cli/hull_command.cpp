@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -25,6 +26,7 @@
 #include "hull/hybrid_hull.hpp"
 #include "hull/merged_faces.hpp"
 #include "hull/planar_hull.hpp"
+#include "hull/polytope_measures.hpp"
 #include "hull/quickhull.hpp"
 #include "records/atomic_file.hpp"
 
@@ -43,7 +45,15 @@ struct Arguments {
   fs::path json_file;
   fs::path png;
   std::string algorithm = "fast";
+  bool merge = false;
 };
+
+bool is_planar(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".csv";
+}
 
 /// What an algorithm's name stands for in space and in the plane, if there is such a one.
 struct NamedAlgorithm {
@@ -53,7 +63,7 @@ struct NamedAlgorithm {
 };
 
 const std::array kAlgorithms{
-    NamedAlgorithm{"fast", hull::build_fast_hull, PlanarAlgorithm::GrahamScan},
+    NamedAlgorithm{"fast", hull::build_fast_hull, PlanarAlgorithm::Fast},
     NamedAlgorithm{"brute_force",
                    [](std::span<const Vec3> p) { return hull::build_hull_by_brute_force(p); },
                    PlanarAlgorithm::BruteForce},
@@ -130,14 +140,21 @@ void run_in_space(const Arguments& a) {
   const HullResult result = algorithm.in_space(object.vertices);
   const double seconds = seconds_since(start);
   require_hull(result.status, a.input, object.vertices.size());
-  if (!a.out.empty()) case_io::write_surface(a.out, result.polytope.surface());
+  const std::vector<hull::PolygonalFace> faces = hull::merged_faces(result.polytope);
+  if (!a.out.empty() && a.merge) {
+    std::vector<std::vector<std::uint32_t>> polygons;
+    for (const hull::PolygonalFace& face : faces) polygons.push_back(face.corners);
+    case_io::write_polygons(a.out, result.polytope.vertices, polygons);
+  } else if (!a.out.empty()) {
+    case_io::write_surface(a.out, result.polytope.surface());
+  }
   if (!a.png.empty()) write_png(a.png, draw_hull(object, result.polytope));
   const hull::PolytopeMeasures measures = hull::measures_of(result.polytope);
   report(a, {{"algorithm", a.algorithm},
              {"points", object.vertices.size()},
              {"vertices", result.polytope.vertices.size()},
              {"facets", result.polytope.facets.size()},
-             {"faces", hull::merged_faces(result.polytope).size()},
+             {"faces", faces.size()},
              {"volume_mm3", measures.volume_mm3},
              {"area_mm2", measures.area_mm2},
              {"centroid_mm", {measures.centroid.x, measures.centroid.y, measures.centroid.z}},
@@ -158,7 +175,7 @@ void write_corners(const fs::path& file,
 }
 
 void run_in_plane(const Arguments& a) {
-  if (!a.out.empty() && a.out.extension() != ".csv") {
+  if (!a.out.empty() && !is_planar(a.out)) {
     throw UsageError(a.out.string() + ": the hull of points in the plane is written as .csv");
   }
   const std::vector<Vec2> points = case_io::read_planar_points(a.input);
@@ -188,16 +205,19 @@ void add_hull_command(CLI::App& app) {
       ->required();
   std::vector<std::string> names;
   for (const NamedAlgorithm& a : kAlgorithms) names.emplace_back(a.name);
-  command->add_option("--algorithm", arguments->algorithm, "fast is graham in the plane")
+  command
+      ->add_option("--algorithm", arguments->algorithm,
+                   "In the plane fast is a first filter and graham")
       ->check(CLI::IsMember(names))
       ->capture_default_str();
   command->add_option("--out", arguments->out,
                       "Write the hull here (.ply .stl .obj .off; in the plane .csv)");
+  command->add_flag("--merge", arguments->merge,
+                    "Write coplanar facets as one face (--out .obj or .off)");
   command->add_option("--json", arguments->json_file, "Write the printed figures to this file");
   command->add_option("--png", arguments->png, "Draw the object and its hull");
   command->callback([arguments] {
-    const bool is_planar = arguments->input.extension() == ".csv";
-    is_planar ? run_in_plane(*arguments) : run_in_space(*arguments);
+    is_planar(arguments->input) ? run_in_plane(*arguments) : run_in_space(*arguments);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "hull/polytope_measures.hpp"
 
 namespace carpus::collision {
 
@@ -17,10 +18,6 @@ ConvexBody::ConvexBody(ConvexPolytope polytope) : polytope_(std::move(polytope))
   }
   faces_ = hull::merged_faces(polytope_);
   interior_point_ = hull::measures_of(polytope_).centroid;
-  if (!is_finite(interior_point_)) {  // moments of very large or small bodies leave the doubles
-    interior_point_ = {};
-    for (const Vec3& v : vertices()) interior_point_ += v / static_cast<double>(vertices().size());
-  }
   for (const Vec3& v : polytope_.vertices) {
     box_.include(v);
     radius_mm_ = std::max(radius_mm_, distance(v, interior_point_));

@@ -54,15 +54,20 @@ struct Vec2 {
   return sign != 0 ? sign : orient3d_exact(a, b, c, d);
 }
 
-/// +1 if a, b, c turn counter-clockwise, -1 clockwise, 0 on one line.
-[[nodiscard]] inline int orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
+/// Sign of the turn where rounding cannot have changed it, else 0: "not known".
+[[nodiscard]] inline int orient2d_filter(const Vec2& a, const Vec2& b, const Vec2& c) noexcept {
   const double left = (b.x - a.x) * (c.y - a.y);
   const double right = (b.y - a.y) * (c.x - a.x);
   const double det = left - right;
   const double bound = kOrient2dFilter * (std::abs(left) + std::abs(right)) + kUnderflowBound;
   if (det > bound) return 1;
-  if (det < -bound) return -1;
-  return orient2d_exact(a, b, c);
+  return det < -bound ? -1 : 0;
+}
+
+/// +1 if a, b, c turn counter-clockwise, -1 clockwise, 0 on one line.
+[[nodiscard]] inline int orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const int sign = orient2d_filter(a, b, c);
+  return sign != 0 ? sign : orient2d_exact(a, b, c);
 }
 
 /// True if the three points lie on one line (or coincide).

@@ -1,13 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The library in ten lines; README.md shows the same.
+// The library in ten lines.
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "hull/fast_hull.hpp"
 #include "hull/merged_faces.hpp"
+#include "hull/polytope_measures.hpp"
 
 namespace {
 

@@ -92,6 +92,15 @@ TEST(FastHull, GivesTheSameBytesAsQuickhullCellByCell) {
   }
 }
 
+TEST(FastHull, SaysHowManyPointsItPassedOver) {
+  Rng rng(4);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20'000; ++i) points.push_back({rng.normal(), rng.normal(), rng.normal()});
+  const HullStatistics statistics = build_fast_hull(points).statistics;
+  EXPECT_GT(statistics.points_discarded, 18'000U);
+  EXPECT_LT(statistics.points_discarded, 20'000U);
+}
+
 TEST(FastHull, NamesInputWithoutAHull) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(build_fast_hull({}).status, HullStatus::TooFewPoints);

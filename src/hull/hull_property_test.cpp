@@ -17,6 +17,7 @@
 #include "hull/detail/all_algorithms.hpp"
 #include "hull/detail/degenerate_points.hpp"
 #include "hull/detail/face_polygon.hpp"
+#include "hull/merged_faces.hpp"
 
 namespace carpus::hull {
 namespace {
@@ -106,6 +107,41 @@ TEST(HullProperties, DoNotDependOnOrderDuplicationSignsOrAxes) {
       const HullResult again = algorithm.build(found.polytope.vertices, {});
       if (found.status != HullStatus::Ok) continue;
       ASSERT_EQ(again.polytope.facets, found.polytope.facets) << algorithm.name << " " << seed;
+    }
+  }
+}
+
+/// Whole numbers turn and move without rounding under 27 times a rotation about a skew axis.
+TEST(HullProperties, DoNotDependOnRigidMotion) {
+  const std::uint64_t count = case_count() / 10;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    Rng rng(seed + 77);
+    const auto whole = [&] { return static_cast<double>(rng.below(24)) - 12; };
+    std::vector<Vec3> points;
+    for (std::uint64_t i = 8 + rng.below(60); i > 0; --i) {
+      const double x = whole();
+      const double y = whole();
+      points.push_back({x, y, whole()});
+    }
+    const Vec3 shift{whole() * 1e3, whole() * 1e6, whole()};
+    const auto moved_point = [&](const Vec3& p) {
+      const auto ninth = [](const Vec3& v) {  // 9 R, R a rotation by the quaternion (2, 2, 1, 0)
+        return Vec3{7 * v.x + 4 * v.y + 4 * v.z, 4 * v.x + v.y - 8 * v.z, -4 * v.x + 8 * v.y - v.z};
+      };
+      return ninth(p) * 3 + shift;
+    };
+    std::vector<Vec3> moved;
+    for (const Vec3& p : points) moved.push_back(moved_point(p));
+    for (const Algorithm& algorithm : kAlgorithms) {
+      if (points.size() > algorithm.most_points) continue;
+      HullResult before = algorithm.build(points, {});
+      const HullResult after = algorithm.build(moved, {});
+      ASSERT_EQ(after.status, before.status) << algorithm.name << " " << seed;
+      const std::size_t faces = merged_faces(before.polytope).size();
+      auto& v = before.polytope.vertices;
+      std::transform(v.begin(), v.end(), v.begin(), moved_point);
+      ASSERT_EQ(corners_sorted(after), corners_sorted(before)) << algorithm.name << " " << seed;
+      ASSERT_EQ(merged_faces(after.polytope).size(), faces) << algorithm.name << " " << seed;
     }
   }
 }

@@ -22,15 +22,16 @@ enum class HullStatus {
 };
 
 struct HullOptions {
-  /// Puts the planes' offsets outwards by at most the rounding of the plane, so that each vertex
-  /// satisfies every row. Off: the offset is that of the facet's first corner.
+  /// Puts a plane's offset outwards by at most its rounding, so that the facet's own corners
+  /// satisfy the row in doubles; others in the same plane do so up to rounding. Off: the offset is
+  /// that of the facet's first corner.
   bool planes_contain_vertices = true;
 };
 
 /// What a run did; explains why one algorithm wins on some points.
 struct HullStatistics {
   std::uint64_t points_discarded = 0;   ///< by a first stage, where the algorithm has one
-  std::uint64_t facets_created = 0;     ///< including those that were removed again
+  std::uint64_t facets_created = 0;     ///< including those removed again; edges in the plane
   std::uint64_t orientation_tests = 0;  ///< on which side of a plane does a point lie?
   std::uint64_t exact_fallbacks = 0;    ///< orientation tests that rounding left open
 };

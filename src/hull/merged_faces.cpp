@@ -84,9 +84,4 @@ std::vector<PolygonalFace> merged_faces(const ConvexPolytope& polytope) {
   return faces;
 }
 
-PolytopeMeasures measures_of(const ConvexPolytope& polytope) {
-  const TriangleMesh surface = polytope.surface();
-  return {volume_of(surface), area_of(surface), centroid_of(surface)};
-}
-
 }  // namespace carpus::hull

@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A convex polytope with polygons for faces, and its measures.
+// A convex polytope with polygons for faces.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +22,5 @@ struct PolygonalFace {
 /// V - E + F = 2 with E half the number of corners of all faces. O(facets).
 /// @param polytope  a HullResult's: each vertex is a corner.
 [[nodiscard]] std::vector<PolygonalFace> merged_faces(const ConvexPolytope& polytope);
-
-struct PolytopeMeasures {
-  double volume_mm3 = 0;
-  double area_mm2 = 0;
-  Vec3 centroid;  ///< of the enclosed volume [mm]
-};
-
-[[nodiscard]] PolytopeMeasures measures_of(const ConvexPolytope& polytope);
 
 }  // namespace carpus::hull

@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 #include "hull/merged_faces.hpp"
+#include "hull/polytope_measures.hpp"
 
 #include <gtest/gtest.h>
 

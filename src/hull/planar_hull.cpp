@@ -61,6 +61,10 @@ PlanarHullResult build_planar_hull(std::span<const Vec2> points, PlanarAlgorithm
       result.corners = planar_gift_wrapping(
           points, outside_double_triangle(points, all, statistics), statistics);
       break;
+    case PlanarAlgorithm::Fast:
+      result.corners =
+          planar_graham_scan(points, outside_double_triangle(points, all, statistics), statistics);
+      break;
   }
   return result;
 }

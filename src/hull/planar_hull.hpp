@@ -21,6 +21,7 @@ enum class PlanarAlgorithm {
   GrahamScan,    ///< sorted by x and scanned below and above; O(n log n)
   Chan,          ///< groups scanned, then wrapped with logarithmic tangents; O(n log h)
   Hybrid,        ///< points strictly inside two triangles discarded, then gift wrapping
+  Fast,          ///< the same points discarded, then Graham's scan
 };
 
 /// Starts in a failed state. Ok: at least three corners that are not on one line.

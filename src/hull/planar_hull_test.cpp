@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::array kAll{PlanarAlgorithm::BruteForce, PlanarAlgorithm::GiftWrapping,
                           PlanarAlgorithm::Quickhull,  PlanarAlgorithm::GrahamScan,
-                          PlanarAlgorithm::Chan,       PlanarAlgorithm::Hybrid};
+                          PlanarAlgorithm::Chan,       PlanarAlgorithm::Hybrid,
+                          PlanarAlgorithm::Fast};
 
 std::vector<Vec2> random_points(std::uint64_t seed, std::uint64_t most) {
   Rng rng(seed);
@@ -73,9 +74,11 @@ TEST(PlanarHull, KeepsTheCornersOfASquareLattice) {
   for (int i = 0; i < 400; ++i) points.push_back({0.1 * (i % 20), 0.1 * (i / 20)});
   for (const PlanarAlgorithm algorithm :
        {PlanarAlgorithm::GiftWrapping, PlanarAlgorithm::Quickhull, PlanarAlgorithm::GrahamScan,
-        PlanarAlgorithm::Chan, PlanarAlgorithm::Hybrid}) {
+        PlanarAlgorithm::Chan, PlanarAlgorithm::Hybrid, PlanarAlgorithm::Fast}) {
     const PlanarHullResult result = build_planar_hull(points, algorithm);
     EXPECT_EQ(result.corners, (std::vector<std::uint32_t>{0, 19, 399, 380}));
+    EXPECT_GE(result.statistics.facets_created, 4U);
+    EXPECT_GT(result.statistics.exact_fallbacks, 0U);
   }
 }
 
@@ -107,7 +110,7 @@ TEST(PlanarHull, AsksLogarithmicallyManyVerticesForATangent) {
   }
 }
 
-TEST(PlanarHull, DiscardsTheInsideInTheHybridOnly) {
+TEST(PlanarHull, DiscardsTheInsideWhereThereIsAFirstStage) {
   Rng rng(2);
   std::vector<Vec2> disc;
   while (disc.size() < 2000) {
@@ -118,6 +121,7 @@ TEST(PlanarHull, DiscardsTheInsideInTheHybridOnly) {
     return static_cast<double>(build_planar_hull(disc, a).statistics.points_discarded) / 2000;
   };
   EXPECT_NEAR(discarded(PlanarAlgorithm::Hybrid), 2 / 3.14159265, 0.04);  // a square in its circle
+  EXPECT_EQ(discarded(PlanarAlgorithm::Fast), discarded(PlanarAlgorithm::Hybrid));
   EXPECT_EQ(discarded(PlanarAlgorithm::GiftWrapping), 0);
 }
 

@@ -120,6 +120,7 @@ void GrowingHull::add_all() {
   std::sort(known.begin(), known.end());
   known.push_back(kNone);
   auto next_known = known.begin();
+  std::uint64_t inner_count = 0;
   batch_count_ = 0;
   for (std::size_t begin = 0; begin < points_.size(); begin += PointBlock::kMost) {
     const std::size_t first = batch_count_;
@@ -128,7 +129,9 @@ void GrowingHull::add_all() {
       batch_[batch_count_] = conflict_at(static_cast<std::uint32_t>(i));
       const bool is_known = i == *next_known;
       next_known += is_known ? 1 : 0;
-      batch_count_ += is_known || inner.certainly_contains(points_[i]) ? 0 : 1;
+      const bool is_inner = inner.certainly_contains(points_[i]);
+      inner_count += is_inner ? 1 : 0;
+      batch_count_ += is_known || is_inner ? 0 : 1;
     }
     classify_batch(first);
     // Only those outside stay.
@@ -139,6 +142,7 @@ void GrowingHull::add_all() {
     }
     batch_count_ = kept;
   }
+  statistics_.points_discarded += inner_count;
   place_batch();
   grow();
 }

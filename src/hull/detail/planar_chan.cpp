@@ -43,6 +43,7 @@ std::optional<PlanarCorners> march(std::span<const Vec2> points,
       const std::uint32_t s = right_tangent(points, polygon, points[at], statistics);
       if (next == at || is_better(points, points[at], next, s, statistics)) next = s;
     }
+    ++statistics.facets_created;
     at = next;
   } while (at != start);
   return corners;

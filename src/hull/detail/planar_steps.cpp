@@ -60,6 +60,7 @@ void quickhull_side(std::span<const Vec2> points,
     }
   }
   quickhull_side(points, first, a, far, corners, statistics);
+  statistics.facets_created += 2;  // in place of a-b
   corners.push_back(far);
   quickhull_side(points, second, far, b, corners, statistics);
 }
@@ -85,7 +86,9 @@ PlanarCorners planar_brute_force(std::span<const Vec2> points,
                                 !is_beyond(points[j], points[i], points[k]);
         return side > 0 || (side == 0 && is_between);
       });
-      if (is_edge) next[i] = j;
+      if (!is_edge) continue;
+      next[i] = j;
+      ++statistics.facets_created;
     }
   }
   PlanarCorners corners{p.front()};
@@ -115,6 +118,7 @@ PlanarCorners planar_gift_wrapping(std::span<const Vec2> points,
       const int side = turn(points[at], points[next], points[s], statistics);
       if (side < 0 || (side == 0 && is_beyond(points[at], points[next], points[s]))) next = s;
     }
+    ++statistics.facets_created;
     at = next;
   } while (at != start);
   return corners;
@@ -132,6 +136,7 @@ PlanarCorners planar_quickhull(std::span<const Vec2> points,
     if (side > 0) above.push_back(s);
     if (side < 0) below.push_back(s);
   }
+  statistics.facets_created += 2;
   PlanarCorners corners{a};
   // Counter-clockwise from the least: the lower side first, which is left of b-a.
   PlanarCorners lower;
@@ -157,6 +162,7 @@ PlanarCorners planar_graham_scan(std::span<const Vec2> points,
                                             points[corners.back()], points[*it], statistics) <= 0) {
         corners.pop_back();
       }
+      if (it != begin) ++statistics.facets_created;
       corners.push_back(*it);
     }
     corners.pop_back();  // the other scan begins with it

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/predicates.hpp"
+#include "hull/detail/orientation.hpp"
 #include "hull/hull_result.hpp"
 
 namespace carpus::hull {
@@ -45,7 +46,10 @@ using PlanarCorners = std::vector<std::uint32_t>;
 /// orient2d, counted.
 inline int turn(const Vec2& a, const Vec2& b, const Vec2& c, HullStatistics& statistics) {
   ++statistics.orientation_tests;
-  return orient2d(a, b, c);
+  const int sign = orient2d_filter(a, b, c);
+  if (sign != 0) return sign;
+  ++statistics.exact_fallbacks;
+  return orient2d_exact(a, b, c);
 }
 
 inline bool is_before(const Vec2& a, const Vec2& b) noexcept {
@@ -65,8 +69,7 @@ inline int compare_heights(const Vec2& a,
                            const Vec2& q,
                            const Vec2& s,
                            HullStatistics& statistics) {
-  ++statistics.orientation_tests;
-  return -orient3d({a.x, a.y, 0}, {b.x, b.y, 0}, {q.x, q.y, 1}, {s.x, s.y, 1});
+  return -counted_orient3d({a.x, a.y, 0}, {b.x, b.y, 0}, {q.x, q.y, 1}, {s.x, s.y, 1}, statistics);
 }
 
 }  // namespace carpus::hull
