@@ -224,6 +224,21 @@ TEST_F(ReadVolume, NamesATruncatedSlice) {
   }
 }
 
+TEST_F(ReadVolume, NamesASliceThatLostItsMark) {
+  write_dicom_series(folder() / "s", test_ct(Mat3::identity()).view(), {});
+  const fs::path first = folder() / "s" / "IM_0001.dcm";
+  const std::string whole = bytes_of(first);
+  std::ofstream(first, std::ios::binary) << whole.substr(0, 100);
+  EXPECT_THAT(error_of<IoError>(folder() / "s"),
+              testing::AllOf(HasSubstr("IM_0001.dcm"), HasSubstr("cut short")));
+  std::ofstream(first, std::ios::binary) << "";
+  EXPECT_THAT(error_of<IoError>(folder() / "s"),
+              testing::AllOf(HasSubstr("IM_0001.dcm"), HasSubstr("is empty")));
+  std::ofstream(first, std::ios::binary) << whole;
+  std::ofstream(folder() / "s" / "notes.txt") << "of the scan";
+  EXPECT_NO_THROW((void)read_ct(folder() / "s"));
+}
+
 TEST_F(ReadVolume, RefusesADamagedDicomHeader) {
   write_dicom_series(folder() / "s", test_ct(Mat3::identity()).view(), {});
   const fs::path slice = folder() / "s" / "IM_0005.dcm";

@@ -1,7 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// 1. Every file with the DICM mark is opened up to its pixels (GDCM); images are kept.
+// 1. Every file with the DICM mark is opened up to its pixels (GDCM); images are kept. A file
+// without
+//    it that is empty, or named like DICOM or like a slice found, is damaged.
 // 2. They are grouped by SeriesInstanceUID.
 // 3. Slices are sorted along the normal of their plane; place decides, never the file's name or
 //    InstanceNumber, which exporters renumber.
@@ -17,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -148,6 +151,35 @@ std::vector<fs::path> files_under(const fs::path& folder) {
   return files;
 }
 
+/// "IM_0001.dcm" and "IM_0172.dcm": "IM_#.dcm".
+std::string name_pattern(const fs::path& file) {
+  std::string pattern;
+  for (const char c : file.filename().string()) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (!is_digit) pattern += c;
+    if (is_digit && !pattern.ends_with('#')) pattern += '#';
+  }
+  return pattern;
+}
+
+/// A slice that was cut before its mark would go unnoticed at either end of a series.
+void refuse_lost_slices(const std::vector<fs::path>& unmarked,
+                        const std::set<std::string>& patterns) {
+  for (const fs::path& file : unmarked) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string pattern = name_pattern(file);
+    const bool is_of_series = pattern.find('#') != std::string::npos && patterns.contains(pattern);
+    if (extension != ".dcm" && extension != ".ima" && !is_of_series) continue;
+    std::error_code error;
+    const bool is_empty = fs::file_size(file, error) == 0 && !error;
+    throw IoError(
+        file.string() + (is_empty ? ": is empty" : ": is no DICOM file, or cut short") +
+        "; copy the file again from its source, or remove it if it is no part of the scan");
+  }
+}
+
 std::string slice_text(const DicomSlice& s) { return s.file.filename().string(); }
 
 std::string mm(double v) {
@@ -240,10 +272,17 @@ std::vector<DicomSeries> scan_dicom(const fs::path& folder) {
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();  // our messages name the file and what to do
   std::map<std::string, DicomSeries> by_uid;
+  std::vector<fs::path> unmarked;
+  std::set<std::string> patterns;
   for (const fs::path& file : files_under(folder)) {
-    if (!looks_like_dicom(file) || file.filename() == "DICOMDIR") continue;
+    if (file.filename() == "DICOMDIR") continue;
+    if (!looks_like_dicom(file)) {
+      unmarked.push_back(file);
+      continue;
+    }
     DicomSlice slice;
     if (!scan_file(file, slice)) continue;
+    patterns.insert(name_pattern(file));
     DicomSeries& series = by_uid[slice.series_uid];
     if (series.slices.empty()) {
       series.summary = {slice.series_uid, slice.series_description, slice.modality, 0,
@@ -252,6 +291,7 @@ std::vector<DicomSeries> scan_dicom(const fs::path& folder) {
     series.summary.slices += slice.frames;
     series.slices.push_back(std::move(slice));
   }
+  refuse_lost_slices(unmarked, patterns);
   std::vector<DicomSeries> all;
   for (auto& [uid, series] : by_uid) all.push_back(std::move(series));
   std::stable_sort(all.begin(), all.end(), [](const DicomSeries& a, const DicomSeries& b) {
