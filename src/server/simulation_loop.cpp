@@ -51,8 +51,8 @@ void SimulationLoop::run() noexcept {
   clock_.start();
   while (!stopping_.load(std::memory_order_relaxed)) {
     clock_.wait();
-    if (!paused_.load(std::memory_order_relaxed) && !state_.snapshot.finished) tick();
-    clock_.work_done();
+    const bool is_running = !paused_.load(std::memory_order_relaxed) && !state_.snapshot.finished;
+    clock_.work_done(is_running && tick());
     state_.timing = clock_.timing();
     states_.publish(state_);
   }
@@ -64,8 +64,8 @@ bool SimulationLoop::has_delivered() noexcept {
   return !undelivered_;
 }
 
-void SimulationLoop::tick() noexcept {
-  if (!has_delivered()) return;
+bool SimulationLoop::tick() noexcept {
+  if (!has_delivered()) return false;
   ticks_since_heard_ = held_.take(tool_) ? 0 : ticks_since_heard_ + 1;
   const bool is_heard = ticks_since_heard_ < kDriverHoldTicks;
   if (!next_command_) next_command_ = commands_.pop();
@@ -74,13 +74,14 @@ void SimulationLoop::tick() noexcept {
                                 is_heard ? tool_.driver : simulation::Driver::Off, command};
   // The input is on its way to the recording before it is used: what cannot be recorded does not
   // happen.
-  if (!inputs_.push(input)) return;
+  if (!inputs_.push(input)) return false;
   next_command_.reset();
   state_.snapshot = step_(input);
   if (state_.snapshot.event_count > 0 || command.kind != simulation::CommandKind::None) {
     undelivered_ = EventfulTick{command, state_.snapshot};
     (void)has_delivered();
   }
+  return true;
 }
 
 }  // namespace carpus::server

@@ -93,7 +93,7 @@ class SimulationLoop {
 
  private:
   void run() noexcept;
-  void tick() noexcept;
+  [[nodiscard]] bool tick() noexcept;  ///< false: nothing was simulated
   [[nodiscard]] bool has_delivered() noexcept;
 
   // The thread's own.

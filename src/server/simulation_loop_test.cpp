@@ -65,6 +65,21 @@ TEST(SimulationLoop, KeepsTimeAndMeasuresIt) {
   EXPECT_GE(state.timing.worst_us, state.timing.p99_us);
 }
 
+TEST(SimulationLoop, MeasuresNoPauses) {
+  CountingWorld world;
+  const auto loop = run(world);
+  (void)wait_for(*loop, [](const Snapshot& s) { return s.tick > 200; });
+  loop->pause(true);
+  std::this_thread::sleep_for(300ms);
+  loop->stop();
+  LoopState state;
+  ASSERT_TRUE(loop->take_state(state));
+  EXPECT_EQ(state.timing.ticks, state.snapshot.tick);
+  EXPECT_EQ(state.timing.rate_hz, 0.0);
+  EXPECT_GT(state.timing.whole_p50_us, 0.0);
+  EXPECT_GE(state.timing.whole_p99_us, state.timing.whole_p50_us);
+}
+
 TEST(SimulationLoop, HandsOutEveryInputInOrderWithoutGaps) {
   CountingWorld world;
   const auto loop = run(world);

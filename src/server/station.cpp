@@ -33,12 +33,13 @@ std::string shortened(std::string text) {
   return text.substr(0, end) + "…";
 }
 
-/// "1000.0 Hz, a tick took 12 us (p50), 30 us (p99), 210 us (worst), 0 late; ordinary priority"
+/// "62000 ticks of 12 us (p50), 30 us (p99), 210 us (worst), 0 late; ordinary priority"
 std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
-                "%.1f Hz, a tick took %.0f us (p50), %.0f us (p99), %.0f us (worst), %llu late; %s",
-                timing.rate_hz, timing.p50_us, timing.p99_us, timing.worst_us,
+                "%llu ticks of %.0f us (p50), %.0f us (p99), %.0f us (worst), %llu late; %s",
+                static_cast<unsigned long long>(timing.ticks), timing.whole_p50_us,
+                timing.whole_p99_us, timing.worst_us,
                 static_cast<unsigned long long>(timing.late_ticks),
                 grants.real_time_priority ? "real-time priority" : "ordinary priority");
   return text.data();

@@ -10,12 +10,17 @@
 
 namespace carpus::server {
 
-/// Measured over the last second; worst and late since the start. Plain bytes.
+/// Of ticks in which something was simulated; pauses do not count. Plain bytes.
 struct TickTiming {
-  double rate_hz = 0.0;          ///< ticks begun per second of wall clock
-  double p50_us = 0.0;           ///< time that a tick's work took
-  double p99_us = 0.0;           ///< time that a tick's work took
-  double worst_us = 0.0;         ///< longest work since the start
+  // Over the last 1000 ticks:
+  double rate_hz = 0.0;  ///< ticks per second of wall clock
+  double p50_us = 0.0;   ///< time that a tick's work took
+  double p99_us = 0.0;
+  // Since the start:
+  double whole_p50_us = 0.0;  ///< to 3 %, of every hundredth tick on
+  double whole_p99_us = 0.0;
+  double worst_us = 0.0;
+  std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;  ///< begun more than a tick after they were due
 };
 
@@ -28,8 +33,9 @@ class TickClock {
   /// Sleeps until the next tick is due; at once when it is late. After a long stop (the computer
   /// slept, another program had the processor) it begins anew instead of hurrying after.
   void wait() noexcept;
-  /// Between wait() and this lies the tick's work.
-  void work_done() noexcept;
+  /// Between wait() and this lies the tick's work; `has_worked` false: a pause, in which time is
+  /// not measured.
+  void work_done(bool has_worked) noexcept;
   [[nodiscard]] const TickTiming& timing() const noexcept { return timing_; }
 
   static constexpr std::int64_t kPeriodNs = 1'000'000;
@@ -38,13 +44,21 @@ class TickClock {
   static constexpr std::size_t kWindow = 1000;
 
  private:
+  /// Work in microseconds by octaves of sixteen parts each, from 2^-4 us.
+  static constexpr std::size_t kHistogramParts = 16;
+  static constexpr std::size_t kHistogramSize = 26 * kHistogramParts;
+
   void close_window(std::int64_t now_ns) noexcept;
+  void add_to_histogram(float work_us) noexcept;
+  [[nodiscard]] double histogram_quantile(double share) const noexcept;
 
   std::int64_t due_ns_ = 0;
   std::int64_t began_ns_ = 0;
   std::int64_t window_began_ns_ = 0;
   std::size_t count_ = 0;
+  std::uint64_t late_before_work_ = 0;
   std::array<float, kWindow> work_us_{};
+  std::array<std::uint32_t, kHistogramSize> histogram_{};
   TickTiming timing_;
 };
 
