@@ -218,6 +218,10 @@ ScoreItem score_views(const Facts& facts) {
 ScoreItem score_wrong_bones(const Facts& facts) {
   ScoreItem item = make_item("wrong_bones_entered", "Other bones entered", "1", 4);
   item.target = "none good, any fail";
+  if (facts.record.passes == 0 && facts.record.wrong_bones == 0) {
+    item.reason = kNoWire;
+    return item;
+  }
   item.value = std::popcount(facts.record.wrong_bones);
   item.grade = facts.record.wrong_bones == 0 ? Grade::Good : Grade::Fail;
   item.points = facts.record.wrong_bones == 0 ? item.points_possible : 0.0;
@@ -278,6 +282,10 @@ ScoreItem score_time(const Facts& facts) {
 ScoreItem score_undos(const Facts& facts) {
   ScoreItem item = make_item("undos", "Steps taken back", "1", 1);
   item.target = "none good, over 2 fail";
+  if (facts.record.passes == 0) {
+    item.reason = kNoWire;
+    return item;
+  }
   item.reason = "Patients have no undo.";
   grade_falling(item, facts.record.undos, 0.0, 2.0);
   return item;
