@@ -169,6 +169,21 @@ TEST(World, AFlatWireSkatesInsteadOfEngaging) {
   EXPECT_EQ(slips_in(2), 1) << "and again when it is started anew";
 }
 
+TEST(World, MeasuresBetweenTheCorticesWhereTheWireIsThrough) {
+  Operator op(posed_wrist());
+  op.place_on_entry({});
+  op.drive_to(24.0);
+  const double inside = [&] {
+    op.command({CommandKind::Measure, 0, 0, 0});
+    return op.now().measured_mm;
+  }();
+  EXPECT_NEAR(inside, 24.0, 0.3);
+  op.drive_to(40.0);
+  EXPECT_TRUE(has_event(op.command({CommandKind::Measure, 0, 0, 0}), EventKind::Measured));
+  EXPECT_GT(op.now().measured_mm, inside);
+  EXPECT_LT(op.now().measured_mm, op.now().wire.depth_mm - 5.0);
+}
+
 TEST(World, MeasuresChoosesAndInsertsAScrew) {
   Operator op(posed_wrist());
   EXPECT_TRUE(has_event(op.command({CommandKind::Measure, 0, 0, 0}), EventKind::Refused));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the person commands: shots, measuring, choosing a screw, undo, finish.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -58,9 +59,10 @@ void World::State::take_shot(const Command& command) noexcept {
 }
 
 void World::State::measure(const Model& /*model*/) noexcept {
-  const bool can_read = now.wire.in_scaphoid && !now.wire.has_left && depth_mm() > 0.0;
-  if (!can_read) return refuse(CommandKind::Measure);
-  const auto steps = std::int64_t{std::lround(depth_mm() / kGaugeStepMm)};
+  if (!now.wire.in_scaphoid || !(depth_mm() > 0.0)) return refuse(CommandKind::Measure);
+  // Between the cortices: what of the wire is beyond the far one does not count.
+  const double in_bone = now.wire.has_left ? std::min(depth_mm(), now.wire.chord_mm) : depth_mm();
+  const auto steps = std::int64_t{std::lround(in_bone / kGaugeStepMm)};
   now.measured_mm = static_cast<double>(steps) * kGaugeStepMm;
   emit(EventKind::Measured, 0, now.measured_mm);
 }
