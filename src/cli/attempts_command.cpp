@@ -3,6 +3,7 @@
 #include "cli/attempts_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -53,8 +54,24 @@ void run(const AttemptsArguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+/// As wide as `width` letters, whatever bytes they take.
+std::string padded(const std::string& text, std::size_t width) {
+  std::string result;
+  std::size_t letters = 0;
+  for (const char c : text) {
+    const bool begins_letter = (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    if (begins_letter && letters++ == width) break;
+    result += c;
+  }
+  return result + std::string(width - std::min(letters, width), ' ');
+}
+
+}  // namespace
+
 std::string attempts_table(const std::vector<records::AttemptSummary>& attempts) {
-  std::array<char, 256> line{};
+  std::array<char, 512> line{};
   std::snprintf(line.data(), line.size(), "%6s  %-24s  %-20s  %-28s  %-8s  %8s  %7s  %s\n", "id",
                 "started (UTC)", "trainee", "case", "input", "seconds", "score", "state hash");
   std::string table = line.data();
@@ -63,10 +80,10 @@ std::string attempts_table(const std::vector<records::AttemptSummary>& attempts)
                                               : std::string(name_of(attempt.outcome)).substr(0, 7);
     const std::string of_case =
         attempt.case_name.substr(0, 16) + simulated_mark(attempt.case_simulated.value_or(false));
-    std::snprintf(line.data(), line.size(),
-                  "%6lld  %-24s  %-20.20s  %-28s  %-8.8s  %8.1f  %7.7s  %s\n",
+    std::snprintf(line.data(), line.size(), "%6lld  %-24s  %s  %s  %-8.8s  %8.1f  %7.7s  %s\n",
                   static_cast<long long>(attempt.id), attempt.started_at.c_str(),
-                  attempt.trainee.c_str(), of_case.c_str(), attempt.input_device.c_str(),
+                  padded(attempt.trainee, 20).c_str(), padded(of_case, 28).c_str(),
+                  attempt.input_device.c_str(),
                   static_cast<double>(attempt.duration_ticks) / 1000.0, score.c_str(),
                   attempt.final_hash.c_str());
     table += line.data();

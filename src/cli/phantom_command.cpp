@@ -10,6 +10,7 @@
 
 #include "case_io/atomic_folder.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "phantom/phantom.hpp"
 #include "phantom/write_phantom.hpp"
@@ -53,15 +54,15 @@ void add_phantom_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "phantom", "Make the demo patient: a simulated CT of the parametric wrist with its truth");
   command->add_option("--out", arguments->out, "Folder to make")->required();
-  command->add_option("--seed", arguments->seed, "Of noise, texture and pose")
-      ->capture_default_str();
+  add_seed_option(*command, arguments->seed, "Of noise, texture and pose");
   command->add_option("--nonunion", arguments->nonunion, "Scaphoid nonunion")
       ->check(CLI::IsMember({"none", "waist", "proximal"}))
       ->capture_default_str();
   command->add_option("--side", arguments->side, "Side of the body")
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
-  command->add_option("--scale", arguments->scale, "Size of the wrist, 0.7 to 1.4")
+  command->add_option("--scale", arguments->scale, "Size of the wrist; adults are 0.85 to 1.15")
+      ->check(CLI::Range(0.7, 1.4))
       ->capture_default_str();
   command->add_option("--format", arguments->format, "Of the CT")
       ->check(CLI::IsMember({"dicom", "nifti"}))

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "records/atomic_file.hpp"
@@ -86,8 +87,7 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--trainee", arguments->trainee, "Who operates")
       ->check(CLI::IsMember({"expert", "novice"}))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Of the trainee's errors and tremor")
-      ->capture_default_str();
+  add_seed_option(*command, arguments->seed, "Of the trainee's errors and tremor");
   command->add_option("--out", arguments->out, "Write the recording to this file");
   command->add_option("--records", arguments->records, "Store the attempt in this file");
   command->add_option("--json", arguments->json, "Write the score report to this file");
