@@ -204,6 +204,7 @@ TEST(World, MeasuresChoosesAndInsertsAScrew) {
     ASSERT_LT(op.now().tick, 120000U);
   }
   EXPECT_NE(op.now().completed_steps & 1U << static_cast<unsigned>(procedure::Step::Insert), 0U);
+  EXPECT_EQ(op.now().step, procedure::Step::Verify) << "the survey was left out and is past";
   EXPECT_TRUE(has_event(op.command({CommandKind::SelectScrew, 1, 0, 0}), EventKind::Refused))
       << "another screw needs the first one out";
 }

@@ -43,7 +43,9 @@ void World::State::publish(const Model& model,
                            const Vec3& hand_velocity) noexcept {
   snapshot.tick = spent.tick;
   snapshot.completed_steps = now.completed_steps;
-  int current = 0;
+  // What was left out before a screw is in cannot be made up for any more.
+  const bool is_screw_in = (now.completed_steps & detail::step_bit(Step::Insert)) != 0;
+  int current = is_screw_in ? static_cast<int>(Step::Verify) : 0;
   while (current < static_cast<int>(Step::Finished) && (now.completed_steps >> current & 1U) != 0) {
     ++current;
   }
