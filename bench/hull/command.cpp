@@ -1,0 +1,195 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/hull/command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <vector>
+
+#include "bench/drawing.hpp"
+#include "bench/hull/bone_points.hpp"
+#include "bench/hull/hull_bench.hpp"
+#include "bench/hull/hull_report.hpp"
+#include "bench/hull/plot.hpp"
+#include "bench/hull/thesis_tables.hpp"
+#include "bench/provenance.hpp"
+
+namespace carpus::bench {
+namespace {
+
+std::vector<HullEngine> all_engines() {
+  std::vector<HullEngine> engines = own_hull_engines();
+  for (HullEngine& peer : peer_hull_engines()) engines.push_back(std::move(peer));
+  return engines;
+}
+
+void append(std::vector<HullRow>& rows,
+            const PointSet& set,
+            const std::vector<HullEngine>& engines,
+            const HullBenchOptions& options) {
+  std::fprintf(stderr, "%s, %zu points\n", set.name.c_str(), set.points.size());
+  const std::vector<HullRow> more = measure_hulls(set, engines, options);
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+/// From 10 000 on, two in each decade and at least three, so that growth can be told; of these the
+/// ones not below `least`.
+std::vector<std::size_t> sizes_between(std::size_t least, std::size_t most) {
+  std::vector<std::size_t> sizes;
+  for (std::size_t n = 10'000; n <= most; n *= 10) {
+    sizes.push_back(n);
+    if (n < 1'000'000 && 3 * n <= most) sizes.push_back(3 * n);
+  }
+  std::erase_if(sizes, [&](std::size_t n) { return n < least; });
+  return sizes;
+}
+
+/// Of table 4.1; brute force runs on parts of this bone.
+constexpr std::size_t kCapitateRow = 7;
+
+/// Every so many-th point of a bone: what brute force ends on, and the others beside it.
+void append_parts(std::vector<HullRow>& rows,
+                  const PointSet& bone,
+                  const std::vector<HullEngine>& engines,
+                  const HullBenchOptions& options) {
+  for (const std::size_t count : {50U, 80U, 120U}) {
+    PointSet part{bone.name + ", part", {}};
+    for (std::size_t i = 0; i < count; ++i)
+      part.points.push_back(bone.points[i * bone.points.size() / count]);
+    append(rows, part, engines, options);
+  }
+}
+
+/// The thesis's bones at the thesis's vertex counts: from a folder of surfaces, or of the model.
+PointSet thesis_bone(const ThesisRow& row, const HullArguments& a) {
+  const std::filesystem::path file = a.bones / (std::string(name_of(row.model)) + ".ply");
+  PointSet set = !a.bones.empty() && std::filesystem::exists(file)
+                     ? thinned_bone(file, row.vertices)
+                     : model_bone(row.model, row.vertices);
+  set.name = row.name;
+  return set;
+}
+
+void print_thesis_table(std::span<const ThesisRow> table, const std::vector<HullRow>& rows) {
+  const auto find = [&](std::string_view set, std::string_view engine) -> const HullRow* {
+    for (const HullRow& row : rows) {
+      if (row.set == set && row.engine == engine && row.ran) return &row;
+    }
+    return nullptr;
+  };
+  std::printf(
+      "\nBeside the thesis (its seconds include display; its machine is of 2008):\n%-16s %22s %22s "
+      "%26s %26s\n",
+      "bone", "hull vertices, facets", "removed by stage 1", "hybrid / gift wrapping",
+      "hybrid / quickhull");
+  std::printf("%-16s %11s %10s %11s %10s %13s %12s %13s %12s\n", "", "here", "thesis", "here",
+              "thesis", "here", "thesis", "here", "thesis");
+  for (const ThesisRow& t : table) {
+    const HullRow* hybrid = find(t.name, "hybrid");
+    const HullRow* wrapping = find(t.name, "gift_wrapping");
+    const HullRow* quick = find(t.name, "quickhull");
+    if (hybrid == nullptr || wrapping == nullptr || quick == nullptr) continue;
+    const bool is_misprint = t.hull_facets != 2 * t.hull_vertices - 4;
+    const char* removed = t.name == "3rd Metacarpal" ? "17 %"
+                          : t.name == "Scaphoid"     ? "12 %"
+                          : t.name == "Fibula"       ? "2 %"
+                          : t.name == "Femur"        ? "6 %"
+                                                     : "-";
+    std::printf("%-16.*s %5zu %5zu %5zu %5zu%s %9.1f %% %9s %13.2f %12.2f %13.2f %12.2f\n",
+                static_cast<int>(t.name.size()), t.name.data(), hybrid->h, hybrid->facets,
+                t.hull_vertices, t.hull_facets, is_misprint ? "*" : " ",
+                100 * hybrid->discarded_share, removed, hybrid->seconds / wrapping->seconds,
+                t.hybrid / t.gift_wrapping, hybrid->seconds / quick->seconds,
+                t.hybrid / t.quickhull);
+  }
+  std::printf(
+      "*: misprinted in the thesis, F = 2V - 4 does not hold\n"
+      "Why they differ: the first stage removes what lies in a tetrahedron inscribed in the bone "
+      "on\n"
+      "either side; nearly every vertex of a closed surface lies outside it. What is left is "
+      "wrapped\n"
+      "at n h, so that the hybrid is as fast as gift wrapping, and quickhull, at about n log n, "
+      "is\n"
+      "faster than both by tens. That the thesis finds quickhull and gift wrapping alike may be "
+      "due\n"
+      "to what its seconds include besides the hull.\n");
+}
+
+void save_plots(const HullArguments& a,
+                const std::string& title,
+                const std::vector<HullRow>& rows) {
+  for (const auto& [suffix, axis] :
+       {std::pair{"_n.svg", PlotAxis::Points}, std::pair{"_h.svg", PlotAxis::HullVertices}}) {
+    save_drawing(a.plot.string() + suffix, plot_svg(title, rows, axis));
+  }
+}
+
+void run_hull(const HullArguments& a) {
+  HullBenchOptions options;
+  options.caps = {a.cap_gib << 30U, a.cap_seconds};
+  options.budget_seconds = a.budget_seconds;
+  const std::vector<HullEngine> engines = all_engines();
+  std::vector<HullRow> rows;
+  const bool is_thesis = a.table == "4.1" || a.table == "4.2";
+  const auto thesis = a.table == "4.1" ? thesis_table_4_1() : thesis_table_4_2();
+  if (is_thesis) {
+    for (const ThesisRow& row : thesis) append(rows, thesis_bone(row, a), engines, options);
+    if (a.table == "4.1")
+      append_parts(rows, thesis_bone(thesis[kCapitateRow], a), engines, options);
+  } else if (a.table == "bones") {
+    if (!a.bones.empty()) {
+      for (const PointSet& set : bones_in(a.bones)) append(rows, set, engines, options);
+    } else {
+      for (const BoneId bone : kAllBones) append(rows, model_bone(bone, 4500), engines, options);
+    }
+  } else {
+    const std::vector<std::size_t> sizes = sizes_between(a.min_points, a.max_points);
+    for (const std::string& name : distributions()) {
+      for (const std::size_t n : sizes) append(rows, make_point_set(name, n, 1), engines, options);
+    }
+    for (const std::size_t n : sizes) {
+      if (n <= 1'000'000) append(rows, model_bone(BoneId::Scaphoid, n), engines, options);
+    }
+  }
+  const Provenance p = provenance();
+  std::printf(
+      "%s\n%s; %s; commit %s\nmedian processor time of repeated runs, one thread, hull alone\n\n",
+      p.machine.c_str(), p.compiler.c_str(), p.flags.c_str(), p.commit.c_str());
+  std::fputs(text_of(rows).c_str(), stdout);
+  if (is_thesis) print_thesis_table(thesis, rows);
+  if (a.table == "4.1")
+    std::fputs(brute_force_growth_of(rows, thesis[kCapitateRow].vertices).c_str(), stdout);
+  if (a.table == "distributions") std::printf("\n%s", growth_of(rows).c_str());
+  if (!a.json.empty()) write_json(a.json, a.table, rows);
+  if (!a.plot.empty()) save_plots(a, "Convex hulls, table " + a.table, rows);
+}
+
+}  // namespace
+
+void add_hull(CLI::App& app, HullArguments& a) {
+  CLI::App* hull = app.add_subcommand("hull", "Convex hulls: ours against Qhull, CGAL and Bullet");
+  hull->add_option("--table", a.table,
+                   "bones: 15 bones; distributions: ball, sphere, ...; 4.1, 4.2: the thesis's")
+      ->check(CLI::IsMember({"bones", "distributions", "4.1", "4.2"}))
+      ->capture_default_str();
+  hull->add_option(
+      "--bones", a.bones,
+      "Folder of <bone>.ply, e.g. cases/demo/bones; default: the parametric wrist (simulated)");
+  hull->add_option("--json", a.json, "Also write the rows here");
+  hull->add_option("--plot", a.plot, "Also draw PREFIX_n and PREFIX_h, .svg and .png");
+  hull->add_option("--min-points", a.min_points, "Of the distributions; from 10000")
+      ->check(CLI::Range(10'000, 10'000'000))
+      ->capture_default_str();
+  hull->add_option("--max-points", a.max_points, "Of the distributions; up to 10000000")
+      ->check(CLI::Range(10'000, 10'000'000))
+      ->capture_default_str();
+  hull->add_option("--budget-seconds", a.budget_seconds, "Time for repeating one engine on one set")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  hull->add_option("--cap-seconds", a.cap_seconds, "Longer than this: not run")
+      ->capture_default_str();
+  hull->add_option("--cap-gib", a.cap_gib, "More memory than this: not run")->capture_default_str();
+  hull->callback([&a] { run_hull(a); });
+}
+
+}  // namespace carpus::bench
