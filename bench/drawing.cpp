@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/drawing.hpp"
 
-#include <fstream>
+#include "bench/output_file.hpp"
 
 #ifdef CARPUS_HAS_RSVG
 #include <librsvg/rsvg.h>
@@ -50,13 +50,12 @@ void save_png(const std::filesystem::path& file, const std::string& svg) {
 }  // namespace
 
 void save_drawing(const std::filesystem::path& file, const std::string& svg) {
-  std::ofstream out(file);
-  out << svg;
-  out.flush();
-  if (!out) throw IoError(file.string() + ": could not be written; check the folder and the disk");
+  if (svg.empty()) throw InvalidInput(file.string() + ": nothing to draw, for no engine ran");
 #ifdef CARPUS_HAS_RSVG
-  save_png(std::filesystem::path(file).replace_extension(".png"), svg);
+  write_whole(std::filesystem::path(file).replace_extension(".png"),
+              [&](const std::filesystem::path& part) { save_png(part, svg); });
 #endif
+  write_text(file, svg);
 }
 
 }  // namespace carpus::bench

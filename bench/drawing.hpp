@@ -11,7 +11,7 @@ namespace carpus::bench {
 
 /// Writes `svg` to `file`, and as PNG beside it (same name, .png, two pixels for each unit of
 /// its view box) where the program was built with librsvg.
-/// @throws IoError if a file could not be written.
+/// @throws InvalidInput if the drawing is empty, IoError if a file could not be written.
 void save_drawing(const std::filesystem::path& file, const std::string& svg);
 
 }  // namespace carpus::bench

@@ -9,6 +9,7 @@
 #include "bench/collision/report.hpp"
 #include "bench/collision/tables.hpp"
 #include "bench/drawing.hpp"
+#include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
 #include "core/error.hpp"
 
@@ -28,6 +29,9 @@ void print_head(const std::string& bones) {
 }
 
 void run(const CollisionArguments& a) {
+  for (const std::filesystem::path& file : {a.json, a.plot}) {
+    if (!file.empty()) check_writable(file);
+  }
   BenchOptions options;
   options.caps = {a.cap_gib << 30U, a.cap_seconds};
   options.budget_seconds = a.budget_seconds;

@@ -3,15 +3,14 @@
 #include "bench/collision/report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
 #include "bench/text_format.hpp"
-#include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -196,10 +195,7 @@ void write_json(const std::filesystem::path& file,
     }
     json["rows"].push_back(std::move(r));
   }
-  std::ofstream out(file);
-  out << json.dump(1) << '\n';
-  out.flush();
-  if (!out) throw IoError(file.string() + ": could not be written; check the folder and the disk");
+  write_text(file, json.dump(1) + "\n");
 }
 
 }  // namespace carpus::bench

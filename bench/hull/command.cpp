@@ -12,6 +12,7 @@
 #include "bench/hull/hull_report.hpp"
 #include "bench/hull/plot.hpp"
 #include "bench/hull/thesis_tables.hpp"
+#include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
 
 namespace carpus::bench {
@@ -32,11 +33,15 @@ void append(std::vector<HullRow>& rows,
   rows.insert(rows.end(), more.begin(), more.end());
 }
 
-/// From 10 000 on, two in each decade and at least three, so that growth can be told; of these the
-/// ones not below `least`.
+/// Of the distributions.
+constexpr std::size_t kFewestPoints = 10'000;
+constexpr std::size_t kMostPoints = 10'000'000;
+
+/// From the fewest on, two in each decade and at least three, so that growth can be told; of these
+/// the ones not below `least`.
 std::vector<std::size_t> sizes_between(std::size_t least, std::size_t most) {
   std::vector<std::size_t> sizes;
-  for (std::size_t n = 10'000; n <= most; n *= 10) {
+  for (std::size_t n = kFewestPoints; n <= most; n *= 10) {
     sizes.push_back(n);
     if (n < 1'000'000 && 3 * n <= most) sizes.push_back(3 * n);
   }
@@ -115,16 +120,37 @@ void print_thesis_table(std::span<const ThesisRow> table, const std::vector<Hull
       "to what its seconds include besides the hull.\n");
 }
 
-void save_plots(const HullArguments& a,
-                const std::string& title,
-                const std::vector<HullRow>& rows) {
-  for (const auto& [suffix, axis] :
-       {std::pair{"_n.svg", PlotAxis::Points}, std::pair{"_h.svg", PlotAxis::HullVertices}}) {
-    save_drawing(a.plot.string() + suffix, plot_svg(title, rows, axis));
+struct PlotFile {
+  std::filesystem::path file;
+  PlotAxis axis;
+};
+
+std::vector<PlotFile> plot_files(const HullArguments& a) {
+  if (a.plot.empty()) return {};
+  return {{a.plot.string() + "_n.svg", PlotAxis::Points},
+          {a.plot.string() + "_h.svg", PlotAxis::HullVertices}};
+}
+
+/// What would otherwise be found out after minutes.
+void check_before_the_run(const HullArguments& a) {
+  if (!a.json.empty()) check_writable(a.json);
+  for (const PlotFile& plot : plot_files(a)) check_writable(plot.file);
+  const std::string asked = std::to_string(a.min_points) + " ";
+  const std::string most = "--max-points " + std::to_string(a.max_points);
+  if (a.min_points > a.max_points) {
+    throw CLI::ValidationError("--min-points", asked + "is above " + most + "; give both");
+  }
+  if (sizes_between(a.min_points, a.max_points).empty()) {
+    std::string sizes;
+    for (const std::size_t n : sizes_between(kFewestPoints, kMostPoints))
+      sizes += " " + std::to_string(n);
+    throw CLI::ValidationError("--min-points",
+                               asked + "to " + most + " holds none of the sizes" + sizes);
   }
 }
 
 void run_hull(const HullArguments& a) {
+  check_before_the_run(a);
   HullBenchOptions options;
   options.caps = {a.cap_gib << 30U, a.cap_seconds};
   options.budget_seconds = a.budget_seconds;
@@ -161,7 +187,8 @@ void run_hull(const HullArguments& a) {
     std::fputs(brute_force_growth_of(rows, thesis[kCapitateRow].vertices).c_str(), stdout);
   if (a.table == "distributions") std::printf("\n%s", growth_of(rows).c_str());
   if (!a.json.empty()) write_json(a.json, a.table, rows);
-  if (!a.plot.empty()) save_plots(a, "Convex hulls, table " + a.table, rows);
+  for (const PlotFile& plot : plot_files(a))
+    save_drawing(plot.file, plot_svg("Convex hulls, table " + a.table, rows, plot.axis));
 }
 
 }  // namespace
@@ -178,10 +205,10 @@ void add_hull(CLI::App& app, HullArguments& a) {
   hull->add_option("--json", a.json, "Also write the rows here");
   hull->add_option("--plot", a.plot, "Also draw PREFIX_n and PREFIX_h, .svg and .png");
   hull->add_option("--min-points", a.min_points, "Of the distributions; from 10000")
-      ->check(CLI::Range(10'000, 10'000'000))
+      ->check(CLI::Range(kFewestPoints, kMostPoints))
       ->capture_default_str();
   hull->add_option("--max-points", a.max_points, "Of the distributions; up to 10000000")
-      ->check(CLI::Range(10'000, 10'000'000))
+      ->check(CLI::Range(kFewestPoints, kMostPoints))
       ->capture_default_str();
   hull->add_option("--budget-seconds", a.budget_seconds, "Time for repeating one engine on one set")
       ->check(CLI::Range(0.0, 60.0))

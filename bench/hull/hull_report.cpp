@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
 #include "bench/text_format.hpp"
-#include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -149,10 +148,7 @@ void write_json(const std::filesystem::path& file,
     }
     json["rows"].push_back(std::move(r));
   }
-  std::ofstream out(file);
-  out << json.dump(1) << '\n';
-  out.flush();
-  if (!out) throw IoError(file.string() + ": could not be written; check the folder and the disk");
+  write_text(file, json.dump(1) + "\n");
 }
 
 }  // namespace carpus::bench
