@@ -134,7 +134,8 @@ std::string draw_curves(const CurvePanel& panel,
 std::string curve_chart_svg(const std::string& title,
                             const std::string& counted,
                             const std::string& measured,
-                            const std::vector<CurvePanel>& panels) {
+                            const std::vector<CurvePanel>& panels,
+                            const std::vector<std::string>& notes) {
   ValueRange counts;
   ValueRange seconds;
   std::vector<CurvePanel> shown;
@@ -172,9 +173,10 @@ std::string curve_chart_svg(const std::string& title,
     svg += draw_curves(shown[i], pens, at, x, y);
   }
   const std::size_t lines = (shown.size() + columns - 1) / columns;
+  const double bottom = kTop + static_cast<double>(lines) * (kHead + tall + kFoot);
   return sheet(2 * kMargin + static_cast<double>(columns) * pitch,
-               kTop + static_cast<double>(lines) * (kHead + tall + kFoot) + kMargin / 2, title,
-               svg);
+               bottom + kNoteHeight * static_cast<double>(notes.size()) + kMargin / 2, title,
+               svg + notes_at(kMargin + 6, bottom, notes));
 }
 
 }  // namespace carpus::bench

@@ -27,10 +27,12 @@ struct CurvePanel {
   std::vector<Curve> curves;
 };
 
-/// An engine has one colour and dash in all panels. Empty where nothing was run.
+/// An engine has one colour and dash in all panels. `notes` stand below, a line each. Empty where
+/// nothing was run.
 [[nodiscard]] std::string curve_chart_svg(const std::string& title,
                                           const std::string& counted,
                                           const std::string& measured,
-                                          const std::vector<CurvePanel>& panels);
+                                          const std::vector<CurvePanel>& panels,
+                                          const std::vector<std::string>& notes = {});
 
 }  // namespace carpus::bench

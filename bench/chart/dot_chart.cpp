@@ -148,7 +148,8 @@ std::string draw_rows(const std::vector<Row>& rows, double top, double right) {
 
 std::string dot_chart_svg(const std::string& title,
                           const std::string& figure,
-                          const std::vector<DotBlock>& blocks) {
+                          const std::vector<DotBlock>& blocks,
+                          const std::vector<std::string>& notes) {
   std::string svg;
   bool has_p99 = false;
   double y = kTop;
@@ -182,7 +183,10 @@ std::string dot_chart_svg(const std::string& title,
       y = bottom + kFoot;
     }
   }
-  return svg.empty() ? svg : sheet(kWidth, y, title, legend(figure, has_p99) + svg);
+  if (svg.empty()) return svg;
+  svg += notes_at(kMargin + 6, y, notes);
+  return sheet(kWidth, y + kNoteHeight * static_cast<double>(notes.size()), title,
+               legend(figure, has_p99) + svg);
 }
 
 }  // namespace carpus::bench

@@ -30,9 +30,10 @@ struct DotBlock {
   std::vector<DotPanel> panels;
 };
 
-/// `figure` names what the dots are: "mean". Empty where nothing was run.
+/// `figure` names what the dots are: "mean"; `notes` stand below. Empty where nothing was run.
 [[nodiscard]] std::string dot_chart_svg(const std::string& title,
                                         const std::string& figure,
-                                        const std::vector<DotBlock>& blocks);
+                                        const std::vector<DotBlock>& blocks,
+                                        const std::vector<std::string>& notes = {});
 
 }  // namespace carpus::bench

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace carpus::bench {
 
@@ -23,7 +24,7 @@ struct TextStyle {
   bool is_bold = false;
 };
 
-/// `body` on a white sheet with a title.
+/// `body` on a white sheet with a title, smaller where it would be too wide.
 [[nodiscard]] std::string sheet(double width,
                                 double height,
                                 const std::string& title,
@@ -35,6 +36,9 @@ struct TextStyle {
                                     double y2,
                                     const char* colour,
                                     double width = 1);
+inline constexpr double kNoteHeight = 17;
+/// A line for each note, the first below `top`.
+[[nodiscard]] std::string notes_at(double x, double top, const std::vector<std::string>& notes);
 /// A circle for ours, a square for a peer; hollow where answers differ.
 [[nodiscard]] std::string mark_at(double x,
                                   double y,

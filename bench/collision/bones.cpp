@@ -48,6 +48,7 @@ double BoneSet::mean_facets() const {
 }
 
 BoneSet load_bones(const std::filesystem::path& folder) {
+  if (!folder.empty()) check_bones_folder(folder);
   BoneSet set;
   set.source = folder.empty() ? "parametric wrist (simulated)" : folder.filename().string();
   for (const BoneId id : kAllBones) {

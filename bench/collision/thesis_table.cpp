@@ -14,6 +14,7 @@
 #include "bench/hull/thesis_tables.hpp"
 #include "bench/text_format.hpp"
 #include "collision/ivri/ivri_cd.hpp"
+#include "core/error.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -39,10 +40,27 @@ constexpr std::array<PrintedTimes, 9> kPrinted{{
     {BoneId::Lunate, 0.0623, 0.0812},
 }};
 
+std::filesystem::path file_of(const std::filesystem::path& folder, BoneId bone) {
+  return folder / (std::string(name_of(bone)) + ".ply");
+}
+
+/// Nothing else stands for a bone silently.
+void check_bones(const std::filesystem::path& folder) {
+  check_bones_folder(folder);
+  const auto bones = thesis_table_4_1();
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    for (const BoneId bone : {bones[i].model, kPrinted[i].neighbour}) {
+      if (std::filesystem::exists(file_of(folder, bone))) continue;
+      throw IoError(file_of(folder, bone).string() +
+                    ": missing, and table 5.1 needs it; leave --bones out for the parametric "
+                    "wrist (simulated)");
+    }
+  }
+}
+
 PointSet points_of(const std::filesystem::path& folder, BoneId bone, std::size_t vertices) {
-  const std::filesystem::path file = folder / (std::string(name_of(bone)) + ".ply");
-  return !folder.empty() && std::filesystem::exists(file) ? thinned_bone(file, vertices)
-                                                          : model_bone(bone, vertices);
+  return folder.empty() ? model_bone(bone, vertices)
+                        : thinned_bone(file_of(folder, bone), vertices);
 }
 
 class IvriOnAllVertices final : public collision::PairQuery {
@@ -84,6 +102,7 @@ std::vector<PairEngine> engines_for(std::span<const Vec3> first, std::span<const
 
 std::vector<CollisionRow> thesis_table(const std::filesystem::path& folder,
                                        const BenchOptions& options) {
+  if (!folder.empty()) check_bones(folder);
   std::vector<CollisionRow> rows;
   const auto bones = thesis_table_4_1();
   for (std::size_t i = 0; i < bones.size(); ++i) {

@@ -36,6 +36,12 @@ TriangleMesh extract(const anatomy::WristModel& model, BoneId bone, double pixel
                                   {.close_at_border = true});
 }
 
+PointSet set_of(const std::filesystem::path& file, TriangleMesh surface) {
+  return {file.stem().string(),
+          std::move(surface.vertices),
+          {.source = file.filename().string(), .surface_facets = surface.facets.size()}};
+}
+
 }  // namespace
 
 PointSet model_bone(BoneId bone, std::size_t count) {
@@ -48,16 +54,26 @@ PointSet model_bone(BoneId bone, std::size_t count) {
         std::sqrt(static_cast<double>(surface.vertices.size()) / static_cast<double>(count));
     surface = extract(model, bone, pixel_mm);
   }
-  return {std::string(name_of(bone)), std::move(surface.vertices)};
+  const std::string name(name_of(bone));
+  return {name,
+          std::move(surface.vertices),
+          {.source = name + " of the parametric wrist (simulated)",
+           .surface_facets = surface.facets.size()}};
+}
+
+void check_bones_folder(const std::filesystem::path& folder) {
+  if (std::filesystem::is_directory(folder)) return;
+  throw IoError(folder.string() +
+                ": no such folder; give one of <bone>.ply, e.g. a case's bones, or leave --bones "
+                "out for the parametric wrist (simulated)");
 }
 
 std::vector<PointSet> bones_in(const std::filesystem::path& folder) {
+  check_bones_folder(folder);
   std::vector<PointSet> sets;
-  if (std::filesystem::is_directory(folder)) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().extension() == ".ply" && bone_of(entry.path().stem().string())) {
-        sets.push_back({entry.path().stem().string(), case_io::read_ply(entry.path()).vertices});
-      }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".ply" && bone_of(entry.path().stem().string())) {
+      sets.push_back(set_of(entry.path(), case_io::read_ply(entry.path())));
     }
   }
   if (sets.empty())
@@ -74,7 +90,7 @@ PointSet thinned_bone(const std::filesystem::path& file, std::size_t count) {
     surface =
         mesh::simplify(surface, {.target_facets = 2 * count - 4, .max_error_mm = kAnyErrorMm}).mesh;
   }
-  return {file.stem().string(), std::move(surface.vertices)};
+  return set_of(file, std::move(surface));
 }
 
 }  // namespace carpus::bench

@@ -18,8 +18,11 @@ namespace carpus::bench {
 /// vertices result.
 [[nodiscard]] PointSet model_bone(BoneId bone, std::size_t count);
 
+/// @throws IoError, saying what to do, when there is no such folder.
+void check_bones_folder(const std::filesystem::path& folder);
+
 /// Every <bone>.ply of a folder, e.g. a case's bones/, at full resolution.
-/// @throws IoError when the folder holds none.
+/// @throws IoError when there is no such folder, or it holds none.
 [[nodiscard]] std::vector<PointSet> bones_in(const std::filesystem::path& folder);
 
 /// One bone of a folder, simplified to at most `count` vertices; fewer where it has no more.

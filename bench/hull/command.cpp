@@ -3,6 +3,7 @@
 #include "bench/hull/command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "bench/hull/hull_bench.hpp"
 #include "bench/hull/hull_report.hpp"
 #include "bench/hull/plot.hpp"
+#include "bench/hull/thesis_bones.hpp"
 #include "bench/hull/thesis_tables.hpp"
 #include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
@@ -49,6 +51,9 @@ std::vector<std::size_t> sizes_between(std::size_t least, std::size_t most) {
   return sizes;
 }
 
+/// Of a bone of the parametric wrist, about.
+constexpr std::size_t kModelVertices = 4500;
+
 /// Of table 4.1; brute force runs on parts of this bone.
 constexpr std::size_t kCapitateRow = 7;
 
@@ -58,21 +63,13 @@ void append_parts(std::vector<HullRow>& rows,
                   const std::vector<HullEngine>& engines,
                   const HullBenchOptions& options) {
   for (const std::size_t count : {50U, 80U, 120U}) {
-    PointSet part{bone.name + ", part", {}};
+    PointSet part{bone.name + ", part", {}, bone.origin};
+    part.origin.surface_facets = 0;
+    part.origin.thesis_points = 0;
     for (std::size_t i = 0; i < count; ++i)
       part.points.push_back(bone.points[i * bone.points.size() / count]);
     append(rows, part, engines, options);
   }
-}
-
-/// The thesis's bones at the thesis's vertex counts: from a folder of surfaces, or of the model.
-PointSet thesis_bone(const ThesisRow& row, const HullArguments& a) {
-  const std::filesystem::path file = a.bones / (std::string(name_of(row.model)) + ".ply");
-  PointSet set = !a.bones.empty() && std::filesystem::exists(file)
-                     ? thinned_bone(file, row.vertices)
-                     : model_bone(row.model, row.vertices);
-  set.name = row.name;
-  return set;
 }
 
 void print_thesis_table(std::span<const ThesisRow> table, const std::vector<HullRow>& rows) {
@@ -137,6 +134,9 @@ void check_before_the_run(const HullArguments& a) {
   for (const PlotFile& plot : plot_files(a)) check_writable(plot.file);
   const std::string asked = std::to_string(a.min_points) + " ";
   const std::string most = "--max-points " + std::to_string(a.max_points);
+  if (a.table == "distributions" && !a.bones.empty()) {
+    throw CLI::ValidationError("--bones", "the distributions are of random points; leave it out");
+  }
   if (a.min_points > a.max_points) {
     throw CLI::ValidationError("--min-points", asked + "is above " + most + "; give both");
   }
@@ -149,46 +149,92 @@ void check_before_the_run(const HullArguments& a) {
   }
 }
 
+constexpr const char* kModelWrist = "parametric wrist (simulated)";
+
+/// What was measured, in words.
+std::string bones_of(const HullArguments& a, const std::vector<HullRow>& rows) {
+  if (a.table == "distributions")
+    return std::string("random points; scaphoid of the ") + kModelWrist;
+  const bool has_stand_ins = std::any_of(rows.begin(), rows.end(),
+                                         [](const HullRow& row) { return row.origin.is_stand_in; });
+  return (a.bones.empty() ? kModelWrist : a.bones.string()) +
+         (has_stand_ins ? ", with stand-ins" : "");
+}
+
+std::string title_of(const std::string& table) {
+  if (table == "4.1") return "Figure 4.7 anew: convex hulls of wrist bones, as table 4.1";
+  if (table == "4.2") return "Figure 4.8 anew: convex hulls of bones, as table 4.2";
+  return table == "bones" ? "Convex hulls of whole bones" : "Convex hulls of distributions";
+}
+
+std::vector<HullRow> measure_thesis(std::span<const ThesisRow> table,
+                                    const HullArguments& a,
+                                    const std::vector<HullEngine>& engines,
+                                    const HullBenchOptions& options) {
+  std::vector<HullRow> rows;
+  const std::vector<PointSet> bones = thesis_bones(table, a.bones);
+  for (const PointSet& bone : bones) append(rows, bone, engines, options);
+  if (a.table == "4.1") append_parts(rows, bones[kCapitateRow], engines, options);
+  return rows;
+}
+
+std::vector<HullRow> measure_bones(const std::filesystem::path& folder,
+                                   const std::vector<HullEngine>& engines,
+                                   const HullBenchOptions& options) {
+  std::vector<HullRow> rows;
+  if (!folder.empty()) {
+    for (const PointSet& set : bones_in(folder)) append(rows, set, engines, options);
+  } else {
+    for (const BoneId bone : kAllBones)
+      append(rows, model_bone(bone, kModelVertices), engines, options);
+  }
+  return rows;
+}
+
+std::vector<HullRow> measure_distributions(const HullArguments& a,
+                                           const std::vector<HullEngine>& engines,
+                                           const HullBenchOptions& options) {
+  std::vector<HullRow> rows;
+  const std::vector<std::size_t> sizes = sizes_between(a.min_points, a.max_points);
+  for (const std::string& name : distributions()) {
+    for (const std::size_t n : sizes) append(rows, make_point_set(name, n, 1), engines, options);
+  }
+  for (const std::size_t n : sizes) {
+    if (n <= 1'000'000) append(rows, model_bone(BoneId::Scaphoid, n), engines, options);
+  }
+  return rows;
+}
+
+void print_head(const std::string& bones) {
+  const Provenance p = provenance();
+  std::printf(
+      "%s\n%s; %s; commit %s\nbones: %s\nmedian processor time of repeated runs, one thread, hull "
+      "alone\n\n",
+      p.machine.c_str(), p.compiler.c_str(), p.flags.c_str(), p.commit.c_str(), bones.c_str());
+}
+
 void run_hull(const HullArguments& a) {
   check_before_the_run(a);
   HullBenchOptions options;
   options.caps = {a.cap_gib << 30U, a.cap_seconds};
   options.budget_seconds = a.budget_seconds;
   const std::vector<HullEngine> engines = all_engines();
-  std::vector<HullRow> rows;
   const bool is_thesis = a.table == "4.1" || a.table == "4.2";
   const auto thesis = a.table == "4.1" ? thesis_table_4_1() : thesis_table_4_2();
-  if (is_thesis) {
-    for (const ThesisRow& row : thesis) append(rows, thesis_bone(row, a), engines, options);
-    if (a.table == "4.1")
-      append_parts(rows, thesis_bone(thesis[kCapitateRow], a), engines, options);
-  } else if (a.table == "bones") {
-    if (!a.bones.empty()) {
-      for (const PointSet& set : bones_in(a.bones)) append(rows, set, engines, options);
-    } else {
-      for (const BoneId bone : kAllBones) append(rows, model_bone(bone, 4500), engines, options);
-    }
-  } else {
-    const std::vector<std::size_t> sizes = sizes_between(a.min_points, a.max_points);
-    for (const std::string& name : distributions()) {
-      for (const std::size_t n : sizes) append(rows, make_point_set(name, n, 1), engines, options);
-    }
-    for (const std::size_t n : sizes) {
-      if (n <= 1'000'000) append(rows, model_bone(BoneId::Scaphoid, n), engines, options);
-    }
-  }
-  const Provenance p = provenance();
-  std::printf(
-      "%s\n%s; %s; commit %s\nmedian processor time of repeated runs, one thread, hull alone\n\n",
-      p.machine.c_str(), p.compiler.c_str(), p.flags.c_str(), p.commit.c_str());
+  const std::vector<HullRow> rows = is_thesis ? measure_thesis(thesis, a, engines, options)
+                                    : a.table == "bones"
+                                        ? measure_bones(a.bones, engines, options)
+                                        : measure_distributions(a, engines, options);
+  const std::string bones = bones_of(a, rows);
+  print_head(bones);
   std::fputs(text_of(rows).c_str(), stdout);
   if (is_thesis) print_thesis_table(thesis, rows);
   if (a.table == "4.1")
     std::fputs(brute_force_growth_of(rows, thesis[kCapitateRow].vertices).c_str(), stdout);
   if (a.table == "distributions") std::printf("\n%s", growth_of(rows).c_str());
-  if (!a.json.empty()) write_json(a.json, a.table, rows);
+  if (!a.json.empty()) write_json(a.json, a.table, bones, rows);
   for (const PlotFile& plot : plot_files(a))
-    save_drawing(plot.file, plot_svg("Convex hulls, table " + a.table, rows, plot.axis));
+    save_drawing(plot.file, plot_svg(title_of(a.table) + "; " + bones, rows, plot.axis));
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ std::vector<HullRow> measure_hulls(const PointSet& set,
   for (std::size_t i = 0; i < engines.size(); ++i) {
     HullRow row;
     row.set = set.name;
+    row.origin = set.origin;
     row.engine = engines[i].name;
     row.n = set.points.size();
     row.is_peer = engines[i].is_peer;

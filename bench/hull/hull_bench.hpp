@@ -18,6 +18,7 @@ namespace carpus::bench {
 struct HullRow {
   std::string set;
   std::string engine;
+  Origin origin{};
   std::size_t n = 0;
   std::size_t h = 0;  ///< hull vertices that this engine found
   std::size_t facets = 0;

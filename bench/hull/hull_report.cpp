@@ -45,6 +45,18 @@ double exponent(const std::vector<std::pair<double, double>>& samples) {
   return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
 
+/// Where the points come from, for a row of JSON.
+void describe(const HullRow& row, nlohmann::ordered_json& r) {
+  const Origin& o = row.origin;
+  if (o.source.empty()) return;
+  r["source"] = o.source;
+  r["is_stand_in"] = o.is_stand_in;
+  r["surface_facets"] = o.surface_facets != 0 ? nlohmann::ordered_json(o.surface_facets) : nullptr;
+  if (o.thesis_points == 0) return;
+  r["thesis_n"] = o.thesis_points;
+  r["has_thesis_n"] = has_thesis_count(o, row.n);
+}
+
 }  // namespace
 
 std::string text_of(const std::vector<HullRow>& rows) {
@@ -64,6 +76,8 @@ std::string text_of(const std::vector<HullRow>& rows) {
     const auto& by_engine = table[key];
     std::size_t h = 0;
     double fast = 0;
+    const HullRow& any = *by_engine.begin()->second;
+    const std::string note = note_on(any.origin, any.n);
     double best_exact = std::numeric_limits<double>::infinity();
     double best = best_exact;
     for (const auto& [name, row] : by_engine) {
@@ -81,7 +95,7 @@ std::string text_of(const std::vector<HullRow>& rows) {
     const auto ratio = [fast](double peer) {
       return fast > 0 && std::isfinite(peer) ? format("  %6.2f x", peer / fast) : "         -";
     };
-    text += ratio(best_exact) + ratio(best) + "\n";
+    text += ratio(best_exact) + ratio(best) + (note.empty() ? "" : "  " + note) + "\n";
   }
   return text + "!: not the same corners, facets and volume as the exact answer\n";
 }
@@ -129,13 +143,19 @@ std::string brute_force_growth_of(const std::vector<HullRow>& rows, std::size_t 
 
 void write_json(const std::filesystem::path& file,
                 const std::string& table,
+                const std::string& bones,
                 const std::vector<HullRow>& rows) {
   const Provenance p = provenance();
-  nlohmann::ordered_json json{{"table", table},         {"machine", p.machine},
-                              {"compiler", p.compiler}, {"flags", p.flags},
-                              {"commit", p.commit},     {"rows", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{{"table", table},
+                              {"bones", bones},
+                              {"machine", p.machine},
+                              {"compiler", p.compiler},
+                              {"flags", p.flags},
+                              {"commit", p.commit},
+                              {"rows", nlohmann::ordered_json::array()}};
   for (const HullRow& row : rows) {
     nlohmann::ordered_json r{{"case", row.set}, {"n", row.n}, {"h", row.h}, {"engine", row.engine}};
+    describe(row, r);
     if (row.ran) {
       r["seconds"] = row.seconds;
       r["fastest_seconds"] = row.fastest_seconds;

@@ -12,7 +12,8 @@
 
 namespace carpus::bench {
 
-/// One line a set: seconds of each engine, how many times faster `fast` is than the best peer.
+/// One line a set: seconds of each engine, how many times faster `fast` is than the best peer, and
+/// what must be known of it (origin.hpp).
 [[nodiscard]] std::string text_of(const std::vector<HullRow>& rows);
 
 /// How time grows, by least squares of the logarithms: with n for each distribution and engine that
@@ -23,10 +24,11 @@ namespace carpus::bench {
 [[nodiscard]] std::string brute_force_growth_of(const std::vector<HullRow>& rows,
                                                 std::size_t whole);
 
-/// docs/json.md, hull benchmark.
+/// docs/json.md, hull benchmark. `bones` says what was measured.
 /// @throws IoError when the file cannot be written.
 void write_json(const std::filesystem::path& file,
                 const std::string& table,
+                const std::string& bones,
                 const std::vector<HullRow>& rows);
 
 }  // namespace carpus::bench

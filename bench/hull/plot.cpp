@@ -50,6 +50,18 @@ auto& found_or_appended(All& all, Matches matches, New fresh) {
   return all.back();
 }
 
+/// One for each set that is not what its name says.
+std::vector<std::string> notes_on(const std::vector<HullRow>& rows) {
+  std::vector<std::string> notes;
+  for (const HullRow& row : rows) {
+    const std::string note = note_on(row.origin, row.n);
+    if (note.empty()) continue;
+    const std::string line = row.set + ": " + note;
+    if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
+  }
+  return notes;
+}
+
 std::string dots(const std::string& title, const std::vector<HullRow>& rows) {
   DotBlock block{"time of a hull", {}};
   for (const HullRow& row : rows) {
@@ -57,7 +69,7 @@ std::string dots(const std::string& title, const std::vector<HullRow>& rows) {
         block.panels, [&](const DotPanel& p) { return p.title == row.set; }, DotPanel{row.set, {}});
     panel.dots.push_back({row.engine, row.is_peer, row.ran ? row.seconds : 0, 0, row.agrees});
   }
-  return dot_chart_svg(title, "median", {block});
+  return dot_chart_svg(title, "median", {block}, notes_on(rows));
 }
 
 }  // namespace
@@ -79,7 +91,7 @@ std::string plot_svg(const std::string& title, const std::vector<HullRow>& rows,
         {static_cast<double>(by_points ? row.n : row.h), row.seconds, row.agrees});
   }
   return curve_chart_svg(title, by_points ? "points n" : "hull vertices h",
-                         "median of repeated runs", panels);
+                         "median of repeated runs", panels, notes_on(rows));
 }
 
 }  // namespace carpus::bench

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/hull/origin.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::bench {
@@ -17,6 +18,7 @@ namespace carpus::bench {
 struct PointSet {
   std::string name;
   std::vector<Vec3> points;
+  Origin origin{};
 };
 
 /// ball: uniform in a ball; sphere: on its surface, so that all are corners; cube: uniform in a

@@ -15,16 +15,17 @@ namespace carpus::bench {
 /// One row as the thesis prints it; seconds include displaying the model.
 struct ThesisRow {
   std::string_view name;
-  BoneId model;  ///< the wrist bone that stands for it here; for table 4.2 only the counts matter
-  std::size_t vertices;
-  std::size_t facets;
-  std::size_t hull_vertices;
-  std::size_t hull_facets;
-  double brute_force;  ///< 0 where the thesis has none
-  double gift_wrapping;
-  double quickhull;
-  double chan;
-  double hybrid;
+  std::string_view surface;  ///< its own file in a folder of bones, without .ply
+  BoneId model;              ///< the wrist bone that stands for it where there is none
+  std::size_t vertices = 0;
+  std::size_t facets = 0;
+  std::size_t hull_vertices = 0;
+  std::size_t hull_facets = 0;
+  double brute_force = 0;  ///< 0 where the thesis has none
+  double gift_wrapping = 0;
+  double quickhull = 0;
+  double chan = 0;
+  double hybrid = 0;
 };
 
 [[nodiscard]] std::span<const ThesisRow> thesis_table_4_1();
