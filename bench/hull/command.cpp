@@ -10,9 +10,11 @@
 #include "bench/drawing.hpp"
 #include "bench/hull/bone_points.hpp"
 #include "bench/hull/hull_bench.hpp"
+#include "bench/hull/hull_json.hpp"
 #include "bench/hull/hull_report.hpp"
 #include "bench/hull/plot.hpp"
 #include "bench/hull/thesis_bones.hpp"
+#include "bench/hull/thesis_report.hpp"
 #include "bench/hull/thesis_tables.hpp"
 #include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
@@ -70,51 +72,6 @@ void append_parts(std::vector<HullRow>& rows,
       part.points.push_back(bone.points[i * bone.points.size() / count]);
     append(rows, part, engines, options);
   }
-}
-
-void print_thesis_table(std::span<const ThesisRow> table, const std::vector<HullRow>& rows) {
-  const auto find = [&](std::string_view set, std::string_view engine) -> const HullRow* {
-    for (const HullRow& row : rows) {
-      if (row.set == set && row.engine == engine && row.ran) return &row;
-    }
-    return nullptr;
-  };
-  std::printf(
-      "\nBeside the thesis (its seconds include display; its machine is of 2008):\n%-16s %22s %22s "
-      "%26s %26s\n",
-      "bone", "hull vertices, facets", "removed by stage 1", "hybrid / gift wrapping",
-      "hybrid / quickhull");
-  std::printf("%-16s %11s %10s %11s %10s %13s %12s %13s %12s\n", "", "here", "thesis", "here",
-              "thesis", "here", "thesis", "here", "thesis");
-  for (const ThesisRow& t : table) {
-    const HullRow* hybrid = find(t.name, "hybrid");
-    const HullRow* wrapping = find(t.name, "gift_wrapping");
-    const HullRow* quick = find(t.name, "quickhull");
-    if (hybrid == nullptr || wrapping == nullptr || quick == nullptr) continue;
-    const bool is_misprint = t.hull_facets != 2 * t.hull_vertices - 4;
-    const char* removed = t.name == "3rd Metacarpal" ? "17 %"
-                          : t.name == "Scaphoid"     ? "12 %"
-                          : t.name == "Fibula"       ? "2 %"
-                          : t.name == "Femur"        ? "6 %"
-                                                     : "-";
-    std::printf("%-16.*s %5zu %5zu %5zu %5zu%s %9.1f %% %9s %13.2f %12.2f %13.2f %12.2f\n",
-                static_cast<int>(t.name.size()), t.name.data(), hybrid->h, hybrid->facets,
-                t.hull_vertices, t.hull_facets, is_misprint ? "*" : " ",
-                100 * hybrid->discarded_share, removed, hybrid->seconds / wrapping->seconds,
-                t.hybrid / t.gift_wrapping, hybrid->seconds / quick->seconds,
-                t.hybrid / t.quickhull);
-  }
-  std::printf(
-      "*: misprinted in the thesis, F = 2V - 4 does not hold\n"
-      "Why they differ: the first stage removes what lies in a tetrahedron inscribed in the bone "
-      "on\n"
-      "either side; nearly every vertex of a closed surface lies outside it. What is left is "
-      "wrapped\n"
-      "at n h, so that the hybrid is as fast as gift wrapping, and quickhull, at about n log n, "
-      "is\n"
-      "faster than both by tens. That the thesis finds quickhull and gift wrapping alike may be "
-      "due\n"
-      "to what its seconds include besides the hull.\n");
 }
 
 struct PlotFile {
@@ -219,22 +176,26 @@ void run_hull(const HullArguments& a) {
   options.caps = {a.cap_gib << 30U, a.cap_seconds};
   options.budget_seconds = a.budget_seconds;
   const std::vector<HullEngine> engines = all_engines();
-  const bool is_thesis = a.table == "4.1" || a.table == "4.2";
-  const auto thesis = a.table == "4.1" ? thesis_table_4_1() : thesis_table_4_2();
-  const std::vector<HullRow> rows = is_thesis ? measure_thesis(thesis, a, engines, options)
-                                    : a.table == "bones"
-                                        ? measure_bones(a.bones, engines, options)
-                                        : measure_distributions(a, engines, options);
-  const std::string bones = bones_of(a, rows);
-  print_head(bones);
-  std::fputs(text_of(rows).c_str(), stdout);
-  if (is_thesis) print_thesis_table(thesis, rows);
-  if (a.table == "4.1")
-    std::fputs(brute_force_growth_of(rows, thesis[kCapitateRow].vertices).c_str(), stdout);
-  if (a.table == "distributions") std::printf("\n%s", growth_of(rows).c_str());
-  if (!a.json.empty()) write_json(a.json, a.table, bones, rows);
+  HullReport report;
+  report.table = a.table;
+  if (a.table == "4.1") report.thesis = thesis_table_4_1();
+  if (a.table == "4.2") report.thesis = thesis_table_4_2();
+  report.rows = !report.thesis.empty() ? measure_thesis(report.thesis, a, engines, options)
+                : a.table == "bones"   ? measure_bones(a.bones, engines, options)
+                                       : measure_distributions(a, engines, options);
+  report.bones = bones_of(a, report.rows);
+  print_head(report.bones);
+  std::fputs(text_of(report.rows).c_str(), stdout);
+  if (!report.thesis.empty()) std::fputs(thesis_text(report.thesis, report.rows).c_str(), stdout);
+  if (a.table == "4.1") {
+    const std::size_t whole = report.thesis[kCapitateRow].vertices;
+    std::fputs(brute_force_growth_of(report.rows, whole).c_str(), stdout);
+  }
+  if (a.table == "distributions") std::printf("\n%s", growth_of(report.rows).c_str());
+  if (!a.json.empty()) write_text(a.json, json_of(report));
   for (const PlotFile& plot : plot_files(a))
-    save_drawing(plot.file, plot_svg(title_of(a.table) + "; " + bones, rows, plot.axis));
+    save_drawing(plot.file,
+                 plot_svg(title_of(a.table) + "; " + report.bones, report.rows, plot.axis));
 }
 
 }  // namespace

@@ -6,11 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/output_file.hpp"
-#include "bench/provenance.hpp"
 #include "bench/text_format.hpp"
 
 namespace carpus::bench {
@@ -43,18 +40,6 @@ double exponent(const std::vector<std::pair<double, double>>& samples) {
   }
   const auto count = static_cast<double>(samples.size());
   return (count * sxy - sx * sy) / (count * sxx - sx * sx);
-}
-
-/// Where the points come from, for a row of JSON.
-void describe(const HullRow& row, nlohmann::ordered_json& r) {
-  const Origin& o = row.origin;
-  if (o.source.empty()) return;
-  r["source"] = o.source;
-  r["is_stand_in"] = o.is_stand_in;
-  r["surface_facets"] = o.surface_facets != 0 ? nlohmann::ordered_json(o.surface_facets) : nullptr;
-  if (o.thesis_points == 0) return;
-  r["thesis_n"] = o.thesis_points;
-  r["has_thesis_n"] = has_thesis_count(o, row.n);
 }
 
 }  // namespace
@@ -139,36 +124,6 @@ std::string brute_force_growth_of(const std::vector<HullRow>& rows, std::size_t 
       "brute force: run on part of the points only (rows above); its seconds grow with n^%.2f, "
       "so that %zu points would take it about %.0f s (extrapolated, not run)\n",
       power, whole, seconds * std::pow(static_cast<double>(whole) / n, power));
-}
-
-void write_json(const std::filesystem::path& file,
-                const std::string& table,
-                const std::string& bones,
-                const std::vector<HullRow>& rows) {
-  const Provenance p = provenance();
-  nlohmann::ordered_json json{{"table", table},
-                              {"bones", bones},
-                              {"machine", p.machine},
-                              {"compiler", p.compiler},
-                              {"flags", p.flags},
-                              {"commit", p.commit},
-                              {"rows", nlohmann::ordered_json::array()}};
-  for (const HullRow& row : rows) {
-    nlohmann::ordered_json r{{"case", row.set}, {"n", row.n}, {"h", row.h}, {"engine", row.engine}};
-    describe(row, r);
-    if (row.ran) {
-      r["seconds"] = row.seconds;
-      r["fastest_seconds"] = row.fastest_seconds;
-      r["runs"] = row.runs;
-      r["agrees"] = row.agrees;
-      if (row.engine == "hybrid") r["discarded_share"] = row.discarded_share;
-    } else {
-      r["seconds"] = nullptr;
-      r["status"] = "not run";
-    }
-    json["rows"].push_back(std::move(r));
-  }
-  write_text(file, json.dump(1) + "\n");
 }
 
 }  // namespace carpus::bench

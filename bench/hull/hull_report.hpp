@@ -1,10 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hull rows as text and as JSON.
+// Hull rows as text.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,12 +22,5 @@ namespace carpus::bench {
 /// What brute force would take for `whole` points, from the rows of fewer that it ran on.
 [[nodiscard]] std::string brute_force_growth_of(const std::vector<HullRow>& rows,
                                                 std::size_t whole);
-
-/// docs/json.md, hull benchmark. `bones` says what was measured.
-/// @throws IoError when the file cannot be written.
-void write_json(const std::filesystem::path& file,
-                const std::string& table,
-                const std::string& bones,
-                const std::vector<HullRow>& rows);
 
 }  // namespace carpus::bench
