@@ -9,6 +9,7 @@
 
 #include "bench/drawing.hpp"
 #include "bench/hull/bone_points.hpp"
+#include "bench/hull/growth.hpp"
 #include "bench/hull/hull_bench.hpp"
 #include "bench/hull/hull_json.hpp"
 #include "bench/hull/hull_report.hpp"
@@ -191,7 +192,7 @@ void run_hull(const HullArguments& a) {
     const std::size_t whole = report.thesis[kCapitateRow].vertices;
     std::fputs(brute_force_growth_of(report.rows, whole).c_str(), stdout);
   }
-  if (a.table == "distributions") std::printf("\n%s", growth_of(report.rows).c_str());
+  if (a.table == "distributions") std::printf("\n%s", growth_text(report.rows).c_str());
   if (!a.json.empty()) write_text(a.json, json_of(report));
   for (const PlotFile& plot : plot_files(a))
     save_drawing(plot.file,

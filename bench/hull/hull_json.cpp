@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/hull/growth.hpp"
 #include "bench/hull/thesis_report.hpp"
 #include "bench/provenance.hpp"
 
@@ -65,6 +66,21 @@ Json json_of_bone(const ThesisBeside& b) {
   return bone;
 }
 
+Json json_of_growth(const Growth& g) {
+  Json steps = Json::array();
+  const std::vector<double> exponents = g.steps();
+  for (std::size_t i = 0; i < exponents.size(); ++i) {
+    steps.push_back({{"from_n", static_cast<std::size_t>(g.samples[i].count)},
+                     {"to_n", static_cast<std::size_t>(g.samples[i + 1].count)},
+                     {"exponent", exponents[i]}});
+  }
+  return {{"case", g.set},
+          {"engine", g.engine},
+          {"exponent", exponent_of(g.samples)},
+          {"n_log_n_exponent", n_log_n_exponent(g.samples)},
+          {"steps", steps}};
+}
+
 }  // namespace
 
 std::string json_of(const HullReport& report) {
@@ -73,6 +89,11 @@ std::string json_of(const HullReport& report) {
             {"compiler", p.compiler}, {"flags", p.flags},      {"commit", p.commit}};
   for (const ThesisBeside& bone : beside_thesis(report.thesis, report.rows))
     json["thesis"].push_back(json_of_bone(bone));
+  if (report.table == "distributions") {
+    json["growth"] = Json::array();
+    for (const Growth& g : growth_with_points(report.rows))
+      json["growth"].push_back(json_of_growth(g));
+  }
   json["rows"] = Json::array();
   for (const HullRow& row : report.rows) json["rows"].push_back(json_of_row(row, report.thesis));
   return json.dump(1) + "\n";

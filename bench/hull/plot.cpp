@@ -11,6 +11,7 @@
 #include "bench/chart/curve_chart.hpp"
 #include "bench/chart/dot_chart.hpp"
 #include "bench/chart/log_scale.hpp"
+#include "bench/hull/growth.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -78,19 +79,20 @@ std::string plot_svg(const std::string& title, const std::vector<HullRow>& rows,
   const Sets sets = kind_of(rows);
   const bool by_points = axis == PlotAxis::Points;
   if (sets == Sets::SameSize && by_points) return dots(title, rows);
+  const ExactCorners corners(rows);
   std::vector<CurvePanel> panels;
   for (const HullRow& row : rows) {
-    if (!row.ran || row.h == 0) continue;
+    const std::size_t h = corners.of(row);
+    if (!row.ran || h == 0) continue;
     const std::string name = sets != Sets::ManySizes ? "" : by_points ? row.set : about(row.n);
     CurvePanel& panel = found_or_appended(
         panels, [&](const CurvePanel& p) { return p.title == name; }, CurvePanel{name, {}});
     Curve& curve = found_or_appended(
         panel.curves, [&](const Curve& c) { return c.name == row.engine; },
         Curve{row.engine, row.is_peer, {}});
-    curve.points.push_back(
-        {static_cast<double>(by_points ? row.n : row.h), row.seconds, row.agrees});
+    curve.points.push_back({static_cast<double>(by_points ? row.n : h), row.seconds, row.agrees});
   }
-  return curve_chart_svg(title, by_points ? "points n" : "hull vertices h",
+  return curve_chart_svg(title, by_points ? "points n" : "corners h of the exact hull",
                          "median of repeated runs", panels, notes_on(rows));
 }
 

@@ -14,6 +14,7 @@ namespace carpus::bench {
 /// What the horizontal axis counts.
 enum class PlotAxis { Points, HullVertices };
 
+/// Against h each engine's time stands at the exact hull's count, also where it finds another.
 /// One curve an engine over all rows that ran; a panel for each set where sets have sizes in
 /// common. Empty where nothing ran.
 [[nodiscard]] std::string plot_svg(const std::string& title,
