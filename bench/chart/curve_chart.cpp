@@ -3,9 +3,9 @@
 #include "bench/chart/curve_chart.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <tuple>
 
+#include "bench/chart/engine_pens.hpp"
 #include "bench/chart/ink.hpp"
 #include "bench/chart/log_scale.hpp"
 #include "bench/chart/spread_labels.hpp"
@@ -28,38 +28,6 @@ constexpr double kCurve = 20;     ///< and no less than this for each curve
 constexpr double kAcross = 56;    ///< between labels of the axis of counts
 constexpr double kUpward = 30;    ///< and of that of seconds
 constexpr std::size_t kMost = 2;  ///< panels side by side
-
-/// Dark enough to read as text, and apart in lightness too.
-constexpr std::array<const char*, 10> kColours{"#0b5fa5", "#c2571a", "#2a8a57", "#8a2be2",
-                                               "#444444", "#a87900", "#d6336c", "#0f8ba3",
-                                               "#7a4419", "#5c8a0d"};
-constexpr std::array<const char*, 3> kDashes{"", " stroke-dasharray=\"9 4\"",
-                                             " stroke-dasharray=\"2 3\""};
-
-struct Pen {
-  const char* colour;
-  const char* dash;
-};
-
-/// Neighbours at the right end of the first panel that has them differ in colour.
-std::map<std::string, Pen> pens_of(const std::vector<CurvePanel>& panels) {
-  std::map<std::string, Pen> pens;
-  for (const CurvePanel& panel : panels) {
-    std::vector<const Curve*> order;
-    for (const Curve& c : panel.curves) {
-      if (!c.points.empty()) order.push_back(&c);
-    }
-    std::sort(order.begin(), order.end(), [](const Curve* a, const Curve* b) {
-      return a->points.back().seconds < b->points.back().seconds;
-    });
-    for (const Curve* c : order) {
-      const std::size_t next = pens.size();
-      pens.try_emplace(c->name, Pen{kColours[next % kColours.size()],
-                                    kDashes[next / kColours.size() % kDashes.size()]});
-    }
-  }
-  return pens;
-}
 
 std::string legend() {
   const double y = 52;
@@ -98,7 +66,6 @@ std::string draw_axes(const CurvePanel& panel,
 }
 
 std::string draw_curves(const CurvePanel& panel,
-                        const std::map<std::string, Pen>& pens,
                         const Frame& at,
                         const LogScale& x,
                         const LogScale& y) {
@@ -108,7 +75,7 @@ std::string draw_curves(const CurvePanel& panel,
   std::string svg;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& c = panel.curves[i];
-    const Pen& pen = pens.at(c.name);
+    const Pen pen = pen_of(c.name);
     std::string path;
     for (const CurvePoint& p : c.points)
       path += format("%.1f,%.1f ", x.at(p.count), y.at(p.seconds));
@@ -157,7 +124,6 @@ std::string curve_chart_svg(const std::string& title,
   if (counts.is_empty() || seconds.is_empty()) return {};
   counts = counts.widened(1.15);
   seconds = seconds.widened(1.4);
-  const std::map<std::string, Pen> pens = pens_of(shown);
   const std::size_t columns = std::min(kMost, shown.size());
   const double plot = shown.size() == 1 ? 1.5 * kPlot : kPlot;
   const double pitch = kAxis + plot + kLeader + kNames;
@@ -170,7 +136,7 @@ std::string curve_chart_svg(const std::string& title,
     const LogScale x(counts, at.left, at.right);
     const LogScale y(seconds, at.bottom, at.top);
     svg += draw_axes(shown[i], at, x, y, counted);
-    svg += draw_curves(shown[i], pens, at, x, y);
+    svg += draw_curves(shown[i], at, x, y);
   }
   const std::size_t lines = (shown.size() + columns - 1) / columns;
   const double bottom = kTop + static_cast<double>(lines) * (kHead + tall + kFoot);

@@ -27,7 +27,7 @@ struct CurvePanel {
   std::vector<Curve> curves;
 };
 
-/// An engine has one colour and dash in all panels. `notes` stand below, a line each. Empty where
+/// An engine has its pen (engine_pens.hpp). `notes` stand below, a line each. Empty where
 /// nothing was run.
 [[nodiscard]] std::string curve_chart_svg(const std::string& title,
                                           const std::string& counted,

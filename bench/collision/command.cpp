@@ -28,6 +28,16 @@ void print_head(const std::string& bones) {
       clock.overhead_seconds() * 1e9, clock.resolution_seconds() * 1e9, kQueryPasses, kPasses);
 }
 
+std::string title_of(const std::string& table) {
+  if (table == "pair") return "Do two convex bodies meet? Warm queries";
+  if (table == "cold") return "Do two convex bodies meet? Cold queries";
+  if (table == "tick") return "A tick of all pairs of convex bodies";
+  if (table == "distance") return "Distance and depth of two convex bodies";
+  if (table == "surface") return "Instruments against the bones' surfaces";
+  if (table == "growth") return "Do two convex bodies meet? Time against their facets";
+  return "Figure 5.3 anew: do two bones' hulls meet? As table 5.1";
+}
+
 void run(const CollisionArguments& a) {
   for (const std::filesystem::path& file : {a.json, a.plot}) {
     if (!file.empty()) check_writable(file);
@@ -62,7 +72,7 @@ void run(const CollisionArguments& a) {
   std::fputs(tail.c_str(), stdout);
   if (!a.json.empty()) write_json(a.json, a.table, bones, rows);
   if (!a.plot.empty()) {
-    save_drawing(a.plot, collision_plot_svg("Convex bodies, table " + a.table, rows,
+    save_drawing(a.plot, collision_plot_svg(title_of(a.table) + "; " + bones, rows,
                                             a.table == "growth" ? CollisionAxis::Facets
                                             : a.table == "5.1"  ? CollisionAxis::Vertices
                                                                 : CollisionAxis::Cases));

@@ -111,8 +111,12 @@ constexpr const char* kModelWrist = "parametric wrist (simulated)";
 
 /// What was measured, in words.
 std::string bones_of(const HullArguments& a, const std::vector<HullRow>& rows) {
-  if (a.table == "distributions")
-    return std::string("random points; scaphoid of the ") + kModelWrist;
+  if (a.table == "distributions") {
+    const bool has_bone = std::any_of(
+        rows.begin(), rows.end(), [](const HullRow& row) { return !row.origin.source.empty(); });
+    return has_bone ? std::string("random points, and a scaphoid of the ") + kModelWrist
+                    : "random points";
+  }
   const bool has_stand_ins = std::any_of(rows.begin(), rows.end(),
                                          [](const HullRow& row) { return row.origin.is_stand_in; });
   return (a.bones.empty() ? kModelWrist : a.bones.string()) +
