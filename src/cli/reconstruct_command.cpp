@@ -85,7 +85,10 @@ void run(const Arguments& a) {
   reading.warn = warn;
   Grid<std::int16_t> ct = case_io::read_ct(a.input, reading);
   reconstruct::GroundTruth truth;
-  if (!a.truth.empty()) truth = reconstruct::read_ground_truth(a.truth);
+  if (!a.truth.empty()) {
+    truth = reconstruct::read_ground_truth(a.truth);
+    reconstruct::require_same_grid(ct.geometry(), truth);
+  }
   const double reading_seconds = reconstruct::StageClock::seconds_since(started);
 
   reconstruct::ReconstructOptions options;

@@ -79,10 +79,9 @@ GroundTruth read_ground_truth(const fs::path& file) {
   return truth;
 }
 
-std::vector<LabelDice> compare_labels(const GridView<const std::uint8_t>& found,
-                                      const GroundTruth& truth) {
-  if (!lie_on_one_grid(found.geometry(), truth.labels.geometry())) {
-    const auto& a = found.geometry().size;
+void require_same_grid(const GridGeometry& ct, const GroundTruth& truth) {
+  if (!lie_on_one_grid(ct, truth.labels.geometry())) {
+    const auto& a = ct.size;
     const auto& b = truth.labels.geometry().size;
     const auto text = [](const std::array<int, 3>& s) {
       return std::to_string(s[0]) + " x " + std::to_string(s[1]) + " x " + std::to_string(s[2]);
@@ -90,6 +89,11 @@ std::vector<LabelDice> compare_labels(const GridView<const std::uint8_t>& found,
     throw InvalidInput("the ground truth (" + text(b) + " voxels) does not lie on the CT's grid (" +
                        text(a) + " voxels): give the label volume that belongs to this scan");
   }
+}
+
+std::vector<LabelDice> compare_labels(const GridView<const std::uint8_t>& found,
+                                      const GroundTruth& truth) {
+  require_same_grid(found.geometry(), truth);
   std::array<LabelDice, 256> count{};
   std::array<std::size_t, 256> both{};
   for (std::size_t i = 0; i < found.values().size(); ++i) {

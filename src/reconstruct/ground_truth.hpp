@@ -27,6 +27,9 @@ struct GroundTruth {
 /// @throws IoError, InvalidInput naming the file.
 [[nodiscard]] GroundTruth read_ground_truth(const std::filesystem::path& file);
 
+/// @throws InvalidInput if the truth does not lie on the CT's grid: ask before the work.
+void require_same_grid(const GridGeometry& ct, const GroundTruth& truth);
+
 /// Agreement of one label: 2 |A and B| / (|A| + |B|) [dice1945measures].
 struct LabelDice {
   std::uint8_t label = 0;
