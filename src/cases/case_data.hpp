@@ -86,6 +86,11 @@ struct CaseData {
                                     BoneId bone,
                                     BonePart part = BonePart::Whole) noexcept;
 
+/// The wrist frame of the forearm as it is held: what dorsal, radial, volar, ulnar, proximal and
+/// distal mean to whoever operates, and what the C-arm's views count from. In the scan's own
+/// posture it is `wrist_from_patient`.
+[[nodiscard]] Pose<frame::Wrist, frame::Patient> held_wrist_from_patient(const CaseData& data);
+
 /// The parts that make up the scaphoid: one whole, or proximal and distal.
 [[nodiscard]] std::vector<const Bone*> scaphoid_parts(const CaseData& data);
 

@@ -85,14 +85,15 @@ protocol::CaseDescription case_description(const cases::CaseData& posed_case) {
   description.broken_scaphoid = has_broken_scaphoid(posed_case);
   description.flexion_deg =
       degrees_from_radians(posed_case.operative_posture.flexion_from_scan_rad);
-  const auto& pose = posed_case.wrist_from_patient;
+  const auto pose = cases::held_wrist_from_patient(posed_case);
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
-      description.wrist_from_patient.push_back(pose.rotation.rows[row][column]);
+      description.held_wrist_from_patient.push_back(pose.rotation.rows[row][column]);
     }
-    description.wrist_from_patient.push_back(pose.translation[row]);
+    description.held_wrist_from_patient.push_back(pose.translation[row]);
   }
-  description.wrist_from_patient.insert(description.wrist_from_patient.end(), {0.0, 0.0, 0.0, 1.0});
+  description.held_wrist_from_patient.insert(description.held_wrist_from_patient.end(),
+                                             {0.0, 0.0, 0.0, 1.0});
   for (const cases::Bone& bone : posed_case.bones) {
     description.bones.emplace_back(name_of(bone.bone, bone.part));
   }

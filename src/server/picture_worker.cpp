@@ -53,13 +53,9 @@ fluoroscopy::Image take_picture(const cases::CaseData& posed_case,
                                 const fluoroscopy::FluoroscopyRenderer& renderer,
                                 const TakenShot& shot) {
   const Direction<frame::Wrist> ulnar{{0, posed_case.side == Side::Left ? 1.0 : -1.0, 0}};
-  // Views are named by the forearm as it is held: in the operative posture it has turned.
-  const Pose<frame::Wrist, frame::Bone> wrist_from_forearm{
-      posed_case.wrist_from_patient.rotation, posed_case.wrist_from_patient.translation};
-  const Pose<frame::Wrist, frame::Patient> wrist_as_held =
-      wrist_from_forearm * posed_case.operative_posture.patient_from_forearm.inverse();
   const fluoroscopy::CArmPose pose = fluoroscopy::make_c_arm_pose(
-      {shot.rotation_deg, shot.tilt_deg}, {scaphoid_centre(posed_case)}, wrist_as_held, ulnar);
+      {shot.rotation_deg, shot.tilt_deg}, {scaphoid_centre(posed_case)},
+      cases::held_wrist_from_patient(posed_case), ulnar);
   fluoroscopy::Exposure exposure;
   exposure.seed = shot.snapshot.tick;
   return renderer.render(pose, metal_in_beam(shot.snapshot), exposure);

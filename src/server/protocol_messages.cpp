@@ -273,7 +273,7 @@ void read(FieldReader& in, CaseDescription& out) {
   out.source = in.string("source", 512);
   out.broken_scaphoid = in.boolean("broken_scaphoid");
   out.flexion_deg = in.number("flexion_deg", -180.0, 180.0);
-  out.wrist_from_patient = in.numbers("wrist_from_patient", 16, 16, -100000.0, 100000.0);
+  out.held_wrist_from_patient = in.numbers("held_wrist_from_patient", 16, 16, -100000.0, 100000.0);
   out.bones = in.strings("bones", 0, 64, 32);
   out.views = in.json("views");
 }
@@ -285,7 +285,7 @@ void write(FieldWriter& out, const CaseDescription& message) {
   out.text("source", message.source);
   out.value("broken_scaphoid", message.broken_scaphoid);
   out.value("flexion_deg", message.flexion_deg);
-  out.value("wrist_from_patient", message.wrist_from_patient);
+  out.value("held_wrist_from_patient", message.held_wrist_from_patient);
   out.value("bones", message.bones);
   out.json("views", message.views);
 }

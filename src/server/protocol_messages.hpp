@@ -19,7 +19,7 @@
 
 namespace carpus::server::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 2;
+inline constexpr std::int64_t kProtocolVersion = 3;
 /// Largest text frame from the page [bytes].
 inline constexpr std::size_t kMaxTextBytes = 16384;
 /// Deepest nesting of arrays and objects in a message.
@@ -239,8 +239,9 @@ struct CaseDescription {
   bool broken_scaphoid = false;
   /// [deg] -180 to 180
   double flexion_deg = 0.0;
+  /// wrist frame of the forearm as it is held, of which the C-arm's views, dorsal and radial speak;
   /// 4 x 4, row by row
-  std::vector<double> wrist_from_patient;
+  std::vector<double> held_wrist_from_patient;
   std::vector<std::string> bones;
   /// [{id, label, rotation_deg, tilt_deg}] (JSON text)
   std::string views;

@@ -30,8 +30,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":2,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":2,"page":"second"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":3,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":3,"page":"second"})";
 constexpr const char* kStart =
     R"({"type":"start","trainee":"Ada","procedure":"dorsal_scaphoid_fixation",)"
     R"("input_device":"mouse","seed":7})";

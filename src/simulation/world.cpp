@@ -102,7 +102,8 @@ World::World(const cases::CaseData& posed_case,
   model_->seed = seed;
   // Until the first input the wire waits in the air over the back of the wrist: a host that holds
   // it where it is must not start with it across the bones.
-  const Vec3 dorsal = posed_case.wrist_from_patient.rotation.transposed() * Vec3{0, 0, -1};
+  const Vec3 dorsal =
+      cases::held_wrist_from_patient(posed_case).rotation.transposed() * Vec3{0, 0, -1};
   state_->now.tip = posed_case.scaphoid.waist + dorsal * kWaitingMm;
   state_->now.shaft = dorsal;
   state_->snapshot.tip_in_patient = state_->now.tip;

@@ -9,7 +9,12 @@ import { join } from "node:path";
 import { PATIENCE_MS } from "./browser.mjs";
 
 const add = (a, b, f = 1) => a.map((v, i) => v + f * b[i]);
-const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
+export const dot = (a, b) => a.reduce((sum, v, i) => sum + v * b[i], 0);
+export const cross = (a, b) => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
 const unit = (a) => a.map((v) => v / Math.sqrt(dot(a, a)));
 
 /** Degrees that one pixel of Shift + drag turns the shaft (web/README.md). */
@@ -21,6 +26,20 @@ export function readAxis(caseFolder) {
   const { proximal_mm: proximal, distal_mm: distal } =
     data.scaphoid.central_axis;
   return { proximal, distal, toHand: unit(add(proximal, distal, -1)) };
+}
+
+/** The forearm's directions as it is held, in Patient: docs/units_and_frames.md. */
+export function readHeldWrist(caseFolder) {
+  const data = JSON.parse(readFileSync(join(caseFolder, "case.json"), "utf8"));
+  const forearm = data.operative_posture.patient_from_forearm.rotation;
+  const held = (axis) => forearm.map((row) => dot(row, axis));
+  const [x, y, z] = data.wrist_from_patient.rotation.map(held);
+  const opposite = (v) => v.map((c) => -c);
+  return {
+    distal: opposite(x),
+    dorsal: opposite(z),
+    radial: data.side === "left" ? opposite(y) : y,
+  };
 }
 
 export class Operator {

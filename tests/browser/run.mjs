@@ -6,7 +6,7 @@
 // the list. Then what goes wrong: a second page, broken messages, a lost connection.
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
 import { newPage, startBrowser } from "./browser.mjs";
-import { Operator, readAxis } from "./operator.mjs";
+import { cross, dot, Operator, readAxis, readHeldWrist } from "./operator.mjs";
 import { startStation } from "./station.mjs";
 
 const TRAINEE = "Browser test";
@@ -137,6 +137,26 @@ async function operate(page, station, problems) {
       .locator("dialog.help:not([open])")
       .waitFor({ state: "attached" });
   });
+  await check(
+    page,
+    "Dorsal and Radial look along the beams of PA and LAT",
+    async () => {
+      const wrist = readHeldWrist(station.caseFolder);
+      for (const [name, source] of [
+        ["Radial", wrist.radial],
+        ["Dorsal", wrist.dorsal],
+      ]) {
+        await page.getByRole("button", { name, exact: true }).click();
+        await operator.settle();
+        const { right, up } = await page.evaluate(() =>
+          window.carpus.screenAxes(),
+        );
+        const back = cross(right, up);
+        expect(dot(back, source) > 0.99999, `${name} looks from ${back}`);
+        expect(dot(up, wrist.distal) > 0.99999, `${name} has ${up} up`);
+      }
+    },
+  );
   await check(page, "two views show bone, not a blank picture", async () => {
     for (const key of ["1", "2"]) {
       await operator.shot(key);

@@ -3,7 +3,7 @@
 //
 // The conversion is a rotation with a scale, the fingers are up, and it can be undone.
 import { describe, expect, it } from "vitest";
-import { faceNames, makeFrameMap, rendererFromPatient } from "./patient_to_renderer";
+import { faceNames, makeFrameMap, rendererFromPatient, towards } from "./patient_to_renderer";
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 // 90 degrees about z and a shift, row by row.
@@ -77,5 +77,28 @@ describe("makeFrameMap", () => {
     expect(direction[0]).toBeCloseTo(0.6, 12);
     expect(direction[1]).toBeCloseTo(0, 12);
     expect(direction[2]).toBeCloseTo(0.8, 12);
+  });
+});
+
+describe("towards", () => {
+  it("names the wrist frame's own axes, of either hand", () => {
+    // Rows of the turned pose: proximal, +y, volar in Patient.
+    const axes = { Proximal: [0, -1, 0], "+y": [1, 0, 0], Volar: [0, 0, 1] } as const;
+    const map = makeFrameMap(turned);
+    for (const side of ["left", "right"] as const) {
+      const names = faceNames(side);
+      const inPatient = (name: Parameters<typeof towards>[0]) =>
+        map.directionToPatient(...towards(name, names)).map((v) => Math.round(v * 1e9) / 1e9 + 0);
+      expect(inPatient("Proximal")).toEqual(axes.Proximal);
+      expect(inPatient("Volar")).toEqual(axes.Volar);
+      expect(inPatient(side === "left" ? "Ulnar" : "Radial")).toEqual(axes["+y"]);
+      for (const [one, other] of [
+        ["Dorsal", "Volar"],
+        ["Radial", "Ulnar"],
+        ["Distal", "Proximal"],
+      ] as const) {
+        expect(inPatient(one)).toEqual(inPatient(other).map((v) => -v + 0));
+      }
+    }
   });
 });

@@ -31,7 +31,7 @@ class FakeSocket implements Socket {
   }
 }
 
-const welcome = JSON.stringify({ type: "welcome", protocol: 2, program: "carpus", exercise: 0 });
+const welcome = JSON.stringify({ type: "welcome", protocol: 3, program: "carpus", exercise: 0 });
 
 describe("HostLink", () => {
   let sockets: FakeSocket[];
@@ -64,7 +64,7 @@ describe("HostLink", () => {
   it("says hello first and sends nothing else before the welcome", () => {
     expect(link.send({ type: "measure" })).toBe(false);
     last().open();
-    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 2, page: "word" });
+    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 3, page: "word" });
     expect(link.send({ type: "measure" })).toBe(false);
     last().bring(welcome);
     expect(link.send({ type: "measure" })).toBe(true);

@@ -5,7 +5,7 @@
 // print, and nothing keeps running behind the report.
 import * as THREE from "three";
 import { make } from "../dom";
-import { makeFrameMap, type FrameMap } from "../frames";
+import { faceNames, makeFrameMap, towards, type AnatomicalSide, type FrameMap } from "../frames";
 import type { CaseDescription, Vec3 } from "../protocol";
 import {
   alignShaft,
@@ -36,7 +36,7 @@ export async function placementPictures(
   placement: Placement,
 ): Promise<HTMLElement[]> {
   const scene = await loadCaseScene("/api/scene.glb");
-  const frames = makeFrameMap(description.wrist_from_patient);
+  const frames = makeFrameMap(description.held_wrist_from_patient);
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(1);
   renderer.setSize(SIDE_PX, SIDE_PX, false);
@@ -73,12 +73,13 @@ export async function placementPictures(
 function looks(placement: Placement, frames: FrameMap, side: "left" | "right"): Look[] {
   const axis = normalized(subtract(placement.axisProximalMm, placement.axisDistalMm));
   const along = new THREE.Vector3(...frames.directionToRenderer(axis));
-  const up = new THREE.Vector3(0, 1, 0);
-  const radial = side === "left" ? 1 : -1;
+  const names = faceNames(side);
+  const to = (name: AnatomicalSide): THREE.Vector3 => new THREE.Vector3(...towards(name, names));
+  // Two across the axis, which runs nearly from dorsal to volar in the flexed wrist, and one along it.
   return [
-    { name: "From dorsal", from: new THREE.Vector3(0, 0, 1), up },
-    { name: "From radial", from: new THREE.Vector3(radial, 0, 0), up },
-    { name: "Along the axis, from proximal", from: along, up: new THREE.Vector3(0, 0, 1) },
+    { name: "From radial", from: to("Radial"), up: to("Distal") },
+    { name: "From distal", from: to("Distal"), up: to("Dorsal") },
+    { name: "Along the axis, from proximal", from: along, up: to("Distal") },
   ];
 }
 

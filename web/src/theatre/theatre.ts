@@ -6,7 +6,7 @@
 // frame, under one group that carries the conversion (frames/).
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { FaceNames, FrameMap } from "../frames";
+import { towards, type FaceNames, type FrameMap } from "../frames";
 import type { SnapshotMessage, Vec3 } from "../protocol";
 import { backdrop } from "./backdrop";
 import { BoneNames } from "./bone_names";
@@ -29,6 +29,8 @@ import { looksDifferent } from "./snapshot_look_model";
 export const VIEWS = ["dorsal", "radial", "volar", "ulnar", "wire"] as const;
 export type ViewId = (typeof VIEWS)[number];
 
+/** The sides of the forearm as it is held, as for the C-arm: Dorsal looks along the beam of PA. */
+const SIDES = { dorsal: "Dorsal", radial: "Radial", volar: "Volar", ulnar: "Ulnar" } as const;
 const FIELD_OF_VIEW_DEG = 26;
 const DISTANCE_M = 0.225;
 const CUBE_PX = 88;
@@ -194,26 +196,12 @@ export class Theatre {
     const target = this.controls?.target ?? this.home;
     target.copy(this.home);
     const at = this.camera.position;
-    const left = this.facing.left === "Radial" ? -1 : 1;
-    switch (view) {
-      case "dorsal":
-        at.set(0, -0.06, 1);
-        break;
-      case "volar":
-        at.set(0, -0.06, -1);
-        break;
-      case "radial":
-        at.set(left, 0, 0.12);
-        break;
-      case "ulnar":
-        at.set(-left, 0, 0.12);
-        break;
-      case "wire":
-        if (this.shown === undefined) return;
-        at.set(...this.frames.directionToRenderer(this.shown.shaft));
-        this.scratch.set(...this.shown.tip_mm).applyMatrix4(this.patient.matrix);
-        target.copy(this.scratch);
-        break;
+    if (view === "wire") {
+      if (this.shown === undefined) return;
+      at.set(...this.frames.directionToRenderer(this.shown.shaft));
+      target.set(...this.shown.tip_mm).applyMatrix4(this.patient.matrix);
+    } else {
+      at.set(...towards(SIDES[view], this.facing));
     }
     at.normalize()
       .multiplyScalar(view === "wire" ? 0.16 : DISTANCE_M)

@@ -36,6 +36,9 @@ const READINGS_MS = 100;
 /** At most this often the hand is sent [1/s]. */
 const SEND_PER_S = 60;
 
+/** In the renderer: from dorsal, a little from proximal, as the driver is brought to a flexed wrist. */
+const START_SHAFT: Vec3 = [0, -0.26, 0.97];
+
 declare global {
   interface Window {
     /** For tests and screenshots: what is shown, never a way to act. */
@@ -179,7 +182,7 @@ export class TrainPage {
       this.finishQuestion.element,
       this.anewQuestion.element,
     );
-    const frames = makeFrameMap(description.wrist_from_patient);
+    const frames = makeFrameMap(description.held_wrist_from_patient);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
     this.theatre.setSkin(this.views.skinOpacity);
     this.hand = new Hand(this.theatre, {
@@ -192,7 +195,7 @@ export class TrainPage {
       },
       snapshot: () => this.latest,
     });
-    this.hand.reset(this.theatre.startPointMm(), frames.directionToPatient(0, -0.55, 0.83));
+    this.hand.reset(this.theatre.startPointMm(), frames.directionToPatient(...START_SHAFT));
     listenToKeys(
       {
         hand: this.hand,
