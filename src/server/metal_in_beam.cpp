@@ -32,6 +32,10 @@ void add_screw(const simulation::Snapshot& snapshot, std::vector<MetalCylinder>&
 
 std::vector<MetalCylinder> metal_in_beam(const simulation::Snapshot& snapshot) {
   std::vector<MetalCylinder> metal;
+  if (snapshot.instrument == simulation::Instrument::None) {
+    add_screw(snapshot, metal);
+    return metal;
+  }
   if (snapshot.wire.engaged) {
     const Vec3 tip = snapshot.wire.tip_in_patient;
     metal.push_back(

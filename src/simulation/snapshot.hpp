@@ -14,7 +14,8 @@
 
 namespace carpus::simulation {
 
-/// What the hand holds.
+/// What the hand holds. None: the screw is seated and lies alone, driver and guide wire are out;
+/// `WireState` then still tells the line on which the screw lies.
 enum class Instrument : std::uint8_t { GuideWire = 0, ScrewDriver = 1, None = 2 };
 
 /// Contact of the instrument's tip with bone.

@@ -205,8 +205,43 @@ TEST(World, MeasuresChoosesAndInsertsAScrew) {
   }
   EXPECT_NE(op.now().completed_steps & 1U << static_cast<unsigned>(procedure::Step::Insert), 0U);
   EXPECT_EQ(op.now().step, procedure::Step::Verify) << "the survey was left out and is past";
+  EXPECT_EQ(op.now().instrument, Instrument::ScrewDriver);
   EXPECT_TRUE(has_event(op.command({CommandKind::SelectScrew, 1, 0, 0}), EventKind::Refused))
       << "another screw needs the first one out";
+}
+
+TEST(World, SeatedScrewLiesAloneWhileTheDriverIsLetGo) {
+  Operator op(posed_wrist());
+  op.place_on_entry({});
+  op.drive_to(24.0);
+  op.command({CommandKind::SelectScrew, 3, 0, 0});
+  op.hold(Driver::Forward, 30.0, 500);
+  ASSERT_LT(op.now().screw.buried_mm, 0.0);
+  EXPECT_EQ(op.hold(Driver::Off, 0.0, 1).instrument, Instrument::ScrewDriver) << "not seated yet";
+  while (op.now().screw.buried_mm < 0.5) {
+    op.hold(Driver::Forward, 30.0, 1);
+    ASSERT_LT(op.now().tick, 120000U);
+  }
+  EXPECT_EQ(op.now().instrument, Instrument::ScrewDriver) << "the driver still turns";
+  const double seated = op.now().screw.buried_mm;
+  EXPECT_EQ(op.hold(Driver::Off, 0.0, 1).instrument, Instrument::None);
+  EXPECT_EQ(op.now().screw.buried_mm, seated);
+  EXPECT_TRUE(op.now().wire.engaged) << "the line of the screw";
+  EXPECT_EQ(op.hold(Driver::Forward, 30.0, 100).instrument, Instrument::ScrewDriver);
+  EXPECT_GT(op.now().screw.buried_mm, seated) << "it drives on";
+  op.hold(Driver::Forward, 30.0, 1);
+  EXPECT_EQ(op.command({CommandKind::Finish, 0, 0, 0}).instrument, Instrument::None);
+}
+
+TEST(World, UnseatedScrewBacksOutWithTheDriverOn) {
+  Operator op(posed_wrist());
+  op.place_on_entry({});
+  op.drive_to(24.0);
+  op.command({CommandKind::SelectScrew, 3, 0, 0});
+  while (op.now().screw.buried_mm < 0.1) op.hold(Driver::Forward, 30.0, 1);
+  ASSERT_EQ(op.hold(Driver::Off, 0.0, 1).instrument, Instrument::None);
+  while (op.now().screw.buried_mm >= 0.0) op.hold(Driver::Reverse, 0.0, 1);
+  EXPECT_EQ(op.hold(Driver::Off, 0.0, 1).instrument, Instrument::ScrewDriver);
 }
 
 TEST(World, UndoBringsBackTheCheckpointButNotTheCost) {

@@ -50,7 +50,11 @@ void World::State::publish(const Model& model,
     ++current;
   }
   snapshot.step = spent.finished ? Step::Finished : static_cast<Step>(current);
-  snapshot.instrument = now.instrument;
+  // Let go with its screw seated, the driver comes off and the wire out: the final views show the
+  // screw alone. Driving on takes them up again.
+  const bool is_laid_down = now.instrument == Instrument::ScrewDriver && buried_mm() >= 0.0 &&
+                            (input.driver == Driver::Off || spent.finished);
+  snapshot.instrument = is_laid_down ? Instrument::None : now.instrument;
   snapshot.tip_in_patient = now.tip;
   snapshot.shaft_in_patient = now.shaft;
   publish_wire(model);

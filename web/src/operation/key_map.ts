@@ -151,6 +151,7 @@ export const HELP: readonly HelpGroup[] = [
     lines: [
       { keys: "Space", text: "hold: drive wire or screw forward" },
       { keys: "R", text: "hold: reverse" },
+      { keys: "Let go", text: "with the screw seated: driver and wire come out" },
       { keys: "[ / ]", text: "push less / more, 5 N" },
     ],
   },

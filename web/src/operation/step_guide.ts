@@ -63,13 +63,15 @@ export const STEPS: readonly StepText[] = [
   {
     id: "insert",
     name: "Insert the screw",
-    sentence: "Drive the screw over the wire until its tail is buried 2 mm.",
-    keys: "Hold Space",
+    sentence:
+      "Drive the screw over the wire until its tail is buried 2 mm. Once it is seated, letting go takes driver and wire out.",
+    keys: "Hold Space; R brings it back",
   },
   {
     id: "verify",
     name: "Final views",
-    sentence: "Look at the screw from PA, lateral, 45° pronated and the skyline, then finish.",
+    sentence:
+      "Look at the screw, now alone, from PA, lateral, 45° pronated and the skyline, then finish. Space takes the driver again.",
     keys: "1, 2, 3, 6, then F",
   },
   { id: "finished", name: "Score", sentence: "The operation is finished.", keys: "" },
@@ -104,6 +106,9 @@ export function whyNot(action: string, snapshot: SnapshotMessage): string | unde
     case "move_tip":
     case "turn_shaft":
     case "approach":
+      if (snapshot.instrument === "none") {
+        return "Driver and wire are out, the screw is seated. Space drives it deeper, R brings it back.";
+      }
       if (snapshot.instrument === "screw_driver") {
         return "The screw runs on the wire. Hold Space to drive it, R to bring it back.";
       }

@@ -338,7 +338,7 @@ export class Theatre {
     if (s === undefined) return;
     const inBone = s.wire_engaged;
     const hasScrew = s.screw_index >= 0;
-    this.wire.visible = s.instrument !== "none" || inBone;
+    this.wire.visible = s.instrument !== "none";
     if (inBone) {
       this.setShaft(s.wire_direction, -1);
       alignShaft(this.wire, s.wire_tip_mm, this.shaft);

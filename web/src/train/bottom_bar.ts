@@ -65,12 +65,13 @@ export class BottomBar {
   }
 
   show(s: SnapshotMessage, driver: string, thrustN: number): void {
-    const screw = s.instrument === "screw_driver";
+    const screw = s.screw_index >= 0;
+    const alone = screw && s.instrument === "none";
     setText(
       this.instrument,
       screw ? `Screw ${s.screw_length_mm.toFixed(1)} mm` : HAND[s.instrument],
     );
-    setText(this.driver, `driver ${driver}, push ${thrustN} N`);
+    setText(this.driver, alone ? "driver and wire out" : `driver ${driver}, push ${thrustN} N`);
     this.driver.classList.toggle("running", driver !== "off");
     if (screw) {
       const out = s.screw_buried_mm < 0;
