@@ -59,6 +59,12 @@ class Exercise {
   bool update() noexcept { return loop_.take_state(state_); }
   [[nodiscard]] const LoopState& state() const noexcept { return state_; }
 
+  /// Whose it is, as typed, and since when [UTC, ISO 8601].
+  [[nodiscard]] const std::string& trainee() const noexcept { return setup_.trainee; }
+  [[nodiscard]] const std::string& started_at() const noexcept { return started_at_; }
+  /// All that was collected so far.
+  [[nodiscard]] const std::vector<LoggedEvent>& log() const noexcept { return log_; }
+
   /// Stops the thread and returns what is to be kept: with a score when the operation was
   /// finished. The last news are in the attempt's log. Call once.
   [[nodiscard]] records::Attempt end();

@@ -137,6 +137,8 @@ void read(FieldReader& in, Welcome& out) {
   out.protocol = in.integer("protocol", 1, 1000);
   out.program = in.string("program", 64);
   out.exercise = in.integer("exercise", 0, 9007199254740991);
+  out.trainee = in.string("trainee", 64);
+  out.started_at = in.string("started_at", 32);
 }
 
 void write(FieldWriter& out, const Welcome& message) {
@@ -144,6 +146,8 @@ void write(FieldWriter& out, const Welcome& message) {
   out.value("protocol", message.protocol);
   out.text("program", message.program);
   out.value("exercise", message.exercise);
+  out.text("trainee", message.trainee);
+  out.text("started_at", message.started_at);
 }
 
 void read(FieldReader& in, Snapshot& out) {

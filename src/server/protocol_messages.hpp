@@ -107,14 +107,17 @@ using PageMessage =
     std::variant<Hello, Start, Tool, TakeShot, Measure, SelectScrew, Undo, Finish, Pause>;
 
 /// Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does;
-/// none has a number twice. After hello a running exercise is paused until the page goes on with
-/// it, and its pictures follow.
+/// none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since
+/// when, both empty when none runs. After hello a running exercise is paused until the page goes on
+/// with it, and its last events, its pictures and its state follow.
 struct Welcome {
   /// 1 to 1000
   std::int64_t protocol = 0;
   std::string program;
   /// 0 to 9007199254740991
   std::int64_t exercise = 0;
+  std::string trainee;
+  std::string started_at;
   bool operator==(const Welcome&) const = default;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/station.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -50,6 +51,10 @@ std::uint64_t first_exercise_number() {
   using std::chrono::milliseconds;
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<std::uint64_t>(std::chrono::duration_cast<milliseconds>(now).count());
+}
+
+protocol::Event message_of(const LoggedEvent& event) {
+  return {static_cast<std::int64_t>(event.tick), event.kind, event.text};
 }
 
 void send_error(PageConnection& page, std::string reason, std::string what_to_do) {
@@ -181,8 +186,15 @@ void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol:
 }
 
 void Station::welcome() {
-  send(protocol::Welcome{protocol::kProtocolVersion, kProgramVersion,
-                         exercise_ ? static_cast<std::int64_t>(exercise_number_) : 0});
+  protocol::Welcome message;
+  message.protocol = protocol::kProtocolVersion;
+  message.program = kProgramVersion;
+  if (exercise_) {
+    message.exercise = static_cast<std::int64_t>(exercise_number_);
+    message.trainee = exercise_->trainee();
+    message.started_at = exercise_->started_at();
+  }
+  send(message);
 }
 
 std::string Station::why_busy(const PageConnection& page, const std::string& word) const {
@@ -203,6 +215,10 @@ std::string Station::why_busy(const PageConnection& page, const std::string& wor
 
 /// The exercise as a page must know it that comes back.
 void Station::show_again() {
+  const std::vector<LoggedEvent>& log = exercise_->log();
+  for (std::size_t i = log.size() - std::min(log.size(), kEventsShown); i < log.size(); ++i) {
+    send(message_of(log[i]));
+  }
   for (const std::string& frame : shown_) operator_->send_binary(frame);
   send(snapshot_message(exercise_->state(), paused_by_page_ || paused_by_silence_,
                         broken_scaphoid_));
@@ -291,10 +307,7 @@ void Station::watch_silence() {
 
 void Station::send_news() {
   ExerciseNews news = exercise_->collect();
-  for (LoggedEvent& event : news.events) {
-    send(protocol::Event{static_cast<std::int64_t>(event.tick), std::move(event.kind),
-                         std::move(event.text)});
-  }
+  for (const LoggedEvent& event : news.events) send(message_of(event));
   for (TakenShot& shot : news.shots) {
     shot.exercise = exercise_number_;
     if (pictures_) pictures_->request(shot);

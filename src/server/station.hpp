@@ -69,6 +69,7 @@ class Station : public PageHandler {
   static constexpr double kMessageBurst = 2000;
   /// As many as the page shows.
   static constexpr std::size_t kPicturesKept = 6;
+  static constexpr std::size_t kEventsShown = 40;
 
   void on_message(const protocol::Hello& hello);
   void on_message(const protocol::Start& start);

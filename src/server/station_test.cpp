@@ -78,7 +78,7 @@ class StationTest : public ::testing::Test {
   [[nodiscard]] static std::unique_ptr<PageClient> operate(std::uint16_t port) {
     auto page = std::make_unique<PageClient>(port);
     page->send(kHello);
-    EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"exercise\":0}"));
+    EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"exercise\":0,"));
     page->send(kStart);
     page->send(kTool);
     return page;
@@ -228,7 +228,7 @@ TEST_F(StationTest, SecondPageIsBusyWhileTheFirstOperatesAndHttpStillWorks) {
   first->send(R"({"type":"finish"})");
   (void)first->wait_for_type("score");
   first->vanish();
-  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0}"));
+  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0,"));
 }
 
 TEST_F(StationTest, SeatOfALostPageIsKeptForIt) {
@@ -238,12 +238,12 @@ TEST_F(StationTest, SeatOfALostPageIsKeptForIt) {
   PageClient second(port());
   EXPECT_THAT(say_hello(second, kSecondHello, "busy"), HasSubstr("busy"));
   PageClient again(port());
-  EXPECT_THAT(say_hello(again, kHello, "welcome"), Not(HasSubstr("\"exercise\":0}")));
+  EXPECT_THAT(say_hello(again, kHello, "welcome"), Not(HasSubstr("\"exercise\":0,")));
   EXPECT_THAT(say_hello(second, kSecondHello, "busy"), HasSubstr("Another page operates"));
   EXPECT_EQ(records_->list().size(), 0U);
 }
 
-TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsPictures) {
+TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsLogAndPictures) {
   auto page = operate(port());
   page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5})");
   const auto is_picture = [](const auto& frame) { return frame.is_binary; };
@@ -251,7 +251,12 @@ TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsPictures) {
   ASSERT_TRUE(picture.has_value());
   page->vanish();
   PageClient again(port());
-  EXPECT_THAT(say_hello(again, kHello, "welcome"), Not(HasSubstr("\"exercise\":0}")));
+  const Json welcome = Json::parse(say_hello(again, kHello, "welcome"));
+  EXPECT_GT(welcome["exercise"], 0);
+  EXPECT_EQ(welcome["trainee"], "Ada");
+  EXPECT_THAT(welcome["started_at"].get<std::string>(), ::testing::MatchesRegex("20.*T.*Z"));
+  const Json event = Json::parse(again.wait_for_type("event"));
+  EXPECT_EQ(event["kind"], "shot_taken");
   const auto shown = again.wait_for(is_picture);
   ASSERT_TRUE(shown.has_value());
   EXPECT_EQ(shown->content, picture->content);
@@ -296,7 +301,7 @@ TEST_F(StationTest, PageThatComesBackBeforeItsOldConnectionIsKnownDeadGetsItsSea
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   PageClient twin(port());
   // The old connection answers no ping from now on.
-  EXPECT_THAT(say_hello(twin, kHello, "welcome"), Not(HasSubstr("\"exercise\":0}")));
+  EXPECT_THAT(say_hello(twin, kHello, "welcome"), Not(HasSubstr("\"exercise\":0,")));
   EXPECT_TRUE(page->wait_until_closed());
   twin.send(kGoOn);
   (void)wait_for_snapshot(twin, [](const Json& s) { return !s["paused"] && s["tick"] > 20; });
@@ -313,7 +318,7 @@ TEST_F(ImpatientStationTest, SeatLapsesButItsOwnerGetsItBackUntilAnotherActs) {
   page->vanish();
   PageClient second(port());
   const std::string offered = say_hello(second, kSecondHello, "welcome");
-  EXPECT_THAT(offered, Not(HasSubstr("\"exercise\":0}")));
+  EXPECT_THAT(offered, Not(HasSubstr("\"exercise\":0,")));
   PageClient again(port());
   EXPECT_EQ(say_hello(again, kHello, "welcome"), offered);
   EXPECT_TRUE(second.wait_until_closed());
@@ -346,7 +351,7 @@ TEST_F(ForgetfulStationTest, PageThatDoesNotComeBackLeavesAnUnfinishedAttemptTha
   ASSERT_TRUE(decoded.has_value());
   EXPECT_TRUE(simulation::replay(wrist(), *decoded).hash_matches);
   PageClient second(port());
-  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0}"));
+  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0,"));
 }
 
 TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {

@@ -361,10 +361,21 @@ async function goesWrong(browser, station, problems) {
     },
   );
   await check(page, "after a reload the operation waits to go on", async () => {
+    await page.keyboard.press("1");
+    await operator.until((s) => s.shots > 0, "a picture");
+    const log = page.locator(".log li");
+    await log.first().waitFor({ state: "attached" });
     const { tick } = await operator.snapshot();
     await page.reload();
-    await page.getByRole("button", { name: "Go on" }).click();
+    const goOn = page.getByRole("button", { name: "Go on" });
+    await goOn.waitFor();
+    const note = page.locator(".start-note", { hasText: "at step 1, Survey" });
+    await note.waitFor();
+    const text = await note.textContent();
+    expect(text.includes(`operation of ${TRAINEE}`), `it says '${text}'`);
+    await goOn.click();
     await operator.until((s) => s.tick > tick + 100, "ticks after the reload");
+    expect((await log.count()) > 0, "the log is empty");
   });
   await check(
     page,

@@ -31,7 +31,14 @@ class FakeSocket implements Socket {
   }
 }
 
-const welcome = JSON.stringify({ type: "welcome", protocol: 3, program: "carpus", exercise: 0 });
+const welcome = JSON.stringify({
+  type: "welcome",
+  protocol: 3,
+  program: "carpus",
+  exercise: 0,
+  trainee: "",
+  started_at: "",
+});
 
 describe("HostLink", () => {
   let sockets: FakeSocket[];

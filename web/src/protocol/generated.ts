@@ -91,7 +91,7 @@ export type PageMessage =
   | FinishMessage
   | PauseMessage;
 
-/** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. After hello a running exercise is paused until the page goes on with it, and its pictures follow. */
+/** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since when, both empty when none runs. After hello a running exercise is paused until the page goes on with it, and its last events, its pictures and its state follow. */
 export interface WelcomeMessage {
   readonly type: "welcome";
   /** 1 to 1000 */
@@ -99,6 +99,8 @@ export interface WelcomeMessage {
   readonly program: string;
   /** 0 to 9007199254740991 */
   readonly exercise: number;
+  readonly trainee: string;
+  readonly started_at: string;
 }
 
 /** State, about 60 times a second while an exercise runs. */
@@ -403,6 +405,8 @@ const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     protocol: {"type": "integer", "min": 1, "max": 1000},
     program: {"type": "string", "max_length": 64},
     exercise: {"type": "integer", "min": 0, "max": 9007199254740991},
+    trainee: {"type": "string", "max_length": 64},
+    started_at: {"type": "string", "max_length": 32},
   },
   snapshot: {
     tick: {"type": "integer", "min": 0, "max": 9007199254740991},

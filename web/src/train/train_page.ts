@@ -30,6 +30,7 @@ import { StepPanel } from "./step_panel";
 import { TopBar } from "./top_bar";
 import "./train.css";
 import { ViewBar } from "./view_bar";
+import { waitingText, type WaitingOperation } from "./waiting_model";
 
 /** Readings are for eyes: ten times a second is enough. */
 const READINGS_MS = 100;
@@ -70,6 +71,9 @@ export class TrainPage {
   private latest: SnapshotMessage | undefined;
   private readonly part = new Participation();
   private pausedByHand = false;
+  private waiting: WaitingOperation = { trainee: "", startedAt: "" };
+  /** Said before what waits. */
+  private waitingLead = "";
   private trainee = "";
   private wanted: StartChoice = { trainee: "" };
   private sequence = 0;
@@ -390,6 +394,14 @@ export class TrainPage {
     this.start.open();
   }
 
+  /** Another exercise waits that this page may go on with. */
+  private offer(lead: string): void {
+    this.forget();
+    this.latest = undefined;
+    this.waitingLead = lead;
+    this.leave(lead + waitingText(this.waiting, undefined, new Date()));
+  }
+
   /** What was seen of an exercise that is over. */
   private forget(): void {
     this.steps.clearLog();
@@ -449,6 +461,7 @@ export class TrainPage {
         );
         break;
       case "welcome":
+        this.waiting = { trainee: message.trainee, startedAt: message.started_at };
         this.arrive(message.exercise);
         break;
       case "busy":
@@ -465,6 +478,8 @@ export class TrainPage {
         this.forget();
         break;
       case "goes_on":
+        // The host tells the log again.
+        this.steps.clearLog();
         this.goOn();
         this.say("Connected again: the operation goes on where it was.");
         break;
@@ -472,13 +487,10 @@ export class TrainPage {
         this.leave("The operation has ended; it is among the past attempts.");
         break;
       case "replaced":
-        this.forget();
-        this.leave(
-          "The operation has ended; it is among the past attempts. Another one waits here.",
-        );
+        this.offer("Your operation has ended; it is among the past attempts. ");
         break;
       case "offered":
-        this.leave("An operation waits to go on where it was.");
+        this.offer("");
         break;
       case "free":
         this.leave("");
@@ -491,6 +503,8 @@ export class TrainPage {
     if (screw !== undefined && s.screw_index !== this.latest?.screw_index)
       this.theatre.setScrewShape(screw);
     this.latest = s;
+    if (this.part.isOffered && !this.part.operates)
+      this.start.setReady(true, this.waitingLead + waitingText(this.waiting, s, new Date()));
     this.theatre.show(s);
     this.bottom.sample(s);
     this.steps.show(s);

@@ -1,0 +1,40 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Who comes to a waiting operation learns whose it is before going on with it.
+import { describe, expect, it } from "vitest";
+import { waitingText } from "./waiting_model";
+
+const NOW = new Date(2026, 4, 3, 15, 0);
+const STARTED = new Date(2026, 4, 3, 14, 7);
+
+describe("waitingText", () => {
+  it("says whose, since when and how far", () => {
+    const text = waitingText(
+      { trainee: "Ada", startedAt: STARTED.toISOString() },
+      { step: "drive", tick: 125_400 },
+      NOW,
+    );
+    expect(text).toBe(
+      "The operation of Ada waits, begun at 14:07; 2 min 5 s in, at step 4, Drive the wire. " +
+        "Going on keeps it under that name.",
+    );
+  });
+
+  it("says the day where it is another, and no name where none was typed", () => {
+    const text = waitingText(
+      { trainee: "", startedAt: STARTED.toISOString() },
+      { step: "survey", tick: 9_900 },
+      new Date(2026, 4, 4, 8, 0),
+    );
+    expect(text).toMatch(
+      /^An operation without a name waits, begun at 14:07 on 2026-05-03; 9 s in/,
+    );
+  });
+
+  it("says what it knows before the first state and without a time", () => {
+    expect(waitingText({ trainee: "Ada", startedAt: "" }, undefined, NOW)).toBe(
+      "The operation of Ada waits. Going on keeps it under that name.",
+    );
+  });
+});

@@ -1,0 +1,50 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The operation that waits for a page, in words: whose it is, since when, how far it went.
+import { STEPS, type StepId } from "../operation";
+
+export interface WaitingOperation {
+  /** As typed; may be empty. */
+  readonly trainee: string;
+  /** UTC, ISO 8601. */
+  readonly startedAt: string;
+}
+
+export interface HowFar {
+  readonly step: StepId;
+  /** Time spent in the operation [ms]. */
+  readonly tick: number;
+}
+
+function clock(date: Date, now: Date): string {
+  const two = (n: number): string => String(n).padStart(2, "0");
+  const time = `${two(date.getHours())}:${two(date.getMinutes())}`;
+  if (date.toDateString() === now.toDateString()) return time;
+  return `${time} on ${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())}`;
+}
+
+function duration(ms: number): string {
+  const minutes = Math.floor(ms / 60_000);
+  const seconds = Math.floor(ms / 1000) % 60;
+  return minutes === 0 ? `${seconds} s` : `${minutes} min ${seconds} s`;
+}
+
+/** @param howFar  unknown until the host's first snapshot */
+export function waitingText(
+  waiting: WaitingOperation,
+  howFar: HowFar | undefined,
+  now: Date,
+): string {
+  const { trainee } = waiting;
+  const whose = trainee === "" ? "An operation without a name" : `The operation of ${trainee}`;
+  const started = new Date(waiting.startedAt);
+  const since = Number.isNaN(started.getTime()) ? "" : `, begun at ${clock(started, now)}`;
+  const index = STEPS.findIndex((step) => step.id === howFar?.step);
+  const at =
+    howFar === undefined || index < 0
+      ? ""
+      : `; ${duration(howFar.tick)} in, at step ${index + 1}, ${STEPS[index]?.name ?? ""}`;
+  const keeps = trainee === "" ? "" : " Going on keeps it under that name.";
+  return `${whose} waits${since}${at}.${keeps}`;
+}
