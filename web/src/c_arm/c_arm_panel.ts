@@ -6,7 +6,7 @@ import { button, make, setText } from "../dom";
 import type { CArmPicture, NamedView } from "../protocol";
 import "./c_arm.css";
 import { drawPicture } from "./picture_canvas";
-import { signed, viewName, wrapped } from "./view_name_model";
+import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
 export interface CArmHandlers {
   takeShot(rotationDeg: number, tiltDeg: number): void;
@@ -196,7 +196,7 @@ export class CArmPanel {
           "button.quiet",
           { type: "button", "aria-label": `Show shot ${picture.shot}, ${this.nameOf(picture)}` },
           small,
-          make("span", {}, this.nameOf(picture)),
+          make("span", {}, narrowViewName(this.views, picture.rotationDeg, picture.tiltDeg)),
         );
         b.setAttribute("aria-pressed", String(index === this.shown));
         b.addEventListener("click", () => {

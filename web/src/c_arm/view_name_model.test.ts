@@ -3,7 +3,7 @@
 //
 // Named views by name, any other by its angles.
 import { describe, expect, it } from "vitest";
-import { signed, viewName, wrapped } from "./view_name_model";
+import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
 const views = [
   { id: "pa", label: "PA", rotationDeg: 0, tiltDeg: 0 },
@@ -18,6 +18,8 @@ describe("viewName", () => {
   it("names the angles of any other", () => {
     expect(viewName(views, 15, -5)).toBe("+15° / −5°");
     expect(signed(-0.2)).toBe("0°");
+    expect(narrowViewName(views, 100, -5)).toBe("+100°\n−5°");
+    expect(narrowViewName(views, 0, 0)).toBe("PA");
   });
 });
 

@@ -20,6 +20,15 @@ export function viewName(
   return named?.label ?? `${signed(rotationDeg)} / ${signed(tiltDeg)}`;
 }
 
+/** The same in as little width as a small picture has: angles below each other. */
+export function narrowViewName(
+  views: readonly NamedView[],
+  rotationDeg: number,
+  tiltDeg: number,
+): string {
+  return viewName(views, rotationDeg, tiltDeg).replace(" / ", "\n");
+}
+
 /** "+15°", "-30°", "0°". */
 export function signed(degrees: number): string {
   const whole = Math.round(degrees);

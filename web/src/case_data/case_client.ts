@@ -6,6 +6,8 @@ import { parseCaseDescription, type CaseDescription, type Json } from "../protoc
 import { parseScrews, type Screw } from "./screws_model";
 
 export class HostUnreachable extends Error {}
+/** The host is well and has no such thing: loading again does not help. */
+export class NotThere extends Error {}
 
 async function getText(path: string): Promise<string> {
   let answer: Response;
@@ -14,6 +16,7 @@ async function getText(path: string): Promise<string> {
   } catch {
     throw new HostUnreachable("The host does not answer. Is `carpus serve` running?");
   }
+  if (answer.status === 404) throw new NotThere(`The host has no ${path}.`);
   if (!answer.ok) {
     throw new HostUnreachable(`The host answered ${answer.status} to ${path}. Reload the page.`);
   }

@@ -4,7 +4,7 @@
 // The debrief of one attempt: the placement first, then the figures with target, reason and grade.
 // Prints on two pages.
 import { dateText, durationText, parseAttempt, procedureText } from "../attempts_list";
-import { fetchCase, fetchJson } from "../case_data";
+import { fetchCase, fetchJson, NotThere } from "../case_data";
 import { button, make } from "../dom";
 import type { CaseDescription, Json } from "../protocol";
 import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
@@ -35,14 +35,14 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
       ]);
       if (!left) show(main, json, description);
     } catch (error) {
+      if (left) return;
+      const gone = error instanceof NotThere;
       const why = error instanceof Error ? error.message : String(error);
-      if (!left) {
-        main.replaceChildren(
-          make("h1", {}, "This attempt cannot be shown"),
-          make("p", { role: "alert" }, why),
-          make("a", { href: "#/attempts" }, "Past attempts"),
-        );
-      }
+      main.replaceChildren(
+        make("h1", {}, gone ? `There is no attempt ${attemptId}` : "This attempt cannot be shown"),
+        make("p", { role: "alert" }, gone ? "This station keeps none of that number." : why),
+        make("p", {}, make("a", { href: "#/attempts" }, "All past attempts")),
+      );
     }
   })();
   return () => {

@@ -5,6 +5,7 @@
 import { button, make, setText } from "../dom";
 import type { CaseDescription } from "../protocol";
 import "./start_dialog.css";
+import { withTimesSigns } from "./times_sign_model";
 
 export interface StartChoice {
   readonly trainee: string;
@@ -107,7 +108,7 @@ export class StartDialog {
       {},
       ...row("Case", ...patient),
       ...row("Side", `${d.side} wrist, flexed ${Math.round(Math.abs(d.flexion_deg))}°, ${bone}`),
-      ...row("From", d.source === "" ? "not stated" : d.source),
+      ...row("From", d.source === "" ? "not stated" : withTimesSigns(d.source)),
       ...row("Procedure", "Dorsal percutaneous fixation, 1.14 mm guide wire, headless screw"),
     );
   }
