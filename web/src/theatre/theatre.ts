@@ -34,6 +34,9 @@ const SIDES = { dorsal: "Dorsal", radial: "Radial", volar: "Volar", ulnar: "Ulna
 const FIELD_OF_VIEW_DEG = 26;
 const DISTANCE_M = 0.225;
 const CUBE_PX = 88;
+/** A preset is left once the sight turns by more than this, or the wire's tip goes beside it [m]. */
+const SAME_SIGHT_COSINE = Math.cos((1.5 * Math.PI) / 180);
+const SAME_TIP_M = 0.002;
 /** A driver that comes towards the viewer more steeply than this would hide what it points at. */
 const HIDE_DRIVER_COSINE = 0.25;
 
@@ -82,6 +85,11 @@ export class Theatre {
   /** More shows nothing more. */
   private readonly finestPixelRatio: number;
   private shown: SnapshotMessage | undefined;
+  /** The preset that is still looked from, and its direction towards the viewer. */
+  private view: ViewId | undefined;
+  private readonly viewedFrom = new THREE.Vector3();
+  /** The camera or, along it, the wire has left the preset. */
+  onViewLeft: (() => void) | undefined;
   private drawn: SnapshotMessage | undefined;
   private readonly observer: ResizeObserver;
 
@@ -208,7 +216,28 @@ export class Theatre {
       .add(target);
     this.camera.lookAt(target);
     this.controls?.update();
+    this.view = view;
+    this.viewedFrom.copy(at).sub(target).normalize();
     this.stale = true;
+  }
+
+  private watchView(): void {
+    if (this.view === undefined || this.holdsView(this.view)) return;
+    this.view = undefined;
+    this.onViewLeft?.();
+  }
+
+  private holdsView(view: ViewId): boolean {
+    const { target } = this.controls;
+    this.scratch.copy(this.camera.position).sub(target).normalize();
+    if (this.scratch.dot(this.viewedFrom) < SAME_SIGHT_COSINE) return false;
+    if (view !== "wire" || this.shown === undefined) return true;
+    const { shaft, tip_mm } = this.shown;
+    this.scratch.set(shaft[0], shaft[1], shaft[2]).transformDirection(this.patient.matrix);
+    if (this.scratch.dot(this.viewedFrom) < SAME_SIGHT_COSINE) return false;
+    this.scratch.set(tip_mm[0], tip_mm[1], tip_mm[2]).applyMatrix4(this.patient.matrix).sub(target);
+    this.scratch.addScaledVector(this.viewedFrom, -this.scratch.dot(this.viewedFrom));
+    return this.scratch.length() < SAME_TIP_M;
   }
 
   /** Turns the view about what it looks at [rad]. */
@@ -295,6 +324,7 @@ export class Theatre {
     this.drawAs(this.pace.drawing);
     this.stale = false;
     this.drawn = this.shown;
+    this.watchView();
     this.pose();
     this.light.follow(this.camera, this.controls.target);
     this.renderer.setViewport(0, 0, this.width, this.height);

@@ -11,6 +11,10 @@ export interface TopBarHandlers {
   fullScreen(): void;
 }
 
+function tickTimeText(us: number): string {
+  return us < 1000 ? `${Math.round(us)} µs` : `${(us / 1000).toFixed(1)} ms`;
+}
+
 export class TopBar {
   readonly element: HTMLElement;
   private readonly rate = make("span", {}, "– Hz");
@@ -48,11 +52,9 @@ export class TopBar {
   }
 
   showTiming(s: SnapshotMessage): void {
-    setText(this.rate, `${Math.round(s.tick_rate_hz)} Hz`);
-    setText(
-      this.p99,
-      `p99 ${s.tick_p99_us < 1000 ? `${Math.round(s.tick_p99_us)} µs` : `${(s.tick_p99_us / 1000).toFixed(1)} ms`}`,
-    );
+    // What was measured before the pause says nothing of now.
+    setText(this.rate, s.paused ? "– Hz" : `${Math.round(s.tick_rate_hz)} Hz`);
+    setText(this.p99, s.paused ? "p99 –" : `p99 ${tickTimeText(s.tick_p99_us)}`);
     setText(this.late, `late ${s.late_ticks}`);
     const label = this.pauseButton.firstChild;
     const wanted = s.paused ? "Resume" : "Pause";

@@ -67,6 +67,14 @@ export class TrainPage {
   private readonly anewQuestion: ConfirmDialog;
   private readonly notice = new Notice();
   private readonly frozen = make("p.frozen", { role: "alert" });
+  private readonly pausedSign = make(
+    "p.paused",
+    { role: "status" },
+    make("strong", {}, "Paused"),
+    "time stands still; ",
+    make("kbd", {}, "P"),
+    " goes on",
+  );
   private readonly abort = new AbortController();
   private latest: SnapshotMessage | undefined;
   private readonly part = new Participation();
@@ -162,7 +170,7 @@ export class TrainPage {
       },
     });
     const stage = make("div.stage", { role: "application", "aria-label": "Theatre, 3-D" });
-    this.frozen.hidden = true;
+    this.frozen.hidden = this.pausedSign.hidden = true;
     app.replaceChildren(
       make(
         "main.train",
@@ -174,6 +182,7 @@ export class TrainPage {
           { "aria-label": "Theatre" },
           stage,
           this.frozen,
+          this.pausedSign,
           this.views.element,
           this.notice.element,
         ),
@@ -189,6 +198,9 @@ export class TrainPage {
     const frames = makeFrameMap(description.held_wrist_from_patient);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
     this.theatre.setSkin(this.views.skinOpacity);
+    this.theatre.onViewLeft = () => {
+      this.views.showView(undefined);
+    };
     this.hand = new Hand(this.theatre, {
       send: (tool) => {
         this.sequence = (this.sequence + 1) % 0xffffffff;
@@ -386,7 +398,7 @@ export class TrainPage {
   /** The page does not operate any more; `note` says why. */
   private leave(note: string): void {
     this.hand.setEnabled(false);
-    this.frozen.hidden = true;
+    this.frozen.hidden = this.pausedSign.hidden = true;
     for (const { element } of [this.finishQuestion, this.anewQuestion, this.tray, this.help])
       element.close();
     this.start.offerResume(this.part.isOffered);
@@ -514,6 +526,7 @@ export class TrainPage {
     const s = this.latest;
     if (s === undefined) return;
     this.top.showTiming(s);
+    this.pausedSign.hidden = !s.paused || !this.part.operates || !this.frozen.hidden;
     this.bottom.show(s, this.hand.driver, this.hand.thrust);
     this.arm.showCount(s.shots, s.dose_cgy_cm2);
     // Where frames are slow or the page is hidden, the host still has to hear of the hand.

@@ -82,7 +82,8 @@ export class ViewBar {
     this.handlers.skin(this.skinOpacity);
   }
 
-  showView(shown: ViewId): void {
+  /** @param shown  none once the view was turned or the wire moved */
+  showView(shown: ViewId | undefined): void {
     for (const view of VIEWS) this.looks[view].setAttribute("aria-pressed", String(view === shown));
   }
 
