@@ -157,6 +157,50 @@ async function operate(page, station, problems) {
       }
     },
   );
+  await check(
+    page,
+    "a view that is turned away is not the chosen one",
+    async () => {
+      const chosen = page.locator('.view-bar button[aria-pressed="true"]');
+      expect((await chosen.textContent()) === "Dorsal", "Dorsal is not chosen");
+      await page.keyboard.press("Control+ArrowRight");
+      await page
+        .locator('.view-bar:not(:has(button[aria-pressed="true"]))')
+        .waitFor();
+    },
+  );
+  await check(page, "a pause is said over the scene", async () => {
+    const sign = page.locator(".paused:not([hidden])");
+    await page.keyboard.press("p");
+    await sign.waitFor();
+    const rate = await page.textContent(".timing span");
+    expect(rate === "– Hz", `the bar says ${rate}`);
+    await page.keyboard.press("p");
+    await sign.waitFor({ state: "detached" });
+  });
+  await check(page, "at 200 % zoom nothing lies below the fold", async () => {
+    const usual = page.viewportSize();
+    const small = { width: 683, height: 384 };
+    await page.setViewportSize(small);
+    await operator.settle();
+    for (const [what, least] of [
+      [".stage", 150],
+      [".c-arm", 150],
+      [".bottom-bar", 28],
+      [".step-list .current", 20],
+    ]) {
+      const box = await page.locator(what).boundingBox();
+      expect(
+        box.y >= 0 &&
+          box.y + box.height <= small.height + 0.5 &&
+          box.x + box.width <= small.width + 0.5 &&
+          box.height >= least,
+        `${what} at ${JSON.stringify(box)}`,
+      );
+    }
+    await page.setViewportSize(usual);
+    await operator.settle();
+  });
   await check(page, "two views show bone, not a blank picture", async () => {
     for (const key of ["1", "2"]) {
       await operator.shot(key);
@@ -240,6 +284,7 @@ async function operate(page, station, problems) {
       (s) => s.screw_buried_mm >= 1.5,
       "the screw buried",
     );
+    await operator.until((s) => s.instrument === "none", "driver and wire out");
     for (const key of ["1", "2", "3"]) await operator.shot(key);
     const { deviation } = await operator.picture();
     expect(deviation > LEAST_DEVIATION, "the last picture is blank");
@@ -278,6 +323,23 @@ async function operate(page, station, problems) {
       expect(Number.parseFloat(angle) < 5, `angle to the axis ${angle}`);
       await page.locator(".placement canvas").first().waitFor();
       await expectAccessible(page);
+    },
+  );
+  await check(
+    page,
+    "an attempt that is not there is said to be none",
+    async () => {
+      const back = page.url();
+      await page.goto(`${station.url}/#/attempts/999`);
+      await page.getByText("There is no attempt 999").waitFor();
+      await page.getByRole("link", { name: "All past attempts" }).waitFor();
+      // The browser itself reports the answer 404.
+      problems.splice(
+        0,
+        problems.length,
+        ...problems.filter((p) => !p.includes("404")),
+      );
+      await page.goto(back);
     },
   );
   await check(page, "the attempt is in the list", async () => {
