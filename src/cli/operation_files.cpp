@@ -12,6 +12,7 @@
 #include "cases/posture.hpp"
 #include "core/error.hpp"
 #include "procedure/score_json.hpp"
+#include "reconstruct/skin_surface.hpp"
 #include "records/atomic_file.hpp"
 
 namespace carpus::cli {
@@ -37,6 +38,7 @@ std::string length_lines(const procedure::ScoreReport& report) {
 
 cases::CaseData load_posed_case(const std::filesystem::path& folder) {
   cases::CaseData data = case_io::read_case(folder);
+  data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   const cases::Posture posture = data.operative_posture;
   return cases::apply_posture(std::move(data), posture);
 }

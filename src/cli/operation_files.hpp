@@ -18,7 +18,7 @@ inline constexpr const char* kDefaultCase = "cases/demo";
 /// Where ./run keeps attempts.
 inline constexpr const char* kDefaultRecords = "recordings/attempts.sqlite";
 
-/// Reads a case folder and puts the wrist in its operative posture.
+/// Reads a case folder, trims the skin's ends and puts the wrist in its operative posture.
 /// @throws IoError, SchemaError  as case_io::read_case.
 [[nodiscard]] cases::CaseData load_posed_case(const std::filesystem::path& folder);
 

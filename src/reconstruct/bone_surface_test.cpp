@@ -124,6 +124,29 @@ TEST(SkinSurface, IsATubeThatIsOpenWhereTheLimbLeavesTheScan) {
     EXPECT_NEAR(std::hypot(p.x - 20, p.y - 20), 12.0, 0.6);
   }
   EXPECT_TRUE(build_skin_surface(Grid<std::int16_t>(g, -1000).view()).facets.empty());
+
+  // Trimmed, it ends in two straight edges, without the bevels.
+  const TriangleMesh trimmed = trimmed_skin(skin, g);
+  double low = 100;
+  double high = -100;
+  for (const Vec3& p : trimmed.vertices) {
+    low = std::min(low, p.z);
+    high = std::max(high, p.z);
+    EXPECT_NEAR(std::hypot(p.x - 20, p.y - 20), 12.0, 0.6);
+  }
+  EXPECT_NEAR(low, 1.8, 1e-9);
+  EXPECT_NEAR(high, 59 * 0.5 - 1.8, 1e-9);
+  EXPECT_NEAR(area_of(trimmed) / (2 * kPi * 12 * (high - low)), 1.0, 0.02);
+}
+
+TEST(SkinSurface, TrimmingKeepsTheLargestPieceOnly) {
+  TriangleMesh skin{{{10, 10, -5}, {20, 10, 40}, {10, 20, 40}, {10, 10, 40}},
+                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const std::size_t alone =
+      trimmed_skin(skin, GridGeometry{{80, 80, 60}, {0.5, 0.5, 0.5}}).facets.size();
+  skin.vertices.insert(skin.vertices.end(), {{30, 30, 15}, {31, 30, 15}, {30, 31, 15}});
+  skin.facets.push_back({4, 5, 6});
+  EXPECT_EQ(trimmed_skin(skin, GridGeometry{{80, 80, 60}, {0.5, 0.5, 0.5}}).facets.size(), alone);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "imaging/gaussian.hpp"
+#include "mesh/clip.hpp"
 #include "mesh/marching_cubes.hpp"
 #include "mesh/simplify.hpp"
 #include "reconstruct/bone_surface.hpp"
@@ -23,6 +24,8 @@ constexpr std::size_t kMostFacets = 12000;
 constexpr double kMaxErrorMm = 0.3;
 /// Facets that close the limb where it leaves the volume lie half a voxel beyond it.
 constexpr double kCapMargin = 0.25;  // voxels
+/// Deeper than the bevel of a cap's rim: two coarse voxels.
+constexpr double kTrimMm = 2 * kCoarseVoxelMm;
 
 /// Means over blocks of voxels of about kCoarseVoxelMm.
 Grid<float> coarsened(const GridView<const std::int16_t>& ct) {
@@ -93,6 +96,21 @@ TriangleMesh build_skin_surface(const GridView<const std::int16_t>& ct) {
   // The Gaussian is smoothing enough; Taubin's filter would round the rims of the caps.
   skin = mesh::simplify(skin, {kMostFacets, kMaxErrorMm}).mesh;
   return without_caps(skin, coarse.geometry());
+}
+
+TriangleMesh trimmed_skin(const TriangleMesh& skin, const GridGeometry& volume) {
+  TriangleMesh result = skin;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3 last;
+    last[axis] = volume.size[axis] - 1;
+    const Vec3 low = volume.patient_from_voxel({});
+    const Vec3 high = volume.patient_from_voxel(last);
+    const Vec3 inwards = normalized_or(high - low, {});
+    if (distance(low, high) <= 2 * kTrimMm) continue;
+    result = mesh::clipped(result, low + inwards * kTrimMm, inwards);
+    result = mesh::clipped(result, high - inwards * kTrimMm, -inwards);
+  }
+  return largest_piece(result);
 }
 
 }  // namespace carpus::reconstruct

@@ -14,4 +14,9 @@ namespace carpus::reconstruct {
 /// there is no such surface.
 [[nodiscard]] TriangleMesh build_skin_surface(const GridView<const std::int16_t>& ct);
 
+/// The skin for the eye: cut by planes a little inside the volume's faces, where the limb leaves it
+/// as a straight edge instead of the ragged rims of the removed caps; the largest piece of that.
+/// @param volume  of the CT from which the skin was built, in the same frame.
+[[nodiscard]] TriangleMesh trimmed_skin(const TriangleMesh& skin, const GridGeometry& volume);
+
 }  // namespace carpus::reconstruct
