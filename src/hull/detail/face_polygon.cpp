@@ -7,7 +7,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/check.hpp"
 #include "hull/detail/orientation.hpp"
 
 namespace carpus::hull {
@@ -15,14 +14,6 @@ namespace {
 
 bool is_before(const Vec3& a, const Vec3& b) noexcept {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-
-/// Of q and s on one ray from p, whether s is farther; compares coordinates, hence exact.
-bool is_beyond(const Vec3& p, const Vec3& q, const Vec3& s) noexcept {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (q[axis] != p[axis]) return q[axis] > p[axis] ? s[axis] > q[axis] : s[axis] < q[axis];
-  }
-  return false;
 }
 
 }  // namespace
@@ -45,28 +36,30 @@ std::vector<std::uint32_t> face_polygon(std::span<const Vec3> points,
                                         std::span<const std::uint32_t> on_plane,
                                         const Vec3& below,
                                         HullStatistics& statistics) {
-  // The first in lexicographic order is a corner in any plane.
-  const std::uint32_t start = *std::min_element(
-      on_plane.begin(), on_plane.end(),
-      [&](std::uint32_t i, std::uint32_t j) { return is_before(points[i], points[j]); });
+  // Lexicographic order of coplanar points is that along some line of their plane.
+  std::vector<std::uint32_t> sweep(on_plane.begin(), on_plane.end());
+  std::sort(sweep.begin(), sweep.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return points[i] == points[j] ? i < j : is_before(points[i], points[j]);
+  });
+  const auto is_same = [&](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; };
+  sweep.erase(std::unique(sweep.begin(), sweep.end(), is_same), sweep.end());
+
   std::vector<std::uint32_t> polygon;
-  std::uint32_t at = start;
-  do {
-    CARPUS_CHECK(polygon.size() <= on_plane.size());
-    polygon.push_back(at);
-    std::uint32_t next = at;
-    for (const std::uint32_t s : on_plane) {
-      if (s == at) continue;
-      if (next == at) {
-        next = s;
-        continue;
+  const auto add_chain = [&](auto begin, auto end) {  // without its last point
+    const std::size_t first = polygon.size();
+    for (auto s = begin; s != end; ++s) {
+      // Seen from above, s to the right of p -> q means orient3d(p, q, s, below) > 0.
+      while (polygon.size() >= first + 2 &&
+             counted_orient3d(points[polygon[polygon.size() - 2]], points[polygon.back()],
+                              points[*s], below, statistics) >= 0) {
+        polygon.pop_back();
       }
-      // Seen from above, s to the right of at -> next means orient3d(at, next, s, below) > 0.
-      const int side = counted_orient3d(points[at], points[next], points[s], below, statistics);
-      if (side > 0 || (side == 0 && is_beyond(points[at], points[next], points[s]))) next = s;
+      polygon.push_back(*s);
     }
-    at = next;
-  } while (at != start);
+    polygon.pop_back();
+  };
+  add_chain(sweep.begin(), sweep.end());
+  add_chain(sweep.rbegin(), sweep.rend());
   return polygon;
 }
 

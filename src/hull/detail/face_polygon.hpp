@@ -16,11 +16,12 @@ namespace carpus::hull {
 /// Indices of the points, one (the lowest) for each distinct position, ascending. O(n log n).
 [[nodiscard]] std::vector<std::uint32_t> distinct_points(std::span<const Vec3> points);
 
-/// Corners of the convex polygon of coplanar points, counter-clockwise seen from the side of the
-/// plane on which `below` is not; points between corners are left out. Jarvis's march in the plane,
-/// signs by orient3d against `below`.
-/// @param on_plane  indices of at least two distinct positions. If they are collinear the two ends
-///     are returned.
+/// Corners of the convex polygon of coplanar points, from the first in lexicographic order
+/// counter-clockwise seen from the side of the plane on which `below` is not; points between
+/// corners are left out. Andrew's monotone chain [andrew1979another], signs by orient3d against
+/// `below`: O(k log k), fewer than 4 k tests.
+/// @param on_plane  indices of at least two distinct positions; of duplicates the lowest is taken.
+///     If they are collinear the two ends are returned.
 [[nodiscard]] std::vector<std::uint32_t> face_polygon(std::span<const Vec3> points,
                                                       std::span<const std::uint32_t> on_plane,
                                                       const Vec3& below,
