@@ -97,7 +97,8 @@ class HullWrapper {
       touching_.push_back({g, w});
     }
     on_plane_.assign({u, v});
-    for (const auto& [g, w] : touching_) hulls_[g].add_face(*plane, w, on_plane_, statistics_);
+    for (const auto& [g, w] : touching_)
+      hulls_[g].add_face(*plane, w, face_search_, on_plane_, statistics_);
     std::sort(on_plane_.begin(), on_plane_.end());
     on_plane_.erase(std::unique(on_plane_.begin(), on_plane_.end()), on_plane_.end());
     take(face_polygon(points_, on_plane_, point_below(*plane), statistics_));
@@ -130,6 +131,7 @@ class HullWrapper {
   std::unordered_set<std::uint64_t> wrapped_;                  ///< only asked, never listed
   std::vector<Triangle> facets_;
   std::vector<std::pair<std::size_t, std::uint32_t>> touching_;  ///< hull, vertex
+  FaceSearch face_search_;
   std::vector<std::uint32_t> on_plane_;
 };
 

@@ -4,14 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "core/rng.hpp"
 #include "hull/detail/degenerate_points.hpp"
 #include "hull/detail/face_polygon.hpp"
-#include "hull/detail/hull_hierarchy.hpp"
 #include "hull/detail/hull_verification.hpp"
+#include "hull/detail/round_points.hpp"
+#include "hull/fast_hull.hpp"
 #include "hull/gift_wrapping.hpp"
 #include "hull/quickhull.hpp"
 
@@ -99,42 +103,58 @@ TEST(ChanHull, NamesInputWithoutAHull) {
   EXPECT_EQ(status({{0, 0, 0}, {1e200, 0, 0}, {0, 1, 0}, {0, 0, 1}}), HullStatus::ScaleRange);
 }
 
-TEST(HullHierarchy, TouchesWhereALinearSearchWould) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const HullResult hull = build_convex_hull(large_points(seed % 8));
-    ASSERT_EQ(hull.status, HullStatus::Ok);
-    const HullHierarchy hierarchy(hull.polytope);
-    Rng rng(seed);
-    for (int query = 0; query < 50; ++query) {
-      // A line outside: beyond a supporting plane of the hull, in it.
-      const Vec3 up = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {0, 0, 1});
-      const Vec3 a = up * 200.0;
-      const TurningLine line{a, a + any_perpendicular(up), {1e3, 1e3, 1e3}};
-      HullStatistics statistics;
-      const std::uint32_t w = hierarchy.touch(line, statistics);
-      for (const Vec3& p : hull.polytope.vertices) {
-        ASSERT_LE(orient3d(line.a, line.b, hull.polytope.vertices[w], p), 0) << "seed " << seed;
-      }
-    }
-  }
+/// What Chan's algorithm asks for n points, and whether its hull is that of build_fast_hull.
+std::uint64_t tests_of(const std::vector<Vec3>& points) {
+  const HullResult expected = build_fast_hull(points);
+  const HullResult found = build_hull_by_chan(points);
+  EXPECT_EQ(found.status, HullStatus::Ok);
+  EXPECT_EQ(found.polytope.vertices, expected.polytope.vertices);
+  EXPECT_EQ(found.polytope.facets, expected.polytope.facets);
+  return found.statistics.orientation_tests;
 }
 
-TEST(HullHierarchy, AsksFewVerticesOfALargeHull) {
-  Rng rng(3);
-  std::vector<Vec3> points(20'000);
-  for (Vec3& p : points) {
-    p = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
-  }
-  const HullResult hull = build_convex_hull(points);
-  const HullHierarchy hierarchy(hull.polytope);
-  HullStatistics statistics;
-  for (int query = 0; query < 1000; ++query) {
-    const Vec3 up = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {0, 0, 1});
-    const TurningLine line{up * 2.0, up * 2.0 + any_perpendicular(up), {4, 4, 4}};
-    static_cast<void>(hierarchy.touch(line, statistics));
-  }
-  // About 14 doublings; a linear search would ask 20 000.
-  EXPECT_LT(statistics.orientation_tests, 1000U * 150U);
+TEST(ChanHull, AsksAFewHundredTimesAPointWhereAllAreJoinedToTwo) {
+  const std::uint64_t tests = tests_of(wheel(4000));
+  EXPECT_LT(tests, 4000U * 400U);
+  EXPECT_LT(tests_of(wheel(16'000)), 6 * tests);
+  EXPECT_LT(tests_of(wheel(66'000)), 66'000U * 1000U);  // the first that wraps two large hulls
+}
+
+TEST(ChanHull, AsksLittleAboutFacesOfManyCorners) {
+  const auto cone = [](std::size_t count) {
+    std::vector<Vec3> points{{0, 0, 1}};
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto x = static_cast<double>(i);
+      points.push_back({x, x * x, 0});
+    }
+    return points;
+  };
+  const auto prism = [](std::size_t count) {
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < count / 2; ++i) {
+      const auto x = static_cast<double>(i);
+      for (const double z : {0.0, 1.0}) points.push_back({x, x * x, z});
+    }
+    return points;
+  };
+  const auto half_sphere = [](std::size_t count) {
+    Rng rng(7);
+    std::vector<Vec3> points;
+    while (points.size() < count) {
+      Vec3 p = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
+      p.z = std::max(p.z, 0.0);
+      points.push_back(points.size() % 2 == 0 ? p : normalized_or({p.x, p.y, 0}, {1, 0, 0}));
+    }
+    return points;
+  };
+  const auto expect_few = [](const auto& points_of) {
+    const std::uint64_t tests = tests_of(points_of(4000));
+    EXPECT_LT(tests, 4000U * 400U);
+    EXPECT_LT(tests_of(points_of(16'000)), 6 * tests);
+  };
+  expect_few(cone);
+  expect_few(prism);
+  expect_few(half_sphere);
 }
 
 }  // namespace
