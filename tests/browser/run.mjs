@@ -340,10 +340,12 @@ async function operate(page, station, problems) {
         ...problems.filter((p) => !p.includes("404")),
       );
       await page.goto(back);
+      await page.locator(".overall").waitFor();
     },
   );
   await check(page, "the attempt is in the list", async () => {
     await page.getByRole("link", { name: "Past attempts" }).click();
+    await page.locator(".overall").waitFor({ state: "detached" }); // its table has rows too
     const row = page.locator("tbody tr").first();
     await row.waitFor();
     const text = await row.textContent();
