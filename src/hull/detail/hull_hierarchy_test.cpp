@@ -11,27 +11,13 @@
 
 #include "core/rng.hpp"
 #include "hull/detail/degenerate_points.hpp"
-#include "hull/detail/round_points.hpp"
+#include "hull/detail/large_points.hpp"
 #include "hull/fast_hull.hpp"
 
 namespace carpus::hull {
 namespace {
 
 const Vec3 kExtent{1e3, 1e3, 1e3};
-
-/// Normal, spherical, and two lattices.
-std::vector<Vec3> large_points(std::uint64_t seed, std::size_t count) {
-  Rng rng(seed);
-  std::vector<Vec3> points(count);
-  for (Vec3& p : points) {
-    p = {rng.normal(), rng.normal(), rng.normal()};
-    if (seed % 4 == 1) p = normalized_or(p, {1, 0, 0});
-    const auto lattice = [&](std::uint64_t n) { return static_cast<double>(rng.below(n)); };
-    if (seed % 4 == 2) p = {0.3 * lattice(30), 0.3 * lattice(30), 0.5 * lattice(30)};
-    if (seed % 4 == 3) p = {lattice(60), lattice(60), lattice(2)};
-  }
-  return points;
-}
 
 /// No vertex above the plane of the answer, and add_face finds all vertices in it.
 void expect_touch(const HullHierarchy& hierarchy, const TurningLine& line, FaceSearch& search) {
