@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "collision/lp/growth.hpp"
 
-#include <cmath>
+#include "collision/lp/growth_decision.hpp"
+#include "collision/lp/growth_program.hpp"
 
 namespace carpus::collision {
 
@@ -11,72 +12,60 @@ GrowthQuery::GrowthQuery(const ConvexBody& first, const ConvexBody& second)
       second_(&second),
       first_proofs_(first),
       second_proofs_(second),
-      program_(first_proofs_, second_proofs_),
-      second_radius_mm_(program_.second().outer_radius_mm()),
-      is_usable_(program_.first().is_usable() && program_.second().is_usable()) {}
+      is_usable_(first_proofs_.facets->is_usable() && second_proofs_.facets->is_usable()) {}
 
 Verdict GrowthQuery::decide(const PairPose& first_from_second) noexcept {
-  const Verdict from_last = ready_.from_last(first_proofs_, second_proofs_, first_from_second);
-  if (from_last != Verdict::Unknown) {
-    ++counts_.by_walking;
-    return from_last;
+  const auto placed = [&] {
+    return PlacedPair{{first_, Mat3::identity(), {}},
+                      {second_, first_from_second.rotation, first_from_second.translation}};
+  };
+  const Verdict walked =
+      walk_last_proofs(first_proofs_, second_proofs_, first_from_second, 0, ready_, counts_);
+  if (walked != Verdict::Unknown) return walked;
+  RelativePose relative;
+  if (!is_usable_ ||
+      !relative_pose(*first_proofs_.facets, *second_proofs_.facets, first_from_second, relative)) {
+    return decide_exactly({}, placed, ready_, counts_);
   }
-  RelativePose pose;
-  if (is_usable_ && relative_pose(program_.first(), program_.second(), first_from_second, pose)) {
-    const Verdict verdict = decide_in_doubles(pose);
-    const Vec3& t = first_from_second.translation;
-    if (verdict == Verdict::Apart) {
-      ready_.set(memory_.separation, first_proofs_, second_proofs_, t);
-    } else if (verdict == Verdict::Meet) {
-      ready_.set(memory_.ball, first_proofs_, second_proofs_, t);
-    }
-    if (verdict != Verdict::Unknown) return verdict;
+  if (!memory_.has_basis() && spheres_part(relative, first_from_second.translation)) {
+    return Verdict::Apart;
   }
-  return decide_exactly(first_from_second);
+  return decide_pair(first_proofs_, second_proofs_, {first_from_second, relative}, placed, ready_,
+                     memory_, counts_);
 }
 
-Verdict GrowthQuery::decide_in_doubles(const RelativePose& pose) noexcept {
-  // Spheres first, where there is nothing to go on from.
-  if (!memory_.has_basis) {
-    const double reach = program_.first().outer_radius_mm() + second_radius_mm_;
-    const Vec3& d = pose.offset;
-    SeparationProof spheres;
-    spheres.n = normalized_or(d, {});
-    spheres.m = -pose.into_second(spheres.n);
-    spheres.size = 1 + 16 * kRoundoff;
-    spheres.first_reach = program_.first().outer_radius_mm() * spheres.size;
-    spheres.second_reach = second_radius_mm_ * length(spheres.m) * spheres.size;
-    if (squared_length(d) > reach * reach && spheres.holds(pose, second_radius_mm_)) {
-      memory_.separation = spheres;
-      ++counts_.by_spheres;
-      return Verdict::Apart;
-    }
-  }
-  return program_.decide(pose, memory_, counts_);
-}
-
-Verdict GrowthQuery::decide_exactly(const PairPose& first_from_second) noexcept {
-  const ExactHint hint = is_usable_ ? program_.hint(*first_, *second_, memory_) : ExactHint{};
-  const ExactAnswer answer =
-      exactly_meet({first_, Mat3::identity(), {}},
-                   {second_, first_from_second.rotation, first_from_second.translation}, hint);
-  ++counts_.exact;
-  counts_.exact_rounds += answer.rounds;
-  ready_.set_unknown();
-  return answer.verdict;
+bool GrowthQuery::spheres_part(const RelativePose& pose, const Vec3& translation) noexcept {
+  const double first_radius = first_proofs_.facets->outer_radius_mm();
+  const double second_radius = second_proofs_.facets->outer_radius_mm();
+  const Vec3& d = pose.offset;
+  const double reach = first_radius + second_radius;
+  if (!(squared_length(d) > reach * reach)) return false;
+  SeparationProof spheres;
+  spheres.n = normalized_or(d, {});
+  spheres.m = -pose.into_second(spheres.n);
+  spheres.size = 1 + 16 * kRoundoff;
+  spheres.first_reach = first_radius * spheres.size;
+  spheres.second_reach = second_radius * length(spheres.m) * spheres.size;
+  if (!spheres.holds(pose, second_radius)) return false;
+  memory_.separation = spheres;
+  ready_.set(spheres, first_proofs_, second_proofs_, translation);
+  ++counts_.by_spheres;
+  return true;
 }
 
 std::optional<GrowthAnswer> GrowthQuery::growth(const PairPose& first_from_second) noexcept {
   RelativePose pose;
-  if (!is_usable_ || !relative_pose(program_.first(), program_.second(), first_from_second, pose)) {
+  if (!is_usable_ ||
+      !relative_pose(*first_proofs_.facets, *second_proofs_.facets, first_from_second, pose)) {
     return std::nullopt;
   }
-  const GrowthOptimum best = program_.optimum(pose, memory_, counts_);
+  const GrowthProgram program(first_proofs_, second_proofs_);
+  const GrowthOptimum best = program.optimum(pose, memory_, counts_);
   GrowthAnswer answer;
   answer.lower_bound = best.lower;
   answer.upper_bound = best.upper;
   answer.growth = best.lower + (best.upper - best.lower) / 2;
-  answer.point = best.point + program_.first().origin();
+  answer.point = best.point + program.first().origin();
   answer.direction = normalized_or(best.proof.n, {1, 0, 0});
   return answer;
 }

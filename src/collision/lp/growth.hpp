@@ -9,9 +9,10 @@
 #include <memory>
 #include <optional>
 
-#include "collision/lp/exact_meeting.hpp"
-#include "collision/lp/growth_program.hpp"
+#include "collision/lp/growth_memory.hpp"
+#include "collision/lp/proof_body.hpp"
 #include "collision/lp/ready_proof.hpp"
+#include "collision/lp/relative_pose.hpp"
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
@@ -58,8 +59,8 @@ class alignas(64) GrowthQuery final : public PairQuery {
 
  private:
   [[nodiscard]] Verdict decide(const PairPose& first_from_second) noexcept;
-  [[nodiscard]] Verdict decide_in_doubles(const RelativePose& pose) noexcept;
-  [[nodiscard]] Verdict decide_exactly(const PairPose& first_from_second) noexcept;
+  /// Where there is nothing to go on from.
+  [[nodiscard]] bool spheres_part(const RelativePose& pose, const Vec3& translation) noexcept;
 
   // In the order in which a query reads them.
   std::uint64_t queries_ = 0;
@@ -69,8 +70,6 @@ class alignas(64) GrowthQuery final : public PairQuery {
   const ConvexBody* second_;
   ProofBody first_proofs_;
   ProofBody second_proofs_;
-  GrowthProgram program_;
-  double second_radius_mm_ = 0;
   bool is_usable_ = false;
   GrowthMemory memory_;
   GrowthCounts counts_;

@@ -1,21 +1,24 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The dual simplex method on four rows:
-// 1. Warm: the last rows at the new pose; one of them is exchanged if their weights are not all
-//    >= 0. Cold: from the facets where the line of origins leaves the bodies, or those of rows that
-//    are of no use any more, to a face of one body and the vertex of the other that lies deepest
-//    behind it: that face, and three about the vertex.
-// 2. t > 1: the rows prove that the bodies are apart.
-// 3. The facets above the rows' point, by walks: if both gauges are at most 1 the point proves that
+// 1. The last rows at the new pose (rows_proof.hpp), then those of the features that a short walk
+//    ends on (contact_features.hpp): of a moving wrist nearly every query.
+// 2. The dual simplex method on four rows. Warm: the last rows, one of which is exchanged if their
+//    weights are not all >= 0. Cold: features near the line of origins.
+//    t > 1: the rows prove that the bodies are apart.
+//    The facets above the rows' point, by walks: if both gauges are at most 1 the point proves that
 //    the bodies meet; if neither exceeds t this is the optimum.
-// 4. Otherwise the facet that exceeds most enters, and the row with the least ratio leaves.
+//    Otherwise the facet that exceeds most enters, and the row with the least ratio leaves.
 #include "collision/lp/growth_program.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
+
+#include "collision/lp/contact_features.hpp"
+#include "collision/lp/growth_features.hpp"
+#include "collision/lp/growth_start.hpp"
+#include "collision/lp/rows_proof.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -29,8 +32,12 @@ constexpr double kOptimumTolerance = 1e-13;
 /// Bounds below this much above 1 are not tried as proofs: they would not bear their rounding.
 constexpr double kProofMargin = 1e-15;
 
-/// Steps from a face to the one over its deepest vertex, at a cold start; two are usual.
-constexpr int kMostFeatureSteps = 4;
+void put_first_rows_first(GrowthMemory& memory) noexcept {
+  if (!memory.has_basis()) return;
+  const auto second_rows = std::partition(memory.rows.begin(), memory.rows.end(),
+                                          [](const GrowthRow& row) { return !row.is_second; });
+  memory.first_rows = static_cast<int>(second_rows - memory.rows.begin());
+}
 
 }  // namespace
 
@@ -40,19 +47,45 @@ class GrowthProgram::Run {
       const RelativePose& pose,
       GrowthMemory& memory,
       GrowthCounts& counts) noexcept
-      : a_(program.first()),
+      : program_(program),
+        first_(program.first_),
+        second_(program.second_),
+        a_(program.first()),
         b_(program.second()),
-        first_corners_(*program.first_.corners),
-        second_corners_(*program.second_.corners),
         pose_(pose),
         memory_(memory),
         counts_(counts),
         basis_(memory.rows) {}
 
+  [[nodiscard]] GrowthLook look_at_features() noexcept {
+    if (!memory_.has_basis()) {
+      look_along_line();
+      if (meets_on_line()) return GrowthLook::Meet;
+      if (!start_from(in_first_.face, in_second_.face)) return GrowthLook::Open;
+      const GrowthLook look = program_.look_at_rows(pose_, memory_);
+      if (look == GrowthLook::Apart) return look;
+    }
+    if (!memory_.has_features) {
+      memory_.has_features = features_of_rows(first_, second_, memory_, memory_.features);
+      if (!memory_.has_features) return GrowthLook::Open;
+    }
+    const ContactEnd end =
+        walk_to_contact(*first_.features, *second_.features, pose_, memory_.features);
+    if (end.kind == ContactEnd::Kind::Overlap && is_common_near_features(end.middle)) {
+      return GrowthLook::Meet;
+    }
+    return set_rows(first_, second_, pose_, memory_.features, memory_)
+               ? program_.look_at_rows(pose_, memory_)
+               : GrowthLook::Open;
+  }
+
   Verdict decide() noexcept {
     bool is_warm = start_warm() || start_at_faces_of_rows();
-    if (!is_warm && meets_on_line()) return Verdict::Meet;
-    if (!is_warm) start_cold();
+    if (!is_warm) {
+      look_along_line();
+      if (meets_on_line()) return Verdict::Meet;
+      start_cold();
+    }
     for (int pivot = 0; pivot < kMaxGrowthPivots; ++pivot) {
       if (basis_.t > 1 + kProofMargin && is_apart()) {
         if (is_warm && pivot == 0) ++counts_.by_last_rows;
@@ -70,6 +103,7 @@ class GrowthProgram::Run {
       if (!exchange()) {
         if (!is_warm) return give_up();
         is_warm = false;
+        look_along_line();
         if (meets_on_line()) return Verdict::Meet;
         start_cold();
       }
@@ -115,7 +149,7 @@ class GrowthProgram::Run {
   }
 
   bool start_warm() noexcept {
-    if (!memory_.has_basis) return false;
+    if (!memory_.has_basis()) return false;
     basis_.place(pose_);
     if (!basis_.solve()) return false;
     if (is_usable()) return true;
@@ -143,93 +177,46 @@ class GrowthProgram::Run {
     counts_.walk_steps += in_first_.steps + in_second_.steps;
   }
 
-  /// The line of origins holds a common point.
+  /// The line of origins holds a common point. After look_along_line().
   bool meets_on_line() noexcept {
-    look_along_line();
     const double product = in_first_.gauge * in_second_.gauge;
     const double sum = in_first_.gauge + in_second_.gauge;
     if (!(sum > 0)) return is_common(Vec3{});  // concentric
     return product <= sum && is_common(in_second_point_ * (in_first_.gauge / sum));
   }
 
-  /// A face of one body, the vertex of the other that lies deepest behind it, and the bound of t
-  /// that they give.
-  struct FaceAndCorner {
-    double bound = -HUGE_VAL;
-    std::uint32_t face = 0;
-    std::uint32_t corner = 0;
-  };
-
-  /// From a face of the first body (or of the second) by steps to the face over the vertex, as long
-  /// as the bound rises.
-  [[nodiscard]] FaceAndCorner ascend(std::uint32_t face, bool is_of_second) const noexcept {
-    const PolarGraph& faces = is_of_second ? b_ : a_;
-    const SupportGraph& corners = is_of_second ? first_corners_ : second_corners_;
-    FaceAndCorner best;
-    for (int step = 0; step < kMostFeatureSteps; ++step) {
-      // p . x - shift <= t on the one, d . x <= t (d . at) on the other, each about its origin.
-      const Vec3 p = faces.row(face).normal();
-      const Vec3 d = is_of_second ? -(pose_.rotation * p) : -pose_.into_second(p);
-      const double along = is_of_second ? dot(d, pose_.offset) : dot(p, pose_.offset);
-      const std::uint32_t corner = corners.climb(d, corners.near(d));
-      const Vec3& at = corners.corner(corner);
-      const double bound = along / (1 + dot(d, at));
-      if (!(bound > best.bound)) break;
-      best = {bound, face, corner};
-      const Vec3 x =
-          is_of_second ? pose_.into_second(at - pose_.offset) : pose_.rotation * at + pose_.offset;
-      const std::uint32_t next = faces.climb(face, x).face;
-      if (next == face) break;
-      face = next;
-    }
-    return best;
+  bool is_common_near_features(const Vec3& x) noexcept {
+    in_second_point_ = pose_.into_second(x - pose_.offset);
+    in_first_ = a_.climb(face_at(first_, memory_.features.first), x);
+    in_second_ = b_.climb(face_at(second_, memory_.features.second), in_second_point_);
+    counts_.walk_steps += in_first_.steps + in_second_.steps;
+    return in_first_.gauge <= 1 && in_second_.gauge <= 1 && is_common(in_second_point_);
   }
 
-  /// From the facets on the line of origins to features that all but touch, which leave few pivots
-  /// to make. False where rounding leaves no basis.
-  bool start_at_features(std::uint32_t in_first, std::uint32_t in_second) noexcept {
-    const FaceAndCorner best = ascend(in_first, false);
-    if (!(best.bound > 1)) {
-      const FaceAndCorner other = ascend(in_second, true);
-      if (other.bound > best.bound) return set_rows(other, true);
-    }
-    return set_rows(best, false);
+  /// False where rounding leaves no basis.
+  bool start_from(std::uint32_t in_first, std::uint32_t in_second) noexcept {
+    const detail::FeaturePair pair =
+        features_from_faces(first_, second_, pose_, in_first, in_second);
+    (void)set_rows(first_, second_, pose_, pair, memory_);
+    if (!memory_.has_features) memory_.features = pair;
+    memory_.has_features = true;
+    basis_.place(pose_);
+    return basis_.solve() && is_usable();
   }
 
   /// From the faces of the last rows, where these no longer make a basis.
   bool start_at_faces_of_rows() noexcept {
-    if (!memory_.has_basis) return false;
+    if (!memory_.has_basis()) return false;
     std::uint32_t in_first = GrowthRow::kNoFace;
     std::uint32_t in_second = GrowthRow::kNoFace;
     for (const GrowthRow& row : basis_.rows) (row.is_second ? in_second : in_first) = row.face;
     if (in_first == GrowthRow::kNoFace || in_second == GrowthRow::kNoFace) return false;
-    return start_at_features(in_first, in_second);
-  }
-
-  /// The face's row, and those three of the faces about the vertex whose cone holds the opposite
-  /// direction.
-  bool set_rows(const FaceAndCorner& pair, bool is_of_second) noexcept {
-    const PolarGraph& one = is_of_second ? b_ : a_;
-    const PolarGraph& other = is_of_second ? a_ : b_;
-    const Vec3 p = one.row(pair.face).normal();
-    const Vec3 d = is_of_second ? -(pose_.rotation * p) : -pose_.into_second(p);
-    const std::span<const std::uint32_t> fan = other.faces_about(pair.corner);
-    const Vec3 across = cross(d, other.row(fan[0]).normal());
-    std::size_t i = 2;
-    while (i + 1 < fan.size() && dot(across, other.row(fan[i]).normal()) > 0) ++i;
-    basis_.rows[0] = {p, pair.face, is_of_second};
-    std::size_t place = 1;
-    for (const std::uint32_t f : {fan[0], fan[i - 1], fan[i]}) {
-      basis_.rows[place++] = {other.row(f).normal(), f, !is_of_second};
-    }
-    basis_.place(pose_);
-    if (!basis_.solve() || !is_usable()) return false;
-    return memory_.has_basis = true;
+    return start_from(in_first, in_second);
   }
 
   /// After look_along_line().
   void start_cold() noexcept {
-    if (!start_at_features(in_first_.face, in_second_.face)) start_on_line();
+    if (!start_from(in_first_.face, in_second_.face)) start_on_line();
   }
 
   void start_on_line() noexcept {
@@ -256,7 +243,7 @@ class GrowthProgram::Run {
     basis_.rows[3] = implied(u - v);
     basis_.place(pose_);
     (void)basis_.solve();
-    memory_.has_basis = true;
+    memory_.first_rows = 2;
   }
 
   /// The facets above a point given about the first's origin.
@@ -339,10 +326,11 @@ class GrowthProgram::Run {
     return Verdict::Unknown;
   }
 
+  const GrowthProgram& program_;
+  const ProofBody& first_;
+  const ProofBody& second_;
   const PolarGraph& a_;
   const PolarGraph& b_;
-  const SupportGraph& first_corners_;
-  const SupportGraph& second_corners_;
   const RelativePose& pose_;
   GrowthMemory& memory_;
   GrowthCounts& counts_;
@@ -352,16 +340,53 @@ class GrowthProgram::Run {
   Vec3 in_second_point_;
 };
 
-Verdict GrowthProgram::decide(const RelativePose& pose,
-                              GrowthMemory& memory,
-                              GrowthCounts& counts) const noexcept {
-  return Run(*this, pose, memory, counts).decide();
+GrowthLook GrowthProgram::look_at_rows(const RelativePose& pose,
+                                       GrowthMemory& memory) const noexcept {
+  SeparationProof proof;
+  if (!separation_of_rows(memory.rows, memory.first_rows, pose, first().reach(), second().reach(),
+                          proof)) {
+    return GrowthLook::Open;
+  }
+  const double radius = second().outer_radius_mm();
+  if (proof.holds(pose, radius)) {
+    memory.separation = proof;
+    return GrowthLook::Apart;
+  }
+  return proof.may_hold(pose, radius) ? GrowthLook::Touching : GrowthLook::Open;
+}
+
+GrowthLook GrowthProgram::look_at_features(const RelativePose& pose,
+                                           GrowthMemory& memory,
+                                           GrowthCounts& counts) const noexcept {
+  const GrowthLook look = Run(*this, pose, memory, counts).look_at_features();
+  if (look == GrowthLook::Apart || look == GrowthLook::Meet) ++counts.by_features;
+  return look;
+}
+
+Verdict GrowthProgram::decide_by_pivots(const RelativePose& pose,
+                                        GrowthMemory& memory,
+                                        GrowthCounts& counts) const noexcept {
+  const Verdict verdict = Run(*this, pose, memory, counts).decide();
+  put_first_rows_first(memory);
+  return verdict;
 }
 
 GrowthOptimum GrowthProgram::optimum(const RelativePose& pose,
                                      GrowthMemory& memory,
                                      GrowthCounts& counts) const noexcept {
-  return Run(*this, pose, memory, counts).optimum();
+  const GrowthOptimum optimum = Run(*this, pose, memory, counts).optimum();
+  put_first_rows_first(memory);
+  return optimum;
+}
+
+ExactHint GrowthProgram::hint_of_features(const GrowthMemory& memory) const noexcept {
+  return hint_of(first_, second_, memory.features, memory.separation.n);
+}
+
+ExactHint GrowthProgram::hint_of_rows(const GrowthMemory& memory) const noexcept {
+  detail::FeaturePair pair;
+  if (!features_of_rows(first_, second_, memory, pair)) return {};
+  return hint_of(first_, second_, pair, memory.separation.n);
 }
 
 }  // namespace carpus::collision

@@ -9,12 +9,11 @@
 // while any point bounds it from above: the query stops as soon as either is on one side of 1.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "collision/lp/exact_meeting.hpp"
-#include "collision/lp/growth_basis.hpp"
+#include "collision/lp/growth_memory.hpp"
 #include "collision/lp/pair_proofs.hpp"
 #include "collision/lp/polar_graph.hpp"
 #include "collision/lp/proof_body.hpp"
@@ -23,29 +22,12 @@
 
 namespace carpus::collision {
 
-/// What a pair remembers: its last basis, to go on from, and the last proofs that the program
-/// found.
-struct GrowthMemory {
-  bool has_basis = false;
-  SeparationProof separation;
-  CommonBallProof ball;
-  std::array<GrowthRow, 4> rows;
-};
-
-/// Sums over queries, for researchers.
-struct GrowthCounts {
-  std::uint64_t queries = 0;
-  std::uint64_t by_last_proof = 0;  ///< the last proof held at the new pose
-  std::uint64_t by_walking = 0;     ///< its direction or its point did, measured anew
-  std::uint64_t by_last_rows = 0;   ///< the last four rows, or the last point walked to, did
-  std::uint64_t by_spheres = 0;
-  std::uint64_t cold_starts = 0;
-  std::uint64_t repairs = 0;  ///< a kept basis had to change one row to be of use
-  std::uint64_t pivots = 0;
-  std::uint64_t walk_steps = 0;  ///< facets stepped to
-  std::uint64_t exact = 0;       ///< decided by exact arithmetic: touching, nearly
-  std::uint64_t exact_rounds = 0;
-  std::uint64_t pivot_limits = 0;  ///< of these, where the pivots ran out
+/// What a look at a few rows tells; memory.separation or memory.ball prove the first two.
+enum class GrowthLook : std::uint8_t {
+  Open,
+  Apart,
+  Meet,
+  Touching,  ///< apart or touching; doubles cannot tell
 };
 
 /// Pivots of one query before it is handed to exact arithmetic; the most seen is about 25.
@@ -67,15 +49,22 @@ class GrowthProgram {
   [[nodiscard]] const PolarGraph& first() const noexcept { return *first_.facets; }
   [[nodiscard]] const PolarGraph& second() const noexcept { return *second_.facets; }
 
-  /// Unknown where doubles cannot tell; memory.separation then holds a direction to begin with.
-  /// Does not try the last proof as it is.
-  [[nodiscard]] Verdict decide(const RelativePose& pose,
-                               GrowthMemory& memory,
-                               GrowthCounts& counts) const noexcept;
-  /// Where exact arithmetic may begin: at the rows that doubles ended on.
-  [[nodiscard]] ExactHint hint(const ConvexBody& first,
-                               const ConvexBody& second,
-                               const GrowthMemory& memory) const noexcept;
+  /// Do the last rows still prove that the bodies are apart? No Meet from these.
+  [[nodiscard]] GrowthLook look_at_rows(const RelativePose& pose,
+                                        GrowthMemory& memory) const noexcept;
+  /// Walks from the last features, or from the line of origins, to those that touch: what do their
+  /// rows prove, or a point between them?
+  [[nodiscard]] GrowthLook look_at_features(const RelativePose& pose,
+                                            GrowthMemory& memory,
+                                            GrowthCounts& counts) const noexcept;
+  /// By the dual simplex method from the last rows. Unknown where doubles cannot tell.
+  [[nodiscard]] Verdict decide_by_pivots(const RelativePose& pose,
+                                         GrowthMemory& memory,
+                                         GrowthCounts& counts) const noexcept;
+  /// Where exact arithmetic may begin after GrowthLook::Touching: at the features.
+  [[nodiscard]] ExactHint hint_of_features(const GrowthMemory& memory) const noexcept;
+  /// And after the pivots: at the rows that they ended on.
+  [[nodiscard]] ExactHint hint_of_rows(const GrowthMemory& memory) const noexcept;
   /// Runs to the optimum.
   [[nodiscard]] GrowthOptimum optimum(const RelativePose& pose,
                                       GrowthMemory& memory,

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "collision/lp/exact_meeting.hpp"
+#include "collision/lp/growth_decision.hpp"
 
 namespace carpus::collision {
 namespace {
@@ -157,7 +157,13 @@ Verdict GrowthScene::decide(std::size_t number) noexcept {
   const Body& first = bodies_[pair.bodies.first];
   const Body& second = bodies_[pair.bodies.second];
   limits_mm_[number] = -1;
-  if (!first.is_ordinary || !second.is_ordinary) return decide_exactly(pair);
+  const auto placed = [&] {
+    return PlacedPair{{first.body, first.pose.rotation, first.pose.translation},
+                      {second.body, second.pose.rotation, second.pose.translation}};
+  };
+  if (!first.is_ordinary || !second.is_ordinary) {
+    return decide_exactly({}, placed, pair.ready, counts_.pairs);
+  }
   const double used = first.path_mm + second.path_mm;
   const auto grant = [&](double margin_mm) {
     if (uses_budget_) {
@@ -186,37 +192,15 @@ Verdict GrowthScene::decide(std::size_t number) noexcept {
   if (verdict != Verdict::Unknown) {
     ++counts_.pairs.by_last_proof;
   } else {
-    verdict = pair.ready.from_last(first.proofs, second.proofs, in_first, slack_mm);
-    if (verdict != Verdict::Unknown) ++counts_.pairs.by_walking;
+    verdict = walk_last_proofs(first.proofs, second.proofs, in_first, slack_mm, pair.ready,
+                               counts_.pairs);
   }
   if (verdict == Verdict::Unknown) {
-    verdict = GrowthProgram(first.proofs, second.proofs).decide(pose, pair.memory, counts_.pairs);
-    if (verdict == Verdict::Unknown) return decide_exactly(pair);
-    if (verdict == Verdict::Apart) {
-      pair.ready.set(pair.memory.separation, first.proofs, second.proofs, in_first.translation);
-    } else {
-      pair.ready.set(pair.memory.ball, first.proofs, second.proofs, in_first.translation);
-    }
+    verdict = decide_pair(first.proofs, second.proofs, {in_first, pose, slack_mm}, placed,
+                          pair.ready, pair.memory, counts_.pairs);
   }
-  grant(pair.ready.margin_mm(in_first, slack_mm));
+  if (pair.ready.last() != Verdict::Unknown) grant(pair.ready.margin_mm(in_first, slack_mm));
   return verdict;
-}
-
-Verdict GrowthScene::decide_exactly(Pair& pair) noexcept {
-  const Body& first = bodies_[pair.bodies.first];
-  const Body& second = bodies_[pair.bodies.second];
-  ExactHint hint;
-  if (first.is_ordinary && second.is_ordinary) {
-    hint = GrowthProgram(first.proofs, second.proofs).hint(*first.body, *second.body, pair.memory);
-    hint.direction = first.pose.rotation * hint.direction;
-  }
-  const ExactAnswer answer =
-      exactly_meet({first.body, first.pose.rotation, first.pose.translation},
-                   {second.body, second.pose.rotation, second.pose.translation}, hint);
-  ++counts_.pairs.exact;
-  counts_.pairs.exact_rounds += answer.rounds;
-  pair.ready.set_unknown();
-  return answer.verdict;
 }
 
 }  // namespace carpus::collision

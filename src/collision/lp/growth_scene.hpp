@@ -69,7 +69,6 @@ class GrowthScene {
   void find_asked() noexcept;
   void fetch(std::size_t number) const noexcept;
   [[nodiscard]] Verdict decide(std::size_t number) noexcept;
-  [[nodiscard]] Verdict decide_exactly(Pair& pair) noexcept;
   [[nodiscard]] static RelativePose relative(const Body& first, const Body& second) noexcept;
 
   std::vector<Body> bodies_;

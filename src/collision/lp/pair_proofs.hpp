@@ -39,21 +39,30 @@ struct SeparationProof {
   /// The bodies are apart. What m differs from -n in the second body's frame, by turning or by
   /// rounding, costs that body's radius.
   [[nodiscard]] bool holds(const RelativePose& pose, double second_radius_mm) const noexcept {
-    const double g = gap(pose, second_radius_mm);
-    return g > 0 && g * g > turned_squared(pose) * (1 + 32 * kRoundoff) * second_radius_mm *
-                                second_radius_mm;
+    const double g = gap(pose) - rounding(pose, second_radius_mm);
+    return g > kLeastGap && g * g > turned_squared(pose) * (1 + 32 * kRoundoff) * second_radius_mm *
+                                        second_radius_mm;
+  }
+  /// Where it does not hold: no more is missing than what rounding may have taken.
+  [[nodiscard]] bool may_hold(const RelativePose& pose, double second_radius_mm) const noexcept {
+    const double g = gap(pose) + 4 * rounding(pose, second_radius_mm);
+    return g > 0 || g * g < 4 * turned_squared(pose) * second_radius_mm * second_radius_mm;
   }
 
  private:
+  /// Far above what underflow may have taken from products of lengths within 2^-100 and 2^100 mm.
+  static constexpr double kLeastGap = 1e-100;
+
   [[nodiscard]] double turned_squared(const RelativePose& pose) const noexcept {
     return squared_length(pose.into_second(n) + m);
   }
-  [[nodiscard]] double gap(const RelativePose& pose, double second_radius_mm) const noexcept {
-    const double reach = first_reach + second_reach;
-    const double rounding = size * (pose.offset_error_mm + 8 * kRoundoff * taxicab(pose.offset) +
-                                    (16 * kRoundoff + pose.rotation_error) * second_radius_mm) +
-                            8 * kRoundoff * reach;
-    return dot(n, pose.offset) - reach - rounding;
+  [[nodiscard]] double gap(const RelativePose& pose) const noexcept {
+    return dot(n, pose.offset) - (first_reach + second_reach);
+  }
+  [[nodiscard]] double rounding(const RelativePose& pose, double second_radius_mm) const noexcept {
+    return size * (pose.offset_error_mm + 8 * kRoundoff * taxicab(pose.offset) +
+                   (16 * kRoundoff + pose.rotation_error) * second_radius_mm) +
+           8 * kRoundoff * (first_reach + second_reach);
   }
 };
 

@@ -77,6 +77,8 @@ PolarGraph::PolarGraph(const ConvexBody& body) : origin_(body.interior_point()) 
   std::iota(face_of_body_.begin(), face_of_body_.end(), 0U);
   std::stable_sort(face_of_body_.begin(), face_of_body_.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
+  face_from_body_.resize(faces);
+  for (std::uint32_t i = 0; i < faces; ++i) face_from_body_[face_of_body_[i]] = i;
   set_rows(body, face_of_body_);
   set_links(body, face_of_body_);
   set_triangles(body);

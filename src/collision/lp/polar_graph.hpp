@@ -73,6 +73,10 @@ class PolarGraph {
     return face_of_body_[face];
   }
 
+  [[nodiscard]] std::uint32_t face_from_body(std::uint32_t face) const noexcept {
+    return face_from_body_[face];
+  }
+
   /// The face through which the ray from the origin along `d` leaves. O(1) steps on average: the
   /// table starts a walk about half a step from its end.
   [[nodiscard]] PolarTop top(const Vec3& d) const noexcept { return climb(start_for(d), d); }
@@ -137,6 +141,7 @@ class PolarGraph {
   std::vector<std::array<std::uint32_t, 3>> triangles_;  // vertices of the body
   std::vector<Vec3> spokes_;                             // vertices - origin
   std::vector<std::uint32_t> face_of_body_;
+  std::vector<std::uint32_t> face_from_body_;
 };
 
 inline std::size_t PolarGraph::cell_of(const Vec3& d) const noexcept {

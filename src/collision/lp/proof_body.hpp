@@ -6,6 +6,7 @@
 
 #include "collision/closest/support.hpp"
 #include "collision/convex_body.hpp"
+#include "collision/features/voronoi_features.hpp"
 #include "collision/lp/polar_graph.hpp"
 
 namespace carpus::collision {
@@ -14,11 +15,14 @@ namespace carpus::collision {
 struct ProofBody {
   const PolarGraph* facets = nullptr;
   const SupportGraph* corners = nullptr;
+  const VoronoiFeatures* features = nullptr;
 
   ProofBody() = default;
   /// For set-up: see ConvexBody::derived().
   explicit ProofBody(const ConvexBody& body)
-      : facets(&body.derived<PolarGraph>()), corners(&body.derived<SupportGraph>()) {}
+      : facets(&body.derived<PolarGraph>()),
+        corners(&body.derived<SupportGraph>()),
+        features(&body.derived<VoronoiFeatures>()) {}
 };
 
 }  // namespace carpus::collision

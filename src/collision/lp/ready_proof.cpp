@@ -89,17 +89,4 @@ bool ReadyBall::walk(const ProofBody& first, const PairPose& pose, double slack_
   return true;
 }
 
-Verdict ReadyProof::from_last(const ProofBody& first,
-                              const ProofBody& second,
-                              const PairPose& pose,
-                              double slack_mm) noexcept {
-  if (last_ == Verdict::Unknown) return last_;
-  if (last_ == Verdict::Apart) {
-    if (separation_.walk(second, pose, slack_mm)) return last_;
-    return ball_.walk(first, pose, slack_mm) ? last_ = Verdict::Meet : Verdict::Unknown;
-  }
-  if (ball_.walk(first, pose, slack_mm)) return last_;
-  return separation_.walk(second, pose, slack_mm) ? last_ = Verdict::Apart : Verdict::Unknown;
-}
-
 }  // namespace carpus::collision

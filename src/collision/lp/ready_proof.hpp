@@ -127,7 +127,7 @@ class ReadyBall {
   bool has_face_ = false;
 };
 
-/// The last proof of each verdict.
+/// The last proof of each verdict; both are kept, for bodies about to touch go back and forth.
 class ReadyProof {
  public:
   [[nodiscard]] Verdict last() const noexcept { return last_; }
@@ -141,12 +141,21 @@ class ReadyProof {
     }
     return Verdict::Unknown;
   }
-  /// Where that fails: walks from where the last proofs were, the other verdict's too, for bodies
-  /// about to touch go back and forth. Unknown where all fail; last() stays then.
-  [[nodiscard]] Verdict from_last(const ProofBody& first,
-                                  const ProofBody& second,
-                                  const PairPose& pose,
-                                  double slack_mm = 0) noexcept;
+  /// Where that fails, by walks from where the last proofs were: is the point of the last common
+  /// ball still in both bodies? True makes it the last proof.
+  [[nodiscard]] bool meets(const ProofBody& first, const PairPose& pose, double slack_mm) noexcept {
+    if (!ball_.walk(first, pose, slack_mm)) return false;
+    last_ = Verdict::Meet;
+    return true;
+  }
+  /// Do planes of the last separation's direction still part the bodies? Likewise.
+  [[nodiscard]] bool parts(const ProofBody& second,
+                           const PairPose& pose,
+                           double slack_mm) noexcept {
+    if (!separation_.walk(second, pose, slack_mm)) return false;
+    last_ = Verdict::Apart;
+    return true;
+  }
   /// After a verdict: no point of the second body can change it by moving less, as seen from the
   /// first.
   [[nodiscard]] double margin_mm(const PairPose& pose, double slack_mm) const noexcept {
