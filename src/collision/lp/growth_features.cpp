@@ -80,7 +80,7 @@ Feature feature_of(const ProofBody& body,
 /// Up to three vertices of a feature.
 struct Corners {
   std::array<std::uint32_t, 3> at{};
-  std::uint32_t count = 0;
+  std::size_t count = 0;
 };
 
 Corners corners_of(const VoronoiFeatures& body, const Feature& feature) noexcept {
@@ -153,8 +153,8 @@ ExactHint hint_of(const ProofBody& first,
   hint.first_vertex = a.at[0];
   hint.second_vertex = b.at[0];
   if (a.count * b.count > hint.seeds.size()) return hint;
-  for (std::uint32_t i = 0; i < a.count; ++i) {
-    for (std::uint32_t k = 0; k < b.count; ++k) {
+  for (std::size_t i = 0; i < a.count; ++i) {
+    for (std::size_t k = 0; k < b.count; ++k) {
       hint.seeds[hint.seed_count++] = {a.at[i], b.at[k]};
     }
   }
