@@ -144,9 +144,13 @@ void run_in_space(const Arguments& a) {
   if (!a.out.empty() && a.merge) {
     std::vector<std::vector<std::uint32_t>> polygons;
     for (const hull::PolygonalFace& face : faces) polygons.push_back(face.corners);
-    case_io::write_polygons(a.out, result.polytope.vertices, polygons);
+    records::write_file_atomically(a.out, [&](const fs::path& file) {
+      case_io::write_polygons(file, result.polytope.vertices, polygons);
+    });
   } else if (!a.out.empty()) {
-    case_io::write_surface(a.out, result.polytope.surface());
+    records::write_file_atomically(a.out, [&](const fs::path& file) {
+      case_io::write_surface(file, result.polytope.surface());
+    });
   }
   if (!a.png.empty()) write_png(a.png, draw_hull(object, result.polytope));
   const hull::PolytopeMeasures measures = hull::measures_of(result.polytope);

@@ -37,10 +37,10 @@ std::string advice(int error) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target)
-      : target_(target), name_(target.string() + ".XXXXXX") {
-    descriptor_ = ::mkstemp(name_.data());
+      : target_(target), name_(target.string() + ".XXXXXX" + target.extension().string()) {
+    descriptor_ = ::mkstemps(name_.data(), static_cast<int>(target.extension().string().size()));
     if (descriptor_ < 0) fail("cannot create");
-    // mkstemp makes it private; other users may read it like any file that a program writes.
+    // mkstemps makes it private; other users may read it like any file that a program writes.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot set the permissions of");
@@ -59,8 +59,13 @@ class TemporaryFile {
       if (written < 0) fail("cannot write");
       content = content.subspan(static_cast<std::size_t>(written));
     }
+  }
+
+  void flush() {
     if (::fsync(descriptor_) != 0) fail("cannot write");
   }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
 
   void rename_to_target() {
     if (::rename(name_.c_str(), target_.c_str()) != 0) fail("cannot write");
@@ -84,11 +89,27 @@ class TemporaryFile {
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::byte> content) {
   TemporaryFile temporary(file);
   temporary.write(content);
+  temporary.flush();
   temporary.rename_to_target();
 }
 
 void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   write_file_atomically(file, std::as_bytes(std::span(content.data(), content.size())));
+}
+
+void write_file_atomically(const std::filesystem::path& file,
+                           const std::function<void(const std::filesystem::path&)>& write) {
+  TemporaryFile temporary(file);
+  try {
+    write(temporary.name());
+  } catch (const IoError& error) {  // the temporary name says nothing to who reads it
+    std::string text = error.what();
+    const std::size_t at = text.find(temporary.name());
+    if (at != std::string::npos) text.replace(at, temporary.name().size(), file.string());
+    throw IoError(text);
+  }
+  temporary.flush();
+  temporary.rename_to_target();
 }
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,11 @@ namespace carpus::records {
 /// @throws IoError  saying what to do; whatever was there before is still there.
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::byte> content);
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+/// The same where another writer opens files by name: it gets a temporary one in the same folder
+/// that ends like `file`, so that a format chosen by the extension is the same.
+void write_file_atomically(const std::filesystem::path& file,
+                           const std::function<void(const std::filesystem::path&)>& write);
 
 /// The whole content of a file.
 /// @throws IoError  where there is none or it cannot be read.

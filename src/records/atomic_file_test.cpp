@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "core/error.hpp"
@@ -51,6 +52,27 @@ TEST(AtomicFile, FullDiskKeepsTheOldFileAndLeavesNothingHalfWritten) {
     }
   }
   EXPECT_EQ(text_of(folder / "a"), "old");
+  EXPECT_EQ(count_files(folder), 1U);
+}
+
+TEST(AtomicFile, OfAnotherWriterIsWholeOrNotThereAndNamedAsAsked) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a.ply", "old");
+  const auto fails = [](const std::filesystem::path& file) {
+    EXPECT_EQ(file.extension(), ".ply");
+    std::ofstream(file) << "half";
+    throw IoError(file.string() + ": cannot be written");
+  };
+  try {
+    write_file_atomically(folder / "a.ply", fails);
+    FAIL() << "nothing was thrown";
+  } catch (const IoError& error) {
+    EXPECT_EQ(error.what(), (folder / "a.ply").string() + ": cannot be written");
+  }
+  EXPECT_EQ(text_of(folder / "a.ply"), "old");
+  write_file_atomically(folder / "a.ply",
+                        [](const std::filesystem::path& file) { std::ofstream(file) << "new"; });
+  EXPECT_EQ(text_of(folder / "a.ply"), "new");
   EXPECT_EQ(count_files(folder), 1U);
 }
 
