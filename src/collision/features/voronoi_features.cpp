@@ -4,22 +4,34 @@
 
 #include <algorithm>
 
+#include "geometry/exact_number.hpp"
+
 namespace carpus::collision {
 namespace {
 
 /// Sum of the cross products about the first corner: of all vectors the one along which the polygon
-/// shows the largest area, hence insensitive to slivers among its triangles.
-Plane plane_of(std::span<const Vec3> vertices,
-               const ConvexPolytope& polytope,
-               const hull::PolygonalFace& face) {
-  const Vec3& origin = vertices[face.corners[0]];
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < face.corners.size(); ++i) {
-    sum += cross(vertices[face.corners[i]] - origin, vertices[face.corners[i + 1]] - origin);
+/// shows the largest area. In exact numbers, and from the body's vertices, not from those about the
+/// centre: where a vertex lies on an edge but for rounding, doubles would give a sliver's normal
+/// any direction.
+Vec3 normal_of(const ConvexBody& body, const hull::PolygonalFace& face) {
+  const std::span<const Vec3> vertices = body.vertices();
+  const ExactVec3 origin(vertices[face.corners[0]]);
+  ExactVec3 sum(Vec3{});
+  ExactVec3 last = ExactVec3(vertices[face.corners[1]]) - origin;
+  for (std::size_t i = 2; i < face.corners.size(); ++i) {
+    const ExactVec3 next = ExactVec3(vertices[face.corners[i]]) - origin;
+    sum = sum + cross(last, next);
+    last = next;
   }
+  return normalized_or(rounded_direction(sum), body.polytope().planes[face.facets.front()].normal);
+}
+
+Plane plane_of(std::span<const Vec3> vertices,
+               const ConvexBody& body,
+               const hull::PolygonalFace& face) {
   Plane plane;
-  plane.normal = normalized_or(sum, polytope.planes[face.facets.front()].normal);
-  plane.offset = dot(plane.normal, origin);
+  plane.normal = normal_of(body, face);
+  plane.offset = dot(plane.normal, vertices[face.corners[0]]);
   for (const std::uint32_t v : face.corners) {
     plane.offset = std::max(plane.offset, dot(plane.normal, vertices[v]));
   }
@@ -43,7 +55,7 @@ VoronoiFeatures::VoronoiFeatures(const ConvexBody& body, const Vec3& centre)
   }
   side_starts_.push_back(0);
   for (const hull::PolygonalFace& face : body.faces()) {
-    planes_.push_back(plane_of(vertices_, body.polytope(), face));
+    planes_.push_back(plane_of(vertices_, body, face));
     for (std::size_t i = 0; i < face.corners.size(); ++i) {
       sides_.push_back({face.corners[i], face.neighbours[i]});
     }

@@ -30,6 +30,38 @@ TEST(VoronoiFeatures, NameEachEdgeAlikeFromItsVertexAndFromItsFaces) {
   }
 }
 
+/// A vertex in the middle of an edge but for rounding leaves a face without area whose normal is
+/// that of no sum in doubles.
+TEST(VoronoiFeatures, OfSliversKnowTheirNormals) {
+  Rng rng(5);
+  int slivers = 0;
+  for (int sample = 0; sample < 60; ++sample) {
+    const ConvexBody body = test::random_body(rng);
+    std::vector<Vec3> points(body.vertices().begin(), body.vertices().end());
+    for (std::uint32_t v = 0; v < body.vertices().size(); ++v) {
+      for (const std::uint32_t w : body.vertex_neighbours(v)) {
+        if (v < w) points.push_back((body.vertices()[v] + body.vertices()[w]) * 0.5);
+      }
+    }
+    const ConvexBody finer(hull::build_convex_hull(points).polytope);
+    const VoronoiFeatures features(finer);
+    for (std::uint32_t f = 0; f < features.face_count(); ++f) {
+      const auto sides = features.sides(f);
+      const Vec3 origin = features.vertex(sides[0].corner);
+      Vec3 area;
+      for (std::size_t i = 2; i < sides.size(); ++i) {
+        area += cross(features.vertex(sides[i - 1].corner) - origin,
+                      features.vertex(sides[i].corner) - origin);
+      }
+      if (length(area) < 1e-13) ++slivers;
+      for (const Vec3& v : features.vertices()) {
+        EXPECT_LT(features.plane(f).signed_distance(v), 1e-12 * features.radius_mm());
+      }
+    }
+  }
+  EXPECT_GT(slivers, 100);
+}
+
 /// Around a body every point lies in a region, and in one only unless it is on a border.
 TEST(VoronoiFeatures, RegionsFillTheOutsideOnce) {
   Rng rng(2);
