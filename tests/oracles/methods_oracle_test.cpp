@@ -148,8 +148,9 @@ long double error_of(const Penetration& p,
 struct Errors {
   std::uint64_t distances = 0;
   std::uint64_t depths = 0;
-  std::uint64_t missing = 0;  ///< no answer where there is one, or one where there is none
-  long double largest = 0;    ///< of the coordinates' size
+  std::uint64_t missing = 0;   ///< no answer where there is one
+  std::uint64_t invented = 0;  ///< one where there is none
+  long double largest = 0;     ///< of the coordinates' size
   std::uint64_t worst_seed = 0;
   void add(long double error, std::uint64_t seed) {
     if (error > largest) {
@@ -192,7 +193,9 @@ TEST(MethodsOracle, DistancesAndDepthsProveThemselves) {
           const auto closest = queries[k]->closest(pose);
           ++e.distances;
           const bool is_wrong = closest.has_value() == answer.meet;
-          e.missing += is_wrong && (methods[k].limits.empty() || gap() > kMostContactGap) ? 1 : 0;
+          const bool counts = is_wrong && (methods[k].limits.empty() || gap() > kMostContactGap);
+          e.missing += counts && !answer.meet ? 1 : 0;
+          e.invented += counts && answer.meet ? 1 : 0;
           if (closest && !answer.meet) {
             e.add(error_of(*closest, pairs, first_oracle, second_oracle) / reach, seed);
           }
@@ -200,7 +203,8 @@ TEST(MethodsOracle, DistancesAndDepthsProveThemselves) {
         if (methods[k].gives_depth) {
           const auto depth = queries[k]->penetration(pose);
           ++e.depths;
-          e.missing += depth.has_value() != answer.meet;
+          e.missing += answer.meet && !depth ? 1 : 0;
+          e.invented += depth && !answer.meet ? 1 : 0;
           if (depth && answer.meet)
             e.add(error_of(*depth, first_oracle, second_oracle) / reach, seed);
         }
@@ -213,7 +217,9 @@ TEST(MethodsOracle, DistancesAndDepthsProveThemselves) {
     std::cout << methods[k].name << ": " << e.distances << " distances, " << e.depths
               << " depths, largest error " << static_cast<double>(e.largest)
               << " of the coordinates, " << e.missing << " missing\n";
-    EXPECT_EQ(e.missing, 0U) << methods[k].name;
+    EXPECT_EQ(e.invented, 0U) << methods[k].name;
+    const bool may_go_round = methods[k].limits.find("goes round") != std::string_view::npos;
+    EXPECT_LE(e.missing, may_go_round ? e.distances / 10'000 : 0U) << methods[k].name;
     EXPECT_LT(e.largest, tolerance_of(methods[k])) << methods[k].name << ", seed " << e.worst_seed;
   }
 }

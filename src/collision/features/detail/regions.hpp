@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 
+#include "collision/features/detail/segments.hpp"
 #include "collision/features/voronoi_features.hpp"
 #include "geometry/vec3.hpp"
 
@@ -68,22 +70,29 @@ template <typename Body>
   return std::nullopt;
 }
 
-/// The side of face `f` beyond which `p` lies; the farthest in units of the side's length.
+/// The side of face `f` beyond which `p` lies; of several the nearest one, for then the face's
+/// nearest point to `p` lies on it, and no walk that goes on there comes farther away. (The side
+/// that `p` is farthest beyond may be another where the face is a needle: walks went round.)
 template <typename Body>
 [[nodiscard]] std::optional<Feature> leave_face(const Body& body,
                                                 std::uint32_t f,
                                                 const Vec3& p) noexcept {
   const std::span<const VoronoiFeatures::Side> sides = body.features->sides(f);
   const Vec3 normal = body.normal(f);
-  double worst = 0;
+  double least = std::numeric_limits<double>::infinity();
   std::size_t slot = sides.size();
   Vec3 corner = body.vertex(sides.back().corner);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Vec3 next = body.vertex(sides[i].corner);
-    const double inside = dot(cross(normal, next - corner), p - corner);
-    if (inside < worst) {
-      worst = inside;
-      slot = i;
+    const Vec3 along = next - corner;
+    const Vec3 from_corner = p - corner;
+    if (dot(cross(normal, along), from_corner) < 0) {
+      const double t = unit_clamp(dot(from_corner, along) / squared_length(along));
+      const double squared = squared_length(from_corner - along * t);
+      if (squared < least) {
+        least = squared;
+        slot = i;
+      }
     }
     corner = next;
   }
