@@ -58,13 +58,7 @@ class GrowthProgram::Run {
         basis_(memory.rows) {}
 
   [[nodiscard]] GrowthLook look_at_features() noexcept {
-    if (!memory_.has_basis()) {
-      look_along_line();
-      if (meets_on_line()) return GrowthLook::Meet;
-      if (!start_from(in_first_.face, in_second_.face)) return GrowthLook::Open;
-      const GrowthLook look = program_.look_at_rows(pose_, memory_);
-      if (look == GrowthLook::Apart) return look;
-    }
+    if (!memory_.has_basis()) return GrowthLook::Open;
     if (!memory_.has_features) {
       memory_.has_features = features_of_rows(first_, second_, memory_, memory_.features);
       if (!memory_.has_features) return GrowthLook::Open;
@@ -198,8 +192,6 @@ class GrowthProgram::Run {
     const detail::FeaturePair pair =
         features_from_faces(first_, second_, pose_, in_first, in_second);
     (void)set_rows(first_, second_, pose_, pair, memory_);
-    if (!memory_.has_features) memory_.features = pair;
-    memory_.has_features = true;
     basis_.place(pose_);
     return basis_.solve() && is_usable();
   }

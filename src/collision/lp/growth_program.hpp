@@ -52,8 +52,9 @@ class GrowthProgram {
   /// Do the last rows still prove that the bodies are apart? No Meet from these.
   [[nodiscard]] GrowthLook look_at_rows(const RelativePose& pose,
                                         GrowthMemory& memory) const noexcept;
-  /// Walks from the last features, or from the line of origins, to those that touch: what do their
-  /// rows prove, or a point between them?
+  /// Walks from the last features, or those of the last rows, to those that touch: what do their
+  /// rows prove, or a point between them? Open without a basis: from nowhere near, pivots get there
+  /// sooner.
   [[nodiscard]] GrowthLook look_at_features(const RelativePose& pose,
                                             GrowthMemory& memory,
                                             GrowthCounts& counts) const noexcept;

@@ -74,8 +74,9 @@ TEST(GrowthProgram, GoesOnAtItsRowsAfterPivotsAndWithoutThem) {
   EXPECT_EQ(program.look_at_rows(relative, memory), GrowthLook::Apart);
   EXPECT_EQ(program.look_at_features(relative, memory, counts), GrowthLook::Apart);
   memory = {};
+  EXPECT_EQ(program.look_at_features(relative, memory, counts), GrowthLook::Open);
+  EXPECT_EQ(program.decide_by_pivots(relative, memory, counts), Verdict::Apart);
   EXPECT_EQ(program.look_at_features(relative, memory, counts), GrowthLook::Apart);
-  EXPECT_EQ(program.look_at_rows(relative, memory), GrowthLook::Apart);
 }
 
 TEST(GrowthProgram, OfOneOriginHasNothingToGoOnFrom) {
@@ -90,7 +91,7 @@ TEST(GrowthProgram, OfOneOriginHasNothingToGoOnFrom) {
   EXPECT_FALSE(memory.has_basis());
   EXPECT_EQ(program.decide_by_pivots(relative, memory, counts), Verdict::Meet);
   EXPECT_FALSE(memory.has_basis());
-  EXPECT_EQ(program.look_at_features(relative, memory, counts), GrowthLook::Meet);
+  EXPECT_EQ(program.look_at_features(relative, memory, counts), GrowthLook::Open);
 }
 
 }  // namespace
