@@ -43,12 +43,14 @@ class TemporaryFile {
     // mkstemps makes it private; other users may read it like any file that a program writes.
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    if (::fchmod(descriptor_, 0666 & ~mask) != 0) fail("cannot set the permissions of");
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0) {
+      const int error = errno;
+      discard();
+      errno = error;
+      fail("cannot set the permissions of");
+    }
   }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!name_.empty()) ::unlink(name_.c_str());
-  }
+  ~TemporaryFile() { discard(); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
@@ -73,6 +75,10 @@ class TemporaryFile {
   }
 
  private:
+  void discard() noexcept {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
   [[noreturn]] void fail(const char* what) {
     const int error = errno;
     throw IoError(target_.string() + ": " + what + " the file: " + std::strerror(error) + "; " +

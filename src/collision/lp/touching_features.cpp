@@ -198,10 +198,10 @@ Verdict touching_features_meet(const PlacedBody& first,
   // n . w: n is off by n_error, w by its rounding and by that of twice the digits.
   const double h = dot(n, w);
   const double largest = largest_component(w);
+  const double w_error = 4 * kRoundoff * largest + kWideRoundoff * size;
   const double h_error =
-      3 *
-      (n_error * largest + largest_component(n) * (4 * kRoundoff * largest + kWideRoundoff * size));
-  if (!(std::abs(h) > 2 * h_error + kUnderflowBound)) return Verdict::Unknown;
+      3 * (n_error * largest + (largest_component(n) + n_error) * w_error) + kUnderflowBound;
+  if (!(std::abs(h) > 2 * h_error)) return Verdict::Unknown;
 
   const Neighbours around_first = neighbours_of(
       first, a.vertices[1], n, n_error, on_plane_with(a.vertices[1], a.vertices, b.vertices));
