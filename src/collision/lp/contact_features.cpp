@@ -8,6 +8,7 @@
 #include <span>
 
 #include "collision/features/detail/regions.hpp"
+#include "collision/features/detail/segments.hpp"
 #include "collision/features/detail/vertex_steps.hpp"
 #include "geometry/tolerance.hpp"
 
@@ -15,6 +16,7 @@ namespace carpus::collision {
 namespace {
 
 using detail::FeaturePair;
+using detail::Segment;
 using detail::Step;
 
 /// Nearly all walks of a moving wrist that end are shorter.
@@ -39,8 +41,6 @@ struct View {
   }
   [[nodiscard]] View<!kIsSecond> swapped() const noexcept { return {other, own, pose}; }
 };
-
-double clamped(double t) noexcept { return std::min(1.0, std::max(0.0, t)); }
 
 /// The edge of vertex v that goes farthest along `d`; empty where all go back.
 std::optional<Feature> edge_along(const VoronoiFeatures& body,
@@ -91,38 +91,51 @@ bool is_same_edge(const Feature& a, const Feature& b) noexcept {
          std::minmax(a.id, a.head) == std::minmax(b.id, b.head);
 }
 
-/// Down an edge of the view's own body over a face of the other, from a point over the face as far
-/// as it is over it: to the edge's end, or to the side of the face that it crosses. Points are in
-/// the other's frame.
-/// @param reach  from the point to the edge's end `to`.
+/// Down an edge of the view's own body over a face of the other, in whose frame points are.
+struct Descent {
+  Feature edge;
+  std::uint32_t face = 0;
+  std::uint32_t to = 0;  ///< the edge's end
+  Vec3 from;             ///< over the face
+  Vec3 reach;            ///< from there to the end
+};
+
+/// From a point of the edge towards its end that lies lower over the face.
+Descent towards_lower_end(const VoronoiFeatures& other,
+                          const Feature& edge,
+                          std::uint32_t face,
+                          const Segment& segment,
+                          const Vec3& from) noexcept {
+  const bool is_to_head = dot(other.plane(face).normal, segment.along) < 0;
+  return {edge, face, is_to_head ? edge.head : edge.id, from,
+          segment.tail + (is_to_head ? segment.along : Vec3{}) - from};
+}
+
+/// As far as the edge is over the face: to its end, or to the side of the face that it crosses.
 template <bool kIsSecond>
 Step run_down(const View<kIsSecond>& view,
-              const Feature& edge,
-              std::uint32_t to,
-              const Vec3& from,
-              const Vec3& reach,
-              std::uint32_t face,
+              const Descent& way,
               Feature& own,
               Feature& other,
               Vec3& middle) noexcept {
   const VoronoiFeatures& body = view.other;
-  const Vec3& normal = body.plane(face).normal;
-  const std::span<const VoronoiFeatures::Side> sides = body.sides(face);
+  const Vec3& normal = body.plane(way.face).normal;
+  const std::span<const VoronoiFeatures::Side> sides = body.sides(way.face);
   double share = 1;
   std::size_t slot = sides.size();
   Vec3 corner = body.vertex(sides.back().corner);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Vec3& next = body.vertex(sides[i].corner);
     const Vec3 inward = cross(normal, next - corner);
-    const double rate = -dot(inward, reach);
-    const double inside = dot(inward, from - corner);
+    const double rate = -dot(inward, way.reach);
+    const double inside = dot(inward, way.from - corner);
     if (rate > 0 && inside < share * rate) {
       share = std::max(0.0, inside / rate);
       slot = i;
     }
     corner = next;
   }
-  const Vec3 lowest = from + reach * share;
+  const Vec3 lowest = way.from + way.reach * share;
   const double height = dot(normal, lowest - corner);
   if (height < -kContactToleranceMm) {
     const Vec3 in_other = lowest - normal * (height * 0.5);
@@ -130,32 +143,16 @@ Step run_down(const View<kIsSecond>& view,
     return Step::Overlap;
   }
   if (slot == sides.size()) {
-    own = Feature::vertex(to);
-    other = Feature::face(face);
+    own = Feature::vertex(way.to);
+    other = Feature::face(way.face);
   } else {
-    const Feature side = body.side_edge(face, slot == 0 ? sides.size() - 1 : slot - 1);
+    const Feature side = body.side_edge(way.face, slot == 0 ? sides.size() - 1 : slot - 1);
     // Back where the walk came from: the edges touch.
-    if (is_same_edge(own, edge) && is_same_edge(other, side)) return Step::Apart;
-    own = edge;
+    if (is_same_edge(own, way.edge) && is_same_edge(other, side)) return Step::Apart;
+    own = way.edge;
     other = side;
   }
   return Step::Continue;
-}
-
-/// From two edges, where the point of the view's own edge lies over a face of the other.
-template <bool kIsSecond>
-Step leave_for_face(const View<kIsSecond>& view,
-                    const Vec3& tail,
-                    const Vec3& along,
-                    const Vec3& at,
-                    std::uint32_t face,
-                    Feature& own,
-                    Feature& other,
-                    Vec3& middle) noexcept {
-  const Feature edge = own;
-  const bool is_to_head = dot(view.other.plane(face).normal, along) < 0;
-  return run_down(view, edge, is_to_head ? edge.head : edge.id, at,
-                  is_to_head ? tail + along - at : tail - at, face, own, other, middle);
 }
 
 Step edge_edge(const View<false>& view, FeaturePair& pair, Vec3& middle) noexcept {
@@ -171,11 +168,11 @@ Step edge_edge(const View<false>& view, FeaturePair& pair, Vec3& middle) noexcep
   const double uu = squared_length(u);
   const double vv = squared_length(v);
   const double nn = squared_length(n);
-  const double s = nn > 0 ? clamped(dot(cross(between, v), n) / nn) : 0;
-  const double t = clamped(dot(u * s - between, v) / vv);
+  const double s = nn > 0 ? detail::unit_clamp(dot(cross(between, v), n) / nn) : 0;
+  const double t = detail::unit_clamp(dot(u * s - between, v) / vv);
   const Vec3 on_b = between + v * t;  // from a's tail
   const BesideEdge of_b = beside(view.own, a, u, uu, on_b);
-  const Vec3 on_a = u * clamped(of_b.along);
+  const Vec3 on_a = u * detail::unit_clamp(of_b.along);
   const Vec3 from_b_tail = view.turned_to_other(on_a - between);
   const BesideEdge of_a = beside(view.other, b, v_own, vv, from_b_tail);
   if (of_b.is_below && of_a.is_below) {
@@ -185,8 +182,9 @@ Step edge_edge(const View<false>& view, FeaturePair& pair, Vec3& middle) noexcep
   Feature next = a;
   if (leaves(of_b, next)) {
     if (next.kind == FeatureKind::Face) {
-      return leave_for_face(view.swapped(), a_tail + between, v, a_tail + on_b, next.id, b, a,
-                            middle);
+      const Descent way =
+          towards_lower_end(view.own, b, next.id, {a_tail + between, v}, a_tail + on_b);
+      return run_down(view.swapped(), way, b, a, middle);
     }
     a = next;
     return Step::Continue;
@@ -195,8 +193,8 @@ Step edge_edge(const View<false>& view, FeaturePair& pair, Vec3& middle) noexcep
   if (leaves(of_a, next)) {
     if (next.kind == FeatureKind::Face) {
       const Vec3 at = b_tail + from_b_tail;
-      return leave_for_face(view, at - view.turned_to_other(on_a), view.turned_to_other(u), at,
-                            next.id, a, b, middle);
+      const Segment edge{at - view.turned_to_other(on_a), view.turned_to_other(u)};
+      return run_down(view, towards_lower_end(view.other, a, next.id, edge, at), a, b, middle);
     }
     b = next;
     return Step::Continue;
@@ -220,7 +218,7 @@ Step vertex_face(const View<kIsSecond>& view,
           edge_along(view.own, vertex.id, -view.turned_to_own(normal))) {
     const Vec3 reach =
         view.turned_to_other(view.own.vertex(down->head) - view.own.vertex(vertex.id));
-    return run_down(view, *down, down->head, at, reach, face.id, vertex, face, middle);
+    return run_down(view, {*down, face.id, down->head, at, reach}, vertex, face, middle);
   }
   const double height = detail::height_over(detail::FixedBody{&body}, face.id, at);
   if (height > 0) return Step::Apart;

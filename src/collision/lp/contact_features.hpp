@@ -22,7 +22,7 @@ struct ContactEnd {
     Open,     ///< the walk became too long
   };
   Kind kind = Kind::Open;
-  Vec3 middle;  ///< about the first body's centre, in its frame
+  Vec3 middle;  ///< about the first body's centre, in its frame [mm]
 };
 
 /// Walks on from `pair` over a few features. What it finds is where to look for a proof, not one:

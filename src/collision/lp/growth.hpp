@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "collision/lp/growth_counts.hpp"
 #include "collision/lp/growth_memory.hpp"
 #include "collision/lp/proof_body.hpp"
 #include "collision/lp/ready_proof.hpp"

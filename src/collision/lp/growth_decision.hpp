@@ -6,6 +6,7 @@
 #pragma once
 
 #include "collision/lp/exact_meeting.hpp"
+#include "collision/lp/growth_counts.hpp"
 #include "collision/lp/growth_memory.hpp"
 #include "collision/lp/growth_program.hpp"
 #include "collision/lp/proof_body.hpp"

@@ -36,7 +36,7 @@ bool set_rows(const ProofBody& first,
 [[nodiscard]] std::uint32_t face_at(const ProofBody& body, const Feature& feature) noexcept;
 
 /// Where exact arithmetic may begin.
-/// @param direction  from the first body to the second.
+/// @param direction  from the first body to the second, in the first's frame.
 [[nodiscard]] ExactHint hint_of(const ProofBody& first,
                                 const ProofBody& second,
                                 const detail::FeaturePair& pair,

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "collision/lp/exact_meeting.hpp"
+#include "collision/lp/growth_counts.hpp"
 #include "collision/lp/growth_memory.hpp"
 #include "collision/lp/pair_proofs.hpp"
 #include "collision/lp/polar_graph.hpp"

@@ -11,7 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "collision/lp/growth_program.hpp"
+#include "collision/lp/growth_counts.hpp"
+#include "collision/lp/growth_memory.hpp"
+#include "collision/lp/proof_body.hpp"
 #include "collision/lp/ready_proof.hpp"
 #include "collision/scene.hpp"
 

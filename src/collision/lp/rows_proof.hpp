@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Four rows as they lie at a new pose: do the two edges, or the face and the vertex, that they
-// stand for still have a plane between them? A third of what solving the basis costs.
+// stand for still have a plane between them? Without solving the basis, without a division.
 #pragma once
 
 #include <array>
