@@ -8,7 +8,7 @@ import { make, setText } from "../dom";
 import { faceNames, makeFrameMap } from "../frames";
 import { HelpOverlay } from "../help_overlay";
 import { HostLink, openPageSocket, pageWord, type LinkState } from "../host_link";
-import { whyNot, whyStuck, type OnceAction } from "../operation";
+import { whyStuck } from "../operation";
 import {
   parseViews,
   type CaseDescription,
@@ -18,7 +18,8 @@ import {
   type Vec3,
 } from "../protocol";
 import { StartDialog, type StartChoice } from "../start_dialog";
-import { Theatre, VIEWS, type CaseScene, type ViewId } from "../theatre";
+import { Theatre, type CaseScene } from "../theatre";
+import { Actions, toggleFullScreen } from "./actions";
 import { BottomBar } from "./bottom_bar";
 import { ConfirmDialog } from "./confirm_dialog";
 import { Hand } from "./hand";
@@ -75,6 +76,7 @@ export class TrainPage {
     make("kbd", {}, "P"),
     " goes on",
   );
+  private readonly actions: Actions;
   private readonly abort = new AbortController();
   private latest: SnapshotMessage | undefined;
   private readonly part = new Participation();
@@ -85,7 +87,6 @@ export class TrainPage {
   private trainee = "";
   private wanted: StartChoice = { trainee: "" };
   private sequence = 0;
-  private view: ViewId = "dorsal";
   private readonly readingsTimer: number;
   private frameRequest = 0;
   private lastSentMs = -Infinity;
@@ -107,20 +108,20 @@ export class TrainPage {
     });
     this.bottom = new BottomBar({
       measure: () => {
-        this.act({ kind: "measure" });
+        this.actions.act({ kind: "measure" });
       },
       screws: () => {
-        this.act({ kind: "screws" });
+        this.actions.act({ kind: "screws" });
       },
       undo: () => {
-        this.act({ kind: "undo" });
+        this.actions.act({ kind: "undo" });
       },
       restart: () => {
         this.wanted = { trainee: this.trainee };
         this.anewQuestion.ask();
       },
       finish: () => {
-        this.act({ kind: "finish" });
+        this.actions.act({ kind: "finish" });
       },
     });
     this.arm = new CArmPanel(parseViews(description.views), {
@@ -160,13 +161,13 @@ export class TrainPage {
     );
     this.views = new ViewBar({
       look: (view) => {
-        this.look(view);
+        this.actions.look(view);
       },
       skin: (opacity) => {
         this.theatre.setSkin(opacity);
       },
       names: () => {
-        this.act({ kind: "labels" });
+        this.actions.act({ kind: "labels" });
       },
     });
     const stage = make("div.stage", { role: "application", "aria-label": "Theatre, 3-D" });
@@ -212,12 +213,33 @@ export class TrainPage {
       snapshot: () => this.latest,
     });
     this.hand.reset(this.theatre.startPointMm(), frames.directionToPatient(...START_SHAFT));
+    this.actions = new Actions({
+      arm: this.arm,
+      hand: this.hand,
+      theatre: this.theatre,
+      views: this.views,
+      tray: this.tray,
+      help: this.help,
+      latest: () => this.latest,
+      tell: (message) => {
+        this.tell(message);
+      },
+      say: (text) => {
+        this.say(text);
+      },
+      finish: () => {
+        if (this.part.operates) this.finishQuestion.ask();
+      },
+      pause: () => {
+        this.togglePause();
+      },
+    });
     listenToKeys(
       {
         hand: this.hand,
         canvas: this.theatre.canvas,
         act: (action) => {
-          this.act(action);
+          this.actions.act(action);
         },
         closeHelp: () => {
           const { open } = this.help.element;
@@ -275,90 +297,6 @@ export class TrainPage {
       this.hand.frame(performance.now());
     }
     this.theatre.draw();
-  }
-
-  private act(action: OnceAction): void {
-    switch (action.kind) {
-      case "shot":
-        this.arm.shoot(action.view);
-        break;
-      case "free_shot":
-        this.arm.shootFree();
-        break;
-      case "turn_c_arm":
-        this.arm.turn(action.rotationDeg, action.tiltDeg);
-        break;
-      case "invert":
-        this.arm.invert();
-        break;
-      case "change_thrust":
-        this.hand.changeThrust(action.byN);
-        break;
-      case "measure":
-        if (!this.refusedBySituation("measure")) this.tell({ type: "measure" });
-        break;
-      case "screws":
-        if (this.latest !== undefined && !this.refusedBySituation("screws")) {
-          this.hand.releaseAll();
-          this.tray.open(this.latest.screw_index, this.latest.measured_mm);
-        }
-        break;
-      case "choose_screw":
-        this.chooseNeighbour(action.by);
-        break;
-      case "undo":
-        this.tell({ type: "undo" });
-        break;
-      case "finish":
-        if (this.part.operates) this.finishQuestion.ask();
-        break;
-      case "pause":
-        this.togglePause();
-        break;
-      case "camera":
-        this.look(VIEWS[(VIEWS.indexOf(this.view) + 1) % VIEWS.length] ?? "dorsal");
-        break;
-      case "skin":
-        this.views.nextSkin();
-        break;
-      case "labels":
-        this.theatre.showNames(!this.theatre.namesShown);
-        this.views.showNames(this.theatre.namesShown);
-        break;
-      case "help":
-        this.hand.releaseAll();
-        this.help.toggle();
-        break;
-      case "full_screen":
-        toggleFullScreen();
-        break;
-      case "zoom_in":
-        this.theatre.zoom(0.85);
-        break;
-      case "zoom_out":
-        this.theatre.zoom(1 / 0.85);
-        break;
-    }
-  }
-
-  private chooseNeighbour(by: number): void {
-    if (this.latest === undefined || this.refusedBySituation("screws")) return;
-    const screw = this.tray.neighbour(this.latest.screw_index, by);
-    if (screw === undefined) return;
-    this.tell({ type: "select_screw", index: screw.index });
-    this.say(`On the driver: ${screw.name}`);
-  }
-
-  private refusedBySituation(action: string): boolean {
-    const hint = this.latest === undefined ? undefined : whyNot(action, this.latest);
-    if (hint !== undefined) this.say(hint);
-    return hint !== undefined;
-  }
-
-  private look(view: ViewId): void {
-    this.view = view;
-    this.theatre.lookFrom(view);
-    this.views.showView(view);
   }
 
   private begin(choice: StartChoice): void {
@@ -538,9 +476,4 @@ export class TrainPage {
   private say(text: string): void {
     this.notice.say(text);
   }
-}
-
-function toggleFullScreen(): void {
-  if (document.fullscreenElement !== null) void document.exitFullscreen();
-  else void document.documentElement.requestFullscreen();
 }
