@@ -20,6 +20,9 @@ ConvexBody::ConvexBody(ConvexPolytope polytope) : polytope_(std::move(polytope))
   interior_point_ = hull::measures_of(polytope_).centroid;
   for (const Vec3& v : polytope_.vertices) {
     box_.include(v);
+    for (const double c : {v.x, v.y, v.z}) {
+      largest_coordinate_mm_ = std::max(largest_coordinate_mm_, std::abs(c));
+    }
     radius_mm_ = std::max(radius_mm_, distance(v, interior_point_));
   }
   radius_mm_ *= 1 + 8 * std::numeric_limits<double>::epsilon();

@@ -52,6 +52,8 @@ class ConvexBody {
   /// Largest distance of a vertex from interior_point(), rounded up [mm].
   [[nodiscard]] double radius_mm() const noexcept { return radius_mm_; }
   [[nodiscard]] const Aabb& box() const noexcept { return box_; }
+  /// Largest magnitude of a coordinate.
+  [[nodiscard]] double largest_coordinate_mm() const noexcept { return largest_coordinate_mm_; }
 
   /// What a method derives from the body, T(body), made at the first request and shared by all
   /// queries of the body. For set-up: allocates, and not from two threads at once.
@@ -74,6 +76,7 @@ class ConvexBody {
   Vec3 interior_point_;
   double radius_mm_ = 0;
   Aabb box_;
+  double largest_coordinate_mm_ = 0;
   mutable std::vector<std::pair<const char*, std::shared_ptr<const void>>> derived_;
 };
 

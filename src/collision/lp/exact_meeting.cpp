@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <span>
 
-#include "collision/lp/touching_features.hpp"
 #include "geometry/exact_number.hpp"
 #include "geometry/tolerance.hpp"
 
@@ -265,8 +264,6 @@ ExactAnswer exactly_meet(const PlacedBody& first,
                          const PlacedBody& second,
                          const ExactHint& hint) noexcept {
   if (!is_in_range(first) || !is_in_range(second)) return {};
-  const Verdict features = touching_features_meet(first, second, hint);
-  if (features != Verdict::Unknown) return {features, 0};
   const bool is_direction = is_finite(hint.direction) &&
                             std::abs(hint.direction.x) <= kLargestCoordinate &&
                             std::abs(hint.direction.y) <= kLargestCoordinate &&

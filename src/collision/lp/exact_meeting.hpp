@@ -1,8 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do two convex bodies meet, exactly: the judge of what doubles cannot tell, and of nothing else.
-// Mostly in twice the digits (touching_features.hpp), by exact numbers where those do not do.
+// Do two convex bodies meet, by exact numbers: the judge of what nothing faster can tell.
 #pragma once
 
 #include <array>
@@ -35,8 +34,7 @@ struct ExactHint {
 
 struct ExactAnswer {
   Verdict verdict = Verdict::Unknown;
-  std::uint32_t rounds =
-      0;  ///< pairs of vertices that exact numbers asked for; 0: they were not needed
+  std::uint32_t rounds = 0;  ///< pairs of vertices that were asked for; 0: the hint's seeds did
 };
 
 /// Is the origin in the set of differences b - a of points of the bodies? The linear program in

@@ -84,8 +84,7 @@ template <typename Placed>
     ready.set(memory.ball, first, second, place.pose.translation);
     return Verdict::Meet;
   };
-  // In twice the digits; exact numbers would take longer than the pivots.
-  const auto touching = [&](const ExactHint& features) {
+  const auto touching = [&](const detail::FeaturePair& features) {
     const PlacedPair pair = placed();
     const Verdict verdict = touching_features_meet(pair.first, pair.second, features);
     if (verdict != Verdict::Unknown) {
@@ -94,14 +93,15 @@ template <typename Placed>
     }
     return verdict;
   };
+  detail::FeaturePair of_rows;
 
   GrowthLook look = program.look_at_rows(place.relative, memory);
   if (look == GrowthLook::Apart) {
     ++counts.by_last_rows;
     return found_apart();
   }
-  if (look == GrowthLook::Touching) {
-    const Verdict verdict = touching(program.hint_of_rows(memory));
+  if (look == GrowthLook::Touching && program.find_features_of_rows(memory, of_rows)) {
+    const Verdict verdict = touching(of_rows);
     if (verdict != Verdict::Unknown) return verdict;
   }
   if (ready.last() == Verdict::Apart && ready.meets(first, place.pose, place.slack_mm)) {
@@ -112,13 +112,19 @@ template <typename Placed>
   if (look == GrowthLook::Apart) return found_apart();
   if (look == GrowthLook::Meet) return found_common();
   if (look == GrowthLook::Touching) {
-    const Verdict verdict = touching(program.hint_of_features(memory));
+    const Verdict verdict = touching(memory.features);
     if (verdict != Verdict::Unknown) return verdict;
   }
-  const Verdict verdict = program.decide_by_pivots(place.relative, memory, counts);
+  Verdict verdict = program.decide_by_pivots(place.relative, memory, counts);
   if (verdict == Verdict::Apart) return found_apart();
   if (verdict == Verdict::Meet) return found_common();
-  return decide_exactly(program.hint_of_rows(memory), placed, ready, counts);
+  if (!program.find_features_of_rows(memory, of_rows)) {
+    return decide_exactly({}, placed, ready, counts);
+  }
+  verdict = touching(of_rows);
+  return verdict == Verdict::Unknown
+             ? decide_exactly(program.hint_at(memory, of_rows), placed, ready, counts)
+             : verdict;
 }
 
 }  // namespace carpus::collision

@@ -371,13 +371,13 @@ GrowthOptimum GrowthProgram::optimum(const RelativePose& pose,
   return optimum;
 }
 
-ExactHint GrowthProgram::hint_of_features(const GrowthMemory& memory) const noexcept {
-  return hint_of(first_, second_, memory.features, memory.separation.n);
+bool GrowthProgram::find_features_of_rows(const GrowthMemory& memory,
+                                          detail::FeaturePair& pair) const noexcept {
+  return features_of_rows(first_, second_, memory, pair);
 }
 
-ExactHint GrowthProgram::hint_of_rows(const GrowthMemory& memory) const noexcept {
-  detail::FeaturePair pair;
-  if (!features_of_rows(first_, second_, memory, pair)) return {};
+ExactHint GrowthProgram::hint_at(const GrowthMemory& memory,
+                                 const detail::FeaturePair& pair) const noexcept {
   return hint_of(first_, second_, pair, memory.separation.n);
 }
 

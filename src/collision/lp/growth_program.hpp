@@ -63,10 +63,12 @@ class GrowthProgram {
   [[nodiscard]] Verdict decide_by_pivots(const RelativePose& pose,
                                          GrowthMemory& memory,
                                          GrowthCounts& counts) const noexcept;
-  /// Where exact arithmetic may begin after GrowthLook::Touching: at the features.
-  [[nodiscard]] ExactHint hint_of_features(const GrowthMemory& memory) const noexcept;
-  /// And after the pivots: at the rows that they ended on.
-  [[nodiscard]] ExactHint hint_of_rows(const GrowthMemory& memory) const noexcept;
+  /// What the last rows stand for. False where a row is no face's.
+  [[nodiscard]] bool find_features_of_rows(const GrowthMemory& memory,
+                                           detail::FeaturePair& pair) const noexcept;
+  /// Where exact arithmetic may begin.
+  [[nodiscard]] ExactHint hint_at(const GrowthMemory& memory,
+                                  const detail::FeaturePair& pair) const noexcept;
   /// Runs to the optimum.
   [[nodiscard]] GrowthOptimum optimum(const RelativePose& pose,
                                       GrowthMemory& memory,

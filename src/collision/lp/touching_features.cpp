@@ -1,16 +1,16 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// With w = b - a for the seeds (a, b), and e1 = w1 - w0, e2 = w2 - w0:
-// 1. n = e1 x e2 in doubles, and h = n . w in twice the digits' worth: w may be any point
-//    w0 + s e1 + t e2 of the triangle's plane, as n is square to it. At the one nearest to the
-//    origin w is as small as the gap, so that a rounded n will do, and only w itself has to be
-//    right.
-// 2. n points away from the second body's other vertices or towards them, and the other way round
-//    for the first's: all neighbours of the seeds' vertices must say the same. By convexity then
-//    all differences lie on one side of the triangle's plane.
-// 3. The origin on the other side: apart. On the same side, and in the tetrahedron of the triangle
-//    (two of them for the parallelogram of two edges) and a difference off the plane: they meet.
+// The differences b - a of points of the features are w0 + s e1 + t e2: a parallelogram for two
+// edges, a triangle for a vertex and a face.
+// 1. n = e1 x e2 in doubles, and h = n . w for the difference w nearest to the origin, or one near
+//    it: any point of the plane will do, as n is square to it. There w is as small as the gap, so
+//    that a rounded n will do, and only w itself has to be right (split_point.hpp).
+// 2. The plane supports a body if the neighbours of its feature lie on one side: all of a vertex's,
+//    a corner of each of an edge's two faces, one beside a face. By convexity then all differences
+//    lie on one side of the features' plane, if the bodies do not lie on the same.
+// 3. The origin on the other side: apart. On the same side, and in the pyramid over the features'
+//    differences whose apex is another difference: they meet.
 #include "collision/lp/touching_features.hpp"
 
 #include <algorithm>
@@ -18,219 +18,245 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
-#include "collision/closest/double_double.hpp"
+#include "collision/lp/relative_pose.hpp"
+#include "collision/lp/split_point.hpp"
 #include "geometry/tolerance.hpp"
 
 namespace carpus::collision {
 namespace {
 
-/// Bounds of relative errors in twice the digits: one operation is off by at most 2^-102 of the
-/// magnitudes that enter [dekker1971]; a component of a placed point has under 16 of them.
-constexpr double kWideRoundoff = 0x1p-98;
+/// Sizes within which no product underflows or overflows in a way that the bounds do not cover.
+constexpr double kLeastSizeMm = 0x1p-40;
+constexpr double kMostSizeMm = 0x1p100;
+constexpr double kLeastSquaredNormal = 0x1p-600;
 
-/// Sizes within which no product of three underflows or overflows in a way that the bounds do not
-/// cover [mm].
-constexpr double kLeastSize = 1e-30;
-constexpr double kMostSize = 1e30;
+/// More than the sum of magnitudes of a row or a column of a matrix within kMostSquaredNorm.
+constexpr double kMostStretch = 3.1;
 
 double largest_component(const Vec3& v) noexcept {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-/// The seeds' vertices of one body: the first, and the steps to the second and the third, which are
-/// zero where these are the same.
-struct Corners {
+/// A feature of a placed body: a vertex, an edge or a face, of which three corners will do.
+template <std::size_t kCorners>
+struct Side {
   const PlacedBody& placed;
-  std::array<std::uint32_t, 3> vertices;
+  const Feature& feature;
+  bool is_turned = false;
+  std::array<std::uint32_t, 3> vertices{};
+  CornerShares<kCorners> at;
 
-  [[nodiscard]] const Vec3& at(std::size_t i) const noexcept {
-    return placed.body->vertices()[vertices[i]];
-  }
-  [[nodiscard]] Vec3 step(std::size_t i) const noexcept { return at(i) - at(0); }
-  [[nodiscard]] Vec3 turned_step(std::size_t i) const noexcept { return placed.rotation * step(i); }
-
-  /// The largest component of R v, had all products one sign.
-  [[nodiscard]] double magnitude(const Vec3& v) const noexcept {
-    double most = 0;
-    for (const Vec3& r : placed.rotation.rows) {
-      most = std::max(most, std::abs(r.x * v.x) + std::abs(r.y * v.y) + std::abs(r.z * v.z));
+  Side(const PlacedBody& p, const Feature& f) noexcept
+      : placed(p), feature(f), is_turned(p.rotation != Mat3::identity()) {
+    if constexpr (kCorners == 3) {
+      const std::vector<std::uint32_t>& face = p.body->faces()[f.id].corners;
+      vertices = {face[0], face[1], face[2]};
+    } else {
+      vertices = {f.id, f.head, 0};
     }
-    return most;
+    for (std::size_t i = 0; i < kCorners; ++i) at.corners[i] = p.body->vertices()[vertices[i]];
+  }
+  [[nodiscard]] Vec3 step(std::size_t i) const noexcept { return at.corners[i] - at.corners[0]; }
+  [[nodiscard]] Vec3 turned(const Vec3& v) const noexcept {
+    return is_turned ? placed.rotation * v : v;
+  }
+  [[nodiscard]] Vec3 turned_back(const Vec3& v) const noexcept {
+    if (!is_turned) return v;
+    const auto& r = placed.rotation.rows;
+    return r[0] * v.x + r[1] * v.y + r[2] * v.z;
+  }
+  [[nodiscard]] SplitPoint point(double size_mm) const noexcept {
+    return split_point(at, placed.rotation, is_turned, placed.translation, size_mm);
+  }
+  [[nodiscard]] bool is_covered() const noexcept {
+    return !is_turned || squared_norm(placed.rotation) <= kMostSquaredNorm;
+  }
+  [[nodiscard]] double size_mm() const noexcept {
+    return std::max(placed.body->largest_coordinate_mm(),
+                    largest_component(placed.translation) * 0.125);
+  }
+  /// At least the sum of components of any step within the body.
+  [[nodiscard]] double reach_mm() const noexcept { return 4 * placed.body->radius_mm(); }
+};
+
+/// The differences of the features' points, in doubles.
+struct Differences {
+  Vec3 w0;
+  Vec3 n;              ///< square to both edges
+  double squared = 0;  ///< of n
+  double largest = 0;  ///< component of n
+  double n_error = 0;  ///< of a component
+  double edge_mm = 0;  ///< more than a component of an edge
+  double s = 0;        ///< where the origin lies, as seen along n
+  double t = 0;
+
+  template <std::size_t kFirst, std::size_t kSecond>
+  Differences(const Side<kFirst>& a, const Side<kSecond>& b) noexcept
+      : w0(b.turned(b.at.corners[0]) - a.turned(a.at.corners[0]) +
+           (b.placed.translation - a.placed.translation)) {
+    if constexpr (kFirst == 1) {
+      set(b.step(1), b.step(2), b.turned(b.step(1)), b.turned(b.step(2)));
+    } else if constexpr (kFirst == 2) {
+      set(a.step(1), b.step(1), -a.turned(a.step(1)), b.turned(b.step(1)));
+    } else {
+      set(a.step(1), a.step(2), -a.turned(a.step(1)), -a.turned(a.step(2)));
+    }
   }
 
-  /// The placed point at(0) + s step(1) + t step(2).
-  [[nodiscard]] WideVec3 point(double s, double t) const noexcept {
-    WideVec3 p(at(0));
-    if (vertices[1] != vertices[0]) p = p + wide_step(1) * DoubleDouble(s);
-    if (vertices[2] != vertices[0]) p = p + wide_step(2) * DoubleDouble(t);
-    const Vec3& shift = placed.translation;
-    if (placed.rotation == Mat3::identity()) return p + WideVec3(shift);
-    const auto component = [&](std::size_t i) {
-      const Vec3& r = placed.rotation.rows[i];
-      return p.x * DoubleDouble(r.x) + p.y * DoubleDouble(r.y) + p.z * DoubleDouble(r.z) +
-             DoubleDouble(shift[i]);
-    };
-    return {component(0), component(1), component(2)};
+  /// The exact normal is within half of n's length, as the bounds of s and t take for granted.
+  [[nodiscard]] bool is_certain() const noexcept {
+    return squared > kLeastSquaredNormal && 8 * n_error < largest;
+  }
+  /// A bound of what s and t are off by, with w0 off by 128 u size.
+  [[nodiscard]] double share_error(double size_mm) const noexcept {
+    const double sum = taxicab(n);
+    const double away = largest_component(w0);
+    const double of_cross = edge_mm * kRoundoff * (3 * 128 * size_mm + 16 * away);
+    const double of_product = of_cross * (sum + 3 * n_error) +
+                              6 * away * edge_mm * (n_error + kRoundoff * sum) +
+                              n_error * (2 * sum + 3 * n_error);
+    return 2 * of_product / squared + 8 * kRoundoff;
   }
 
  private:
-  [[nodiscard]] WideVec3 wide_step(std::size_t i) const noexcept {
-    const Vec3& from = at(0);
-    const Vec3& to = at(i);
-    return {DoubleDouble::sum(to.x, -from.x), DoubleDouble::sum(to.y, -from.y),
-            DoubleDouble::sum(to.z, -from.z)};
+  void set(const Vec3& step1, const Vec3& step2, const Vec3& e1, const Vec3& e2) noexcept {
+    // Edges are off by 4 u of these bounds, 1 for the step and 3 for the turn; n by 20 u of both.
+    const double edge1 = 2 * taxicab(step1);
+    const double edge2 = 2 * taxicab(step2);
+    edge_mm = std::max(edge1, edge2);
+    n = cross(e1, e2);
+    n_error = 32 * kRoundoff * edge1 * edge2;
+    largest = largest_component(n);
+    squared = squared_length(n);
+    const double share = -1 / squared;
+    s = dot(cross(w0, e2), n) * share;
+    t = dot(cross(e1, w0), n) * share;
   }
 };
 
-/// Where the neighbours of a feature's vertex lie.
-struct Neighbours {
-  bool are_certain = false;  ///< all on one side, and every one by more than rounding
-  bool are_above = false;
-  std::uint32_t farthest = 0;  ///< from the plane
+/// How a body lies to the plane through its feature.
+struct Heights {
+  int side = 0;        ///< all of the body is on this side, by n; 0: not certain
+  double highest = 0;  ///< of a point of the body over the plane, times |n|; rounded down
 };
 
-/// On which side of the plane through `vertex` with normal n, whose components are off by `n_error`
-/// at most, its neighbours lie, but those on the features, which lie on the plane exactly.
-Neighbours neighbours_of(const PlacedBody& placed,
-                         std::uint32_t vertex,
-                         const Vec3& n,
-                         double n_error,
-                         std::span<const std::uint32_t> on_plane) noexcept {
-  // n turned into the body's frame; `error` bounds what a component is off by. Rounding: 4 u for a
-  // component of the turned normal, 1 u for the step, 3 u for the sum of products, and n's own.
-  Vec3 turned;
-  Vec3 error;
-  const double off = 16 * kRoundoff * largest_component(n) + n_error;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& r = placed.rotation.rows[i];
-    turned += r * n[i];
-    error += Vec3{std::abs(r.x), std::abs(r.y), std::abs(r.z)} * off;
-  }
-  const Vec3& from = placed.body->vertices()[vertex];
-  Neighbours found;
-  double most = 0;
-  bool is_any_below = false;
-  bool is_any_above = false;
-  for (const std::uint32_t neighbour : placed.body->vertex_neighbours(vertex)) {
-    if (std::find(on_plane.begin(), on_plane.end(), neighbour) != on_plane.end()) continue;
-    const Vec3 step = placed.body->vertices()[neighbour] - from;
-    const double bound = error.x * std::abs(step.x) + error.y * std::abs(step.y) +
-                         error.z * std::abs(step.z) + kUnderflowBound;
-    const double height = dot(turned, step);
-    if (!(std::abs(height) > bound)) return found;
-    (height > 0 ? is_any_above : is_any_below) = true;
-    if (std::abs(height) > most) {
-      most = std::abs(height);
-      found.farthest = neighbour;
-    }
-  }
-  found.are_certain = is_any_above != is_any_below;
-  found.are_above = is_any_above;
-  return found;
+/// A corner of the face that is not on its edge.
+std::uint32_t corner_beside(const ConvexBody& body,
+                            std::uint32_t face,
+                            std::uint32_t tail,
+                            std::uint32_t head) noexcept {
+  const std::vector<std::uint32_t>& corners = body.faces()[face].corners;
+  if (corners.size() == 3) return corners[0] ^ corners[1] ^ corners[2] ^ tail ^ head;
+  return *std::find_if(corners.begin(), corners.end(),
+                       [&](std::uint32_t c) { return c != tail && c != head; });
 }
 
-/// Is the origin strictly within the three planes through the apex and the triangle's sides? With
-/// `sign` that of the triangle's normal towards the apex, and components off by `error` at most.
-bool is_below_triangle(const std::array<Vec3, 3>& w,
-                       const Vec3& apex,
-                       double error,
-                       double sign) noexcept {
-  const double size = std::max({largest_component(w[0]), largest_component(w[1]),
-                                largest_component(w[2]), largest_component(apex)});
-  // A sum of 6 products of three factors, each off by `error`, and 6 roundings: under 6 (3 error
-  // size^2 + 6 u size^3), and once more for second orders.
-  const double bound = (36 * error + 72 * kRoundoff * size) * size * size + kUnderflowBound;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!(sign * dot(cross(w[i], w[(i + 1) % 3]), apex) > bound)) return false;
+template <std::size_t kCorners>
+Heights heights_of(const Side<kCorners>& side, const Differences& plane) noexcept {
+  const ConvexBody& body = *side.placed.body;
+  const Vec3 turned = side.turned_back(plane.n);
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  const auto add = [&](std::uint32_t vertex) {
+    const double height = dot(turned, body.vertices()[vertex] - side.at.corners[0]);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  };
+  const auto add_beside = [&](std::uint32_t face) {
+    add(corner_beside(body, face, side.vertices[0], side.vertices[1]));
+  };
+  if constexpr (kCorners == 1) {
+    for (const std::uint32_t v : body.vertex_neighbours(side.feature.id)) add(v);
+  } else if constexpr (kCorners == 2) {
+    add_beside(side.feature.left);
+    add_beside(side.feature.right);
+  } else {
+    add_beside(body.faces()[side.feature.id].neighbours[0]);
   }
-  return true;
+  // A component of `turned` is off by that of n and 3 u; then 4 u for the step and its product.
+  const double bound =
+      kMostStretch * (1.1 * plane.n_error + 8 * kRoundoff * plane.largest) * side.reach_mm() +
+      kUnderflowBound;
+  if (lowest > bound) return {1, (highest - bound) * (1 - 8 * kRoundoff)};
+  if (highest < -bound) return {-1, (-lowest - bound) * (1 - 8 * kRoundoff)};
+  return {};
 }
 
-/// Vertices of a body whose edges from `vertex` lie on the triangle's plane exactly: two seeds with
-/// the same vertex of the other body differ by such an edge.
-std::array<std::uint32_t, 3> on_plane_with(std::uint32_t vertex,
-                                           const std::array<std::uint32_t, 3>& own,
-                                           const std::array<std::uint32_t, 3>& other) noexcept {
-  std::array<std::uint32_t, 3> found{vertex, vertex, vertex};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (own[i] == vertex && other[i] == other[k]) found[k] = own[k];
-    }
+/// h = n . w, and what it may be off by.
+struct Height {
+  double h = 0;
+  double error = 0;
+};
+
+template <std::size_t kFirst, std::size_t kSecond>
+Height height_of(Side<kFirst>& a,
+                 Side<kSecond>& b,
+                 const Differences& plane,
+                 double size_mm) noexcept {
+  const Grid grid(kShareUnit);
+  const double s = grid(std::clamp(plane.s, 0.0, 1.0));
+  const double t = grid(std::clamp(plane.t, 0.0, kFirst == 2 ? 1.0 : 1 - s));
+  if constexpr (kFirst == 1) {
+    b.at.shares = {0, s, t};
+  } else if constexpr (kFirst == 2) {
+    a.at.shares[1] = s;
+    b.at.shares[1] = t;
+  } else {
+    a.at.shares = {0, s, t};
   }
-  return found;
+  const Vec3 w = b.point(size_mm).minus(a.point(size_mm));
+  const double w_error = SplitPoint::kError * size_mm + kRoundoff * largest_component(w);
+  return {dot(plane.n, w), 2 * ((plane.n_error + 4 * kRoundoff * plane.largest) * taxicab(w) +
+                                3 * (plane.largest + plane.n_error) * w_error) +
+                               kUnderflowBound};
+}
+
+template <std::size_t kFirst>
+Verdict decide(const PlacedBody& first,
+               const PlacedBody& second,
+               const detail::FeaturePair& pair) noexcept {
+  Side<kFirst> a(first, pair.first);
+  Side<4 - kFirst> b(second, pair.second);
+  const double size = power_of_two_above(std::max(a.size_mm(), b.size_mm()));
+  if (!(size > kLeastSizeMm && size < kMostSizeMm && a.is_covered() && b.is_covered())) {
+    return Verdict::Unknown;
+  }
+  const Differences plane(a, b);
+  if (!plane.is_certain()) return Verdict::Unknown;
+  const Height of_origin = height_of(a, b, plane, size);
+  const double h = of_origin.h;
+  if (!(std::abs(h) > of_origin.error)) return Verdict::Unknown;
+
+  const Heights below = heights_of(a, plane);
+  if (below.side == 0) return Verdict::Unknown;
+  const Heights above = heights_of(b, plane);
+  if (above.side != -below.side) return Verdict::Unknown;
+  if ((h > 0) == (above.side > 0)) return Verdict::Apart;
+
+  // The origin lies by the share `deep` of the way to the apex below the features' differences.
+  // Seen from the apex it moves on their plane by at most deep (1 + 2 aside), where `aside` bounds
+  // how far, in s and t, the apex is from w0.
+  const double deep = (std::abs(h) + of_origin.error) / std::max(above.highest, below.highest);
+  const double aside =
+      4 * std::max(a.reach_mm(), b.reach_mm()) * plane.edge_mm * taxicab(plane.n) / plane.squared;
+  const double inside = std::min(
+      {plane.s, plane.t, kFirst == 2 ? std::min(1 - plane.s, 1 - plane.t) : 1 - plane.s - plane.t});
+  const double needed = 2 * deep * (1 + 2 * aside) + 2 * plane.share_error(size);
+  return inside > needed ? Verdict::Meet : Verdict::Unknown;
 }
 
 }  // namespace
 
 Verdict touching_features_meet(const PlacedBody& first,
                                const PlacedBody& second,
-                               const ExactHint& hint) noexcept {
-  if (hint.seed_count < 3) return Verdict::Unknown;
-  Corners a{first, {}};
-  Corners b{second, {}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    a.vertices[i] = hint.seeds[i][0];
-    b.vertices[i] = hint.seeds[i][1];
-  }
-  const Vec3 w0 = second.rotation * b.at(0) - first.rotation * a.at(0) +
-                  (second.translation - first.translation);
-  const Vec3 e1 = b.turned_step(1) - a.turned_step(1);
-  const Vec3 e2 = b.turned_step(2) - a.turned_step(2);
-  const double edge = std::max(b.magnitude(b.step(1)) + a.magnitude(a.step(1)),
-                               b.magnitude(b.step(2)) + a.magnitude(a.step(2)));
-  const double size = b.magnitude(b.at(0)) + a.magnitude(a.at(0)) +
-                      largest_component(second.translation) + largest_component(first.translation) +
-                      8 * edge;
-  if (!(size < kMostSize && edge > kLeastSize)) return Verdict::Unknown;
-  // Components of the edges are off by 6 u edge: steps 1, turned 3, difference 1. Of the normal by
-  // 2 (2 * 6 + 1) u edge^2 and 2 u edge^2.
-  const Vec3 n = cross(e1, e2);
-  const double n_error = 32 * kRoundoff * edge * edge;
-
-  // The triangle's point nearest to the origin, or one not too far away.
-  const double squared = squared_length(n);
-  const auto share = [squared](double s) { return std::clamp(s / squared, -2.0, 2.0); };
-  const double s = share(-dot(cross(w0, e2), n));
-  const double t = share(-dot(cross(e1, w0), n));
-  const Vec3 w = (b.point(s, t) - a.point(s, t)).rounded();
-  // n . w: n is off by n_error, w by its rounding and by that of twice the digits.
-  const double h = dot(n, w);
-  const double largest = largest_component(w);
-  const double w_error = 4 * kRoundoff * largest + kWideRoundoff * size;
-  const double h_error =
-      3 * (n_error * largest + (largest_component(n) + n_error) * w_error) + kUnderflowBound;
-  if (!(std::abs(h) > 2 * h_error)) return Verdict::Unknown;
-
-  const Neighbours around_first = neighbours_of(
-      first, a.vertices[1], n, n_error, on_plane_with(a.vertices[1], a.vertices, b.vertices));
-  if (!around_first.are_certain) return Verdict::Unknown;
-  const Neighbours around_second = neighbours_of(
-      second, b.vertices[1], n, n_error, on_plane_with(b.vertices[1], b.vertices, a.vertices));
-  if (!around_second.are_certain || around_second.are_above == around_first.are_above) {
-    return Verdict::Unknown;
-  }
-  // All differences lie on the side of the triangle's plane to which sign * n points.
-  const double sign = around_second.are_above ? 1 : -1;
-  if (sign * h > 0) return Verdict::Apart;
-
-  // From here doubles: components are off by 16 u size, and by 8 u of the step to the apex.
-  const std::array<Vec3, 3> corners{w0, w0 + e1, w0 + e2};
-  const Vec3 to_apex =
-      second.body->vertices()[around_second.farthest] - second.body->vertices()[b.vertices[1]];
-  const Vec3 apex = corners[1] + second.rotation * to_apex;
-  const double error = 16 * kRoundoff * (size + b.magnitude(to_apex));
-  if (is_below_triangle(corners, apex, error, sign)) return Verdict::Meet;
-  const bool is_two_edges = hint.seed_count == 4 && a.vertices[0] == a.vertices[1] &&
-                            b.vertices[0] == b.vertices[2] && hint.seeds[3][0] == a.vertices[2] &&
-                            hint.seeds[3][1] == b.vertices[1];
-  if (is_two_edges) {
-    const Vec3 opposite = corners[1] + e2;
-    if (is_below_triangle({opposite, corners[2], corners[1]}, apex, 2 * error, sign)) {
-      return Verdict::Meet;
-    }
-  }
+                               const detail::FeaturePair& pair) noexcept {
+  const FeatureKind a = pair.first.kind;
+  const FeatureKind b = pair.second.kind;
+  if (a == FeatureKind::Edge && b == FeatureKind::Edge) return decide<2>(first, second, pair);
+  if (a == FeatureKind::Vertex && b == FeatureKind::Face) return decide<1>(first, second, pair);
+  if (a == FeatureKind::Face && b == FeatureKind::Vertex) return decide<3>(first, second, pair);
   return Verdict::Unknown;
 }
 

@@ -1,24 +1,27 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two bodies that all but touch, told in twice the digits: most of what doubles cannot tell, at a
-// tenth of the cost of exact arithmetic.
+// Two bodies that all but touch, told from the features that do: most of what proofs in doubles
+// cannot tell, at a hundredth of the cost of exact arithmetic.
 #pragma once
 
+#include "collision/features/feature_pair.hpp"
 #include "collision/lp/exact_meeting.hpp"
 #include "collision/pair_query.hpp"
 
 namespace carpus::collision {
 
-/// Looks only at the features that the hint's first three seeds name: a vertex and a face, or two
-/// edges. Their plane supports both bodies if no neighbour of its vertices crosses it; then
-/// the side of the plane on which the origin of the differences lies tells whether the bodies are
-/// apart, and, below the features themselves, that they meet.
+/// Looks only at two edges, or a vertex and a face. If their plane supports both bodies, the side
+/// of it on which the origin of the differences lies tells whether the bodies are apart, and, right
+/// below the features themselves, that they meet.
 ///
-/// Unknown wherever that is not certain; never wrong: every sign is that of a value larger than
-/// the bound of its rounding. Real-time, no allocation.
+/// Unknown wherever that is not certain, and for other features and matrices that are far from a
+/// rotation; never wrong: every sign is that of a value larger than the bound of its rounding.
+/// Real-time, no allocation.
+/// @param pair  features of these bodies, edges with their own faces, as VoronoiFeatures gives
+/// them.
 [[nodiscard]] Verdict touching_features_meet(const PlacedBody& first,
                                              const PlacedBody& second,
-                                             const ExactHint& hint) noexcept;
+                                             const detail::FeaturePair& pair) noexcept;
 
 }  // namespace carpus::collision
