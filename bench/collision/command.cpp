@@ -23,8 +23,8 @@ void print_head(const std::string& bones) {
               p.flags.c_str(), p.commit.c_str(), bones.c_str());
   std::printf(
       "one thread; single queries by the processor's counter, less the %.1f ns that reading it "
-      "takes, in steps of %.1f ns,\neach the least of %d passes; ticks by processor time, each the "
-      "least of %d passes; !: answers differ\n\n",
+      "takes, in steps of %.1f ns,\neach the least of %d passes, to within such a step; ticks by "
+      "processor time, each the least of %d passes; !: answers differ\n\n",
       clock.overhead_seconds() * 1e9, clock.resolution_seconds() * 1e9, kQueryPasses, kPasses);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <vector>
 
 namespace carpus::bench {
@@ -32,11 +33,14 @@ CycleClock::CycleClock() {
   double sum = 0;
   for (int i = 0; i < kKept; ++i) sum += static_cast<double>(empty[static_cast<std::size_t>(i)]);
   overhead_ = sum / kKept;
-  for (std::size_t i = 1; i < empty.size(); ++i) {
-    if (empty[i] == empty[i - 1]) continue;
+  // A step that is no whole number of counts reads now one count more, now one less.
+  constexpr std::uint64_t kLeastStep = 3;
+  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t i = 1; i < kKept; ++i) {
     const std::uint64_t step = empty[i] - empty[i - 1];
-    step_ = step_ == 1 ? step : std::min(step_, step);
+    if (step >= kLeastStep) least = std::min(least, step);
   }
+  if (least != std::numeric_limits<std::uint64_t>::max()) step_ = least;
 }
 
 }  // namespace carpus::bench

@@ -5,7 +5,6 @@
 // of reading it measured and subtracted. Wall time: what interrupts a query counts.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <ctime>
 
@@ -33,9 +32,10 @@ class CycleClock {
            static_cast<std::uint64_t>(t.tv_nsec);
 #endif
   }
-  /// Between two now(), less what an empty measurement takes.
+  /// Between two now(), less what an empty measurement takes in the mean: of short times it is the
+  /// mean that is right, and one reading may be below zero.
   [[nodiscard]] double seconds(std::uint64_t begin, std::uint64_t end) const noexcept {
-    return std::max(0.0, static_cast<double>(end - begin) - overhead_) * seconds_per_count_;
+    return (static_cast<double>(end - begin) - overhead_) * seconds_per_count_;
   }
   [[nodiscard]] double overhead_seconds() const noexcept { return overhead_ * seconds_per_count_; }
 

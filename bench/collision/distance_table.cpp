@@ -102,7 +102,7 @@ Timing time_values(const PairEngine& engine,
   std::size_t shortest = passes.front().size();
   for (const auto& p : passes) shortest = std::min(shortest, p.size());
   for (auto& p : passes) p.resize(shortest);
-  Timing timing = timing_of(passes);
+  Timing timing = timing_of(passes, clock.resolution_seconds());
   timing.missing = found.missing;
   timing.largest_error_mm = found.largest_error_mm;
   return timing;

@@ -13,12 +13,6 @@ namespace {
 using collision::PairQuery;
 using collision::Verdict;
 
-/// The value that a share of the sorted values does not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
-  return sorted[std::min(at, sorted.size() - 1)];
-}
-
 void score(Timing& counts, const TimedPose& pose, Verdict verdict) {
   if (verdict == Verdict::Unknown) {
     ++counts.unknown;
@@ -65,7 +59,7 @@ Timing time_verdicts(const PairEngine& engine,
   std::size_t shortest = passes.front().size();
   for (const auto& p : passes) shortest = std::min(shortest, p.size());
   for (auto& p : passes) p.resize(shortest);
-  Timing timing = timing_of(passes);
+  Timing timing = timing_of(passes, clock.resolution_seconds());
   timing.wrong = counts.wrong;
   timing.wrong_near = counts.wrong_near;
   timing.unknown = counts.unknown;
@@ -73,26 +67,6 @@ Timing time_verdicts(const PairEngine& engine,
 }
 
 }  // namespace
-
-Timing timing_of(const std::vector<std::vector<double>>& passes) {
-  Timing timing;
-  if (passes.empty() || passes.front().empty()) return timing;
-  std::vector<double> least = passes.front();
-  for (const auto& pass : passes) {
-    for (std::size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], pass[i]);
-  }
-  for (const double s : least) timing.mean += s / static_cast<double>(least.size());
-  std::sort(least.begin(), least.end());
-  timing.median = quantile(least, 0.5);
-  timing.p99 = quantile(least, 0.99);
-  timing.p999 = quantile(least, 0.999);
-  timing.worst = least.back();
-  timing.queries = least.size();
-  std::vector<double> first = passes.front();
-  std::sort(first.begin(), first.end());
-  timing.p99_one_pass = quantile(first, 0.99);
-  return timing;
-}
 
 CollisionRow measure_verdicts(const PairEngine& engine,
                               const std::string& pose_case,

@@ -13,27 +13,9 @@
 #include "bench/capped_run.hpp"
 #include "bench/collision/engine.hpp"
 #include "bench/collision/poses.hpp"
+#include "bench/collision/timing.hpp"
 
 namespace carpus::bench {
-
-/// Crosses a pipe by its bytes.
-struct Timing {
-  double median = 0;  ///< seconds, each query the least of its passes
-  double p99 = 0;
-  double p999 = 0;
-  double worst = 0;
-  double mean = 0;
-  double p99_one_pass = 0;  ///< of the first pass alone, what else the machine did included
-  std::uint64_t queries = 0;
-  std::uint64_t wrong = 0;       ///< verdicts, beyond touching up to rounding
-  std::uint64_t wrong_near = 0;  ///< verdicts where the bodies touch up to rounding
-  std::uint64_t unknown = 0;
-  double largest_error_mm = 0;  ///< of distances or depths, against the oracle
-  std::uint64_t missing = 0;    ///< distances or depths that were not given
-};
-
-/// passes[p][i]: seconds of query i in pass p.
-[[nodiscard]] Timing timing_of(const std::vector<std::vector<double>>& passes);
 
 /// One row of any table.
 struct CollisionRow {
