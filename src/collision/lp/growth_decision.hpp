@@ -47,7 +47,7 @@ template <typename Placed>
 }
 
 /// Do the last proofs still hold, measured anew by walks? Else Unknown. Bodies about to touch go
-/// back and forth, but a last separation is the better bet.
+/// back and forth, but a last separation is the better bet; one that is new comes after the rows.
 [[nodiscard]] inline Verdict walk_last_proofs(const ProofBody& first,
                                               const ProofBody& second,
                                               const PairPose& pose,
@@ -57,7 +57,7 @@ template <typename Placed>
   const Verdict last = ready.last();
   if (last == Verdict::Unknown) return last;
   if ((last == Verdict::Meet && ready.meets(first, pose, slack_mm)) ||
-      ready.parts(second, pose, slack_mm)) {
+      (!ready.is_new() && ready.parts(second, pose, slack_mm))) {
     ++counts.by_walking;
     return ready.last();
   }
@@ -104,9 +104,12 @@ template <typename Placed>
     const Verdict verdict = touching(of_rows);
     if (verdict != Verdict::Unknown) return verdict;
   }
-  if (ready.last() == Verdict::Apart && ready.meets(first, place.pose, place.slack_mm)) {
+  const Verdict last = ready.last();
+  if ((last != Verdict::Unknown && ready.is_new() &&
+       ready.parts(second, place.pose, place.slack_mm)) ||
+      (last == Verdict::Apart && ready.meets(first, place.pose, place.slack_mm))) {
     ++counts.by_walking;
-    return Verdict::Meet;
+    return ready.last();
   }
   look = program.look_at_features(place.relative, memory, counts);
   if (look == GrowthLook::Apart) return found_apart();

@@ -154,8 +154,11 @@ class ReadyProof {
                            double slack_mm) noexcept {
     if (!separation_.walk(second, pose, slack_mm)) return false;
     last_ = Verdict::Apart;
+    is_new_ = false;
     return true;
   }
+  /// The last verdict was none of parts(), which is then likely to fail again.
+  [[nodiscard]] bool is_new() const noexcept { return is_new_; }
   /// After a verdict: no point of the second body can change it by moving less, as seen from the
   /// first.
   [[nodiscard]] double margin_mm(const PairPose& pose, double slack_mm) const noexcept {
@@ -169,6 +172,7 @@ class ReadyProof {
            const Vec3& translation) noexcept {
     separation_.set(proof, first, second, translation);
     last_ = Verdict::Apart;
+    is_new_ = true;
   }
   void set(const CommonBallProof& proof,
            const ProofBody& first,
@@ -176,12 +180,17 @@ class ReadyProof {
            const Vec3& translation) noexcept {
     ball_.set(proof, first, second, translation);
     last_ = Verdict::Meet;
+    is_new_ = true;
   }
   /// Where exact numbers decided.
-  void set_unknown() noexcept { last_ = Verdict::Unknown; }
+  void set_unknown() noexcept {
+    last_ = Verdict::Unknown;
+    is_new_ = true;
+  }
 
  private:
   Verdict last_ = Verdict::Unknown;
+  bool is_new_ = false;
   ReadySeparation separation_;
   ReadyBall ball_;
 };
