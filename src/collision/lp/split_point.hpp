@@ -19,10 +19,10 @@
 namespace carpus::collision {
 
 /// The nearest multiple of a unit.
-class Grid {
+class NearestMultiple {
  public:
   /// @param unit  a power of two; numbers must be below 2^51 of it.
-  explicit constexpr Grid(double unit) noexcept : shift_(unit * 0x1.8p52) {}
+  explicit constexpr NearestMultiple(double unit) noexcept : shift_(unit * 0x1.8p52) {}
   [[nodiscard]] constexpr double operator()(double x) const noexcept {
     return (x + shift_) - shift_;
   }
@@ -43,7 +43,7 @@ inline constexpr double kShareUnit = 0x1p-26;
   return 2 * std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & kExponent);
 }
 
-/// high + low; high is exact, a multiple of size * 2^-48.
+/// high + low [mm]; high is exact, a multiple of size * 2^-48.
 struct SplitPoint {
   Vec3 high;
   Vec3 low;
@@ -57,7 +57,7 @@ struct SplitPoint {
   }
 };
 
-/// A point between a body's vertices.
+/// A point between a body's vertices [mm, the body's frame].
 template <std::size_t kCorners>
 struct CornerShares {
   std::array<Vec3, kCorners> corners{};
@@ -65,8 +65,9 @@ struct CornerShares {
   std::array<double, kCorners> shares{};
 };
 
-/// @param size  a power of two that no coordinate of a corner exceeds, nor an eighth of any of the
-///     translation; the rotation's squared norm is at most kMostSquaredNorm.
+/// The point where the rotation and the translation put it.
+/// @param size  a power of two [mm] that no coordinate of a corner exceeds, nor an eighth of any of
+///     the translation; the rotation's squared norm is at most kMostSquaredNorm.
 /// @param is_turned  false if the rotation is the identity.
 /// Exact are: sums of the corners' parts of 25 bits with shares of 27; the product of a rotation's
 /// part of 25 bits and a point's part of 25 bits; the sum of three of these and the translation's.
@@ -76,8 +77,8 @@ template <std::size_t kCorners>
                                             bool is_turned,
                                             const Vec3& translation,
                                             double size) noexcept {
-  const Grid coarse(size * 0x1p-24);
-  const Grid fine(size * 0x1p-48);
+  const NearestMultiple coarse(size * 0x1p-24);
+  const NearestMultiple fine(size * 0x1p-48);
   Vec3 point = of_body.corners[0];
   Vec3 rest;
   if constexpr (kCorners > 1) {
@@ -97,7 +98,7 @@ template <std::size_t kCorners>
     const Vec3 high = fine(point);
     return {high + shift, (point - high) + rest + shift_rest};
   }
-  const Grid matrix(0x1p-24);
+  const NearestMultiple matrix(0x1p-24);
   const Vec3 high = coarse(point);
   const Vec3 low = (point - high) + rest;
   const auto& r = rotation.rows;

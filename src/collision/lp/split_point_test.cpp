@@ -27,7 +27,7 @@ struct Placed {
 
   Placed(Rng& rng, double size) {
     for (Vec3& corner : of_body.corners) corner = in_cube(rng, size);
-    const Grid grid(kShareUnit);
+    const NearestMultiple grid(kShareUnit);
     double left = 1;
     for (std::size_t i = 1; i < kCorners; ++i) {
       of_body.shares[i] = grid(rng.uniform(0, left));

@@ -195,7 +195,7 @@ Height height_of(Side<kFirst>& a,
                  Side<kSecond>& b,
                  const Differences& plane,
                  double size_mm) noexcept {
-  const Grid grid(kShareUnit);
+  const NearestMultiple grid(kShareUnit);
   const double s = grid(std::clamp(plane.s, 0.0, 1.0));
   const double t = grid(std::clamp(plane.t, 0.0, kFirst == 2 ? 1.0 : 1 - s));
   if constexpr (kFirst == 1) {
