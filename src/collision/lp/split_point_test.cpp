@@ -53,8 +53,9 @@ struct Placed {
   }
 };
 
+/// 1; or 0, and nothing is looked at, where the points cannot be put on each other.
 template <std::size_t kFirst, std::size_t kSecond>
-void expect_right_difference(Rng& rng, double size) {
+int expect_right_difference(Rng& rng, double size) {
   const Placed<kFirst> a(rng, size);
   Placed<kSecond> b(rng, size);
   // All but on each other.
@@ -63,7 +64,7 @@ void expect_right_difference(Rng& rng, double size) {
   b.translation -= moved;
   if (std::abs(b.translation.x) > 8 * size || std::abs(b.translation.y) > 8 * size ||
       std::abs(b.translation.z) > 8 * size) {
-    return;
+    return 0;
   }
   const SplitPoint split = b.split(size);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -75,16 +76,19 @@ void expect_right_difference(Rng& rng, double size) {
     EXPECT_LE(std::abs(c.to_double()), SplitPoint::kError * size + 0x1p-53 * length(w));
   }
   EXPECT_LT(length(w), 0x1p-46 * size);  // what is left is rounding, and is told
+  return 1;
 }
 
 TEST(SplitPoint, GivesTheDifferenceOfPointsThatAllButCoincide) {
   Rng rng(71);
+  int looked_at = 0;
   for (int i = 0; i < 3000; ++i) {
     const double size = std::ldexp(1, static_cast<int>(rng.below(120)) - 40);
-    expect_right_difference<1, 3>(rng, size);
-    expect_right_difference<2, 2>(rng, size);
-    expect_right_difference<3, 1>(rng, size);
+    looked_at += expect_right_difference<1, 3>(rng, size);
+    looked_at += expect_right_difference<2, 2>(rng, size);
+    looked_at += expect_right_difference<3, 1>(rng, size);
   }
+  EXPECT_GT(looked_at, 5000);
 }
 
 TEST(SplitPoint, TakesSharesAtTheirEnds) {
