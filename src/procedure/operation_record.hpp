@@ -1,36 +1,41 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What was done, as far as the score needs it: plain values that the simulation hands over.
+// What was done, as far as any score needs it: plain values that the simulation hands over.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/units.hpp"
-#include "geometry/vec3.hpp"
-#include "procedure/step.hpp"
-#include "procedure/views.hpp"
+#include "procedure/situation.hpp"
 
 namespace carpus::procedure {
 
-/// One operation, finished or not. Frame Patient, posed case [mm].
+/// One way that an instrument took into bone, from entering to leaving or to the end. Harm stays on
+/// record whatever is undone.
+struct Pass {
+  instruments::InstrumentIndex instrument = instruments::kNoInstrument;
+  std::uint8_t first_body = kNoBody;
+  std::uint32_t bodies_entered = 0;  ///< bit i: body i, deeper than a scratch
+  double far_exit_mm = 0.0;          ///< tip beyond the target's far surface, at most
+  std::uint32_t far_exits = 0;
+  bool was_undone = false;
+  bool operator==(const Pass&) const = default;
+};
+
+/// One operation, finished or not.
 struct OperationRecord {
-  bool wire_in_scaphoid = false;  ///< the wire lies in the scaphoid now
-  Vec3 entry_in_patient{};        ///< where it entered the scaphoid's surface
-  Vec3 direction_in_patient{};    ///< unit, from the entry towards the tip
-  double wire_depth_mm = 0.0;     ///< entry to tip
-  double measured_mm = -1.0;      ///< last reading of the depth gauge, -1 for none
-  std::int32_t screw_index = -1;  ///< in screw_catalogue(), -1 for none
-  double screw_advance_mm = 0.0;  ///< depth of the screw's tip below the entry
-  std::uint32_t passes = 0;       ///< how often the wire entered bone anew
-  std::uint32_t far_exits = 0;    ///< how often its tip left the scaphoid on the far side
-  double far_exit_mm = 0.0;       ///< how far the tip was beyond the far cortex, at most
-  std::uint32_t wrong_bones = 0;  ///< bit `label`: the wire entered this bone
-  std::uint32_t undos = 0;
+  std::vector<LineFacts> lines;  ///< that lie in bone at the end, in hand or not
+  std::vector<Pass> passes;
   std::vector<Shot> shots;
+  double gauge_reading_mm = -1.0;  ///< last reading, -1 for none
+  double reamed_mm = 0.0;          ///< greatest depth of a reamer along its wire
+  double holding_share = 1.0;      ///< of a screw in untouched bone [1] (instruments/…holding)
+  std::uint32_t undos = 0;
   Tick ticks = 0;                     ///< duration
-  std::uint32_t completed_steps = 0;  ///< bit i: Step i
+  std::uint32_t completed_steps = 0;  ///< bit i: step i
   bool finished = false;
 };
 

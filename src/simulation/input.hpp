@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What an operator does in one tick: the only way anything reaches the simulation, from whatever
-// device, script or recording.
+// device, script or recording. Two hands, the wrist that is operated on, one command.
 #pragma once
 
 #include <array>
@@ -10,42 +10,69 @@
 #include <type_traits>
 
 #include "geometry/vec3.hpp"
+#include "procedure/situation.hpp"
 
 namespace carpus::simulation {
 
-/// The powered driver that holds the guide wire, or the screw driver once a screw is loaded.
+using instruments::InstrumentIndex;
+using instruments::kNoInstrument;
+using procedure::kHands;
+using procedure::WristPose;
+
+/// What turns the instrument in a hand.
 enum class Driver : std::uint8_t { Off = 0, Forward = 1, Reverse = 2 };
 
 /// Things done once rather than held.
 enum class CommandKind : std::uint8_t {
   None = 0,
-  TakeShot = 1,     ///< one fluoroscopy image; `rotation_deg`, `tilt_deg` say from where
-  Measure = 2,      ///< read the depth gauge at the guide wire
-  SelectScrew = 3,  ///< load the screw `index` of the catalogue on the driver
-  Undo = 4,         ///< back to the last checkpoint; counted, time and shots stay spent
-  Finish = 5,       ///< end the operation
+  TakeShot = 1,     ///< one fluoroscopy image from `rotation_deg`, `tilt_deg`
+  Take = 2,         ///< `hand` takes instrument `index` of the catalogue from the tray
+  PickUp = 3,       ///< `hand` takes hold of item `index`, which lies in bone
+  PutDown = 4,      ///< `hand` lets go: what stays in bone stays, the rest goes back to the tray
+  ReadGauge = 5,    ///< the gauge in `hand` is read
+  Undo = 6,         ///< back to the last checkpoint; counted, time and shots stay spent
+  Finish = 7,       ///< end the operation
 };
+inline constexpr std::uint8_t kCommandKinds = 8;
 
 struct Command {
   CommandKind kind = CommandKind::None;
-  std::int32_t index = 0;  ///< SelectScrew: position in the catalogue
-  double rotation_deg =
-      0.0;  ///< TakeShot: as fluoroscopy/c_arm.hpp: 0 = PA, 90 = lateral, 45 = pronated oblique
-  double tilt_deg = 0.0;  ///< TakeShot: towards proximal (positive) or distal
+  std::uint8_t hand = 0;
+  std::uint8_t index = 0;
+  double rotation_deg = 0.0;  ///< TakeShot: of the C-arm, from the forearm as scanned
+  double tilt_deg = 0.0;      ///< TakeShot: towards proximal (positive) or distal
 
   constexpr bool operator==(const Command&) const = default;
 };
 
-/// One tick's input. Frame Patient, in which the hand keeps still.
-struct Input {
-  Vec3 tip_in_patient;             ///< where the hand wants the instrument's tip [mm]
+/// How a hand's wish becomes motion.
+enum class Guidance : std::uint8_t {
+  Direct = 0,   ///< a device's pose, a script's: followed as it is
+  Planned = 1,  ///< a pointer's: far ways at a hand's speed, lifted over what is in the way
+};
+
+/// One hand. Frame Patient, in which the ulna keeps still.
+struct HandInput {
+  Vec3 tip_in_patient;             ///< where it wants the instrument's tip [mm]
   Vec3 shaft_in_patient{0, 0, 1};  ///< from the tip towards the hand; need not be normalised
-  double thrust_n = 0.0;           ///< push of the hand along the shaft towards the tip, 0 to 60 N
+  double thrust_n = 0.0;           ///< push along the shaft towards the tip, 0 to 60 N
   Driver driver = Driver::Off;
+  Guidance guidance = Guidance::Direct;
+
+  constexpr bool operator==(const HandInput&) const = default;
+};
+
+struct Input {
+  std::array<HandInput, kHands> hands;
+  WristPose wrist;  ///< where it is wanted; it follows at a hand's speed, within its limits
   Command command;
 
   constexpr bool operator==(const Input&) const = default;
 };
 static_assert(std::is_trivially_copyable_v<Input>);
+
+/// The input as recordings hold it and the world uses it: positions to 1/1024 mm, directions to
+/// 1/16384, angles to 1e-4 rad, forces to 1/64 N. Idempotent. What is not finite stays so.
+[[nodiscard]] Input quantised(const Input& input) noexcept;
 
 }  // namespace carpus::simulation

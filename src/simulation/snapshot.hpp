@@ -5,72 +5,90 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include "core/units.hpp"
+#include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
-#include "procedure/step.hpp"
+#include "simulation/input.hpp"
 
 namespace carpus::simulation {
 
-/// What the hand holds. None: the screw is seated and lies alone, driver and guide wire are out;
-/// `WireState` then still tells the line on which the screw lies.
-enum class Instrument : std::uint8_t { GuideWire = 0, ScrewDriver = 1, None = 2 };
+using procedure::kNoBody;
 
-/// Contact of the instrument's tip with bone.
-struct TipContact {
-  bool touching = false;
-  std::uint8_t label = 0;    ///< bone label (anatomy/bone_id.hpp) that is touched, 0 when none
-  double depth_mm = 0.0;     ///< how far the hand's target lies beyond the surface
-  Vec3 normal_in_patient{};  ///< outward surface normal
-  bool operator==(const TipContact&) const = default;
+inline constexpr std::size_t kMaxBodies = 32;
+inline constexpr std::size_t kMaxItems = 12;   ///< instruments in hands or in the body at once
+inline constexpr std::size_t kMaxTracks = 64;  ///< holes that are told one by one
+inline constexpr std::uint8_t kNoItem = 255;
+inline constexpr std::uint8_t kNoHand = 255;
+
+/// An instrument that is out of the tray.
+struct ItemView {
+  InstrumentIndex instrument = kNoInstrument;  ///< kNoInstrument: this place is empty
+  std::uint8_t hand = kNoHand;                 ///< that holds it
+  std::uint8_t body = kNoBody;  ///< in which its line is fixed, kNoBody while it is free
+  std::uint8_t wire = kNoItem;  ///< item on which it rides
+  Vec3 tip_in_patient{};        ///< where it really is, after contact [mm]
+  Vec3 shaft_in_patient{0, 0, 1};  ///< unit, from the tip towards the hand
+  bool in_target = false;
+  std::uint8_t tip_body = kNoBody;  ///< body in which its tip is
+  double tip_hu = 0.0;              ///< density at its tip, of what is left
+  Vec3 entry_in_patient{};          ///< of its line, while it is fixed
+  double depth_mm = 0.0;            ///< tip beyond the entry
+  double buried_mm = 0.0;           ///< screw: tail below the surface
+  bool operator==(const ItemView&) const = default;
 };
 
-/// The guide wire as it lies.
-struct WireState {
-  bool engaged = false;         ///< its tip is in bone, so its line is fixed
-  Vec3 entry_in_patient{};      ///< where it entered the scaphoid's surface [mm]
-  Vec3 tip_in_patient{};        ///< [mm]
-  Vec3 direction_in_patient{};  ///< unit vector from the entry towards the tip
-  double depth_mm = 0.0;        ///< from the entry to the tip, along the wire
-  std::uint32_t passes = 0;     ///< how often bone was entered anew
-  double tip_hu = 0.0;          ///< density at the tip, from the CT
-  std::uint8_t tip_label = 0;   ///< bone in which the tip is, 0 in soft tissue or a gap
-  bool operator==(const WireState&) const = default;
+/// What a hand feels.
+struct HandView {
+  std::uint8_t item = kNoItem;
+  bool touching = false;            ///< its free instrument touches bone
+  std::uint8_t touched_body = kNoBody;
+  double contact_depth_mm = 0.0;    ///< how far the hand's wish lies beyond where the tip is
+  Vec3 contact_normal_in_patient{};
+  Vec3 force_in_patient{};          ///< on the hand [N]
+  double resistance_n = 0.0;        ///< of bone along the shaft [N]
+  bool operator==(const HandView&) const = default;
 };
 
-/// The screw, once chosen.
-struct ScrewState {
-  std::int32_t index = -1;  ///< in the catalogue, -1 when none is chosen
-  double length_mm = 0.0;
-  double advance_mm = 0.0;  ///< depth of its tip below the entry point, along the wire
-  double buried_mm =
-      0.0;  ///< depth of its tail below the bone's surface; negative while it stands out
-  bool operator==(const ScrewState&) const = default;
+/// Bone that was removed: a round way, tapered, frame Bone of `body`.
+struct TrackView {
+  std::uint8_t body = kNoBody;
+  Vec3 from_in_bone{};
+  Vec3 to_in_bone{};
+  double from_radius_mm = 0.0;
+  double to_radius_mm = 0.0;
+  bool operator==(const TrackView&) const = default;
 };
 
 /// Kinds of things worth a line in the log.
 enum class EventKind : std::uint8_t {
   None = 0,
-  TouchedBone = 1,   ///< detail: label
-  WireEngaged = 2,   ///< detail: label
-  WireLeftBone = 3,  ///< the tip came out of the far side; detail: label that it left
-  WireWithdrawn = 4,
+  TouchedBone = 1,    ///< detail: body
+  EnteredBone = 2,    ///< an instrument engaged; detail: body
+  LeftFarSide = 3,    ///< the tip came out of the target's far side; value: mm
+  Withdrawn = 4,      ///< an instrument came out of bone; detail: instrument
   ShotTaken = 5,      ///< detail: number of the shot
-  Measured = 6,       ///< value: mm
-  ScrewSelected = 7,  ///< detail: index
-  ScrewSeated = 8,    ///< tail level with the surface for the first time; value: buried mm
-  StepCompleted = 9,  ///< detail: step
-  Undone = 10,
-  Finished = 11,
-  Refused = 12,    ///< a command that makes no sense now; detail: CommandKind
-  WrongBone = 13,  ///< the wire entered a bone that is not the scaphoid; detail: label
-  Slipped = 14,    ///< the turning tip slipped along a surface it met too flat; detail: label
+  GaugeRead = 6,      ///< value: mm
+  Taken = 7,          ///< detail: instrument
+  PutDown = 8,        ///< detail: instrument
+  Seated = 9,         ///< a screw's tail is level with the surface; value: buried mm
+  StepCompleted = 10,  ///< detail: step
+  Undone = 11,
+  Finished = 12,
+  Refused = 13,     ///< a command that makes no sense now; detail: Refusal
+  WrongBone = 14,   ///< a bone was entered that is neither target nor allowed; detail: body
+  Slipped = 15,     ///< a turning tip slipped along a surface it met too flat; detail: body
+  WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
+  Stripped = 17,    ///< a screw was turned on after it was seated and lost its hold
 };
 
 struct Event {
   EventKind kind = EventKind::None;
+  std::uint8_t item = kNoItem;  ///< whose it is
+  InstrumentIndex instrument = kNoInstrument;
   std::int32_t detail = 0;
   double value = 0.0;
   Tick tick = 0;
@@ -82,19 +100,22 @@ inline constexpr std::size_t kMaxEventsPerTick = 8;
 struct Snapshot {
   Tick tick = 0;
   std::uint64_t state_hash = 0;
-  procedure::Step step = procedure::Step::Survey;
-  std::uint32_t completed_steps = 0;  ///< bit i: Step i was done
-  Instrument instrument = Instrument::GuideWire;
-  Vec3 tip_in_patient{};           ///< where the instrument really is, after contact [mm]
-  Vec3 shaft_in_patient{0, 0, 1};  ///< unit, from the tip towards the hand
-  TipContact contact;
-  Vec3 force_in_patient{};    ///< on the hand [N]
-  double resistance_n = 0.0;  ///< of the bone against wire or screw, along the shaft [N]
-  WireState wire;
-  ScrewState screw;
-  double measured_mm = -1.0;  ///< last reading of the depth gauge, -1 before any
+  std::uint8_t step = 0;              ///< current one; the number of steps when finished
+  std::uint32_t completed_steps = 0;  ///< bit i: step i is done
+  std::array<HandView, kHands> hands{};
+  std::array<ItemView, kMaxItems> items{};
+  std::uint8_t body_count = 0;
+  std::array<Pose<frame::Patient, frame::Bone>, kMaxBodies> patient_from_bone{};
+  WristPose wrist;  ///< as it is held now
+  std::array<TrackView, kMaxTracks> tracks{};
+  std::uint8_t track_count = 0;
+  std::uint32_t tissue_revision = 0;  ///< changes whenever bone does
+  double gauge_reading_mm = -1.0;     ///< last reading, -1 before any
+  double holding_share = 1.0;         ///< of the screw in the target, of that in untouched bone
+  std::uint32_t passes = 0;           ///< how often bone was entered anew
   std::uint32_t shots = 0;
   std::uint32_t undos = 0;
+  bool can_undo = false;
   std::array<Event, kMaxEventsPerTick> events{};
   std::uint8_t event_count = 0;
   bool finished = false;

@@ -1,17 +1,23 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The world of one exercise, advanced by fixed ticks of 1 ms. The same case, seed and inputs give
-// the same bytes on every machine and at every optimisation level: a step uses only + - * / and
-// sqrt, allocates nothing, takes no lock and reads no clock.
+// The world of one exercise, advanced by fixed ticks of 1 ms: bodies with poses, instruments in two
+// hands or left in bone, bone that changes, a declared procedure. The same case, procedure, seed
+// and inputs give the same bytes on every machine and at every optimisation level: a step uses only
+// + - * / and sqrt, allocates nothing, takes no lock and reads no clock.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "cases/case_data.hpp"
+#include "core/result.hpp"
 #include "procedure/operation_record.hpp"
-#include "procedure/procedure_id.hpp"
+#include "procedure/procedure.hpp"
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
 
@@ -24,22 +30,25 @@ inline constexpr std::size_t kMaxShots = 512;
 struct TickFaults {
   std::uint64_t bad_inputs = 0;     ///< not finite or out of range; the last good one was used
   std::uint64_t forces_zeroed = 0;  ///< not finite before the limiter
-  std::uint64_t unresolved_contacts = 0;  ///< wire wedged: it stayed where it was
+  std::uint64_t unresolved_contacts = 0;  ///< an instrument is wedged: it stayed where it was
   std::uint64_t lost_events = 0;          ///< more than kMaxEventsPerTick
+  std::uint64_t lost_cuts = 0;            ///< the reserve for changed bone is used up
 };
 
 class World {
  public:
   /// Sets up an exercise; takes about 0.2 s and all the memory that it will need.
-  /// @param posed_case  the case in its operative posture (cases::apply_posture), with distance
-  ///                    fields and hulls; it must outlive the world and not change.
-  /// @throws InvalidInput when the case lacks a scaphoid, a CT or a bone's distance field.
-  World(const cases::CaseData& posed_case, procedure::ProcedureId procedure, std::uint64_t seed);
+  /// @param data  the case as scanned, with distance fields, CT and hand motion; it and the
+  ///              procedure must outlive the world and not change.
+  /// @throws InvalidInput when the case lacks what the procedure operates on, a CT or a bone's
+  ///     distance field.
+  World(const cases::CaseData& data, const procedure::Procedure& procedure, std::uint64_t seed);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Advances by one tick. After Command::Finish the world stands still and returns the last state.
+  /// Advances by one tick with the quantised input. After Finish the world stands still and returns
+  /// the last state.
   const Snapshot& step(const Input& input) noexcept;
 
   /// The state after the last tick.
@@ -48,14 +57,20 @@ class World {
   /// What the score needs; allocates, not for the 1 kHz thread.
   [[nodiscard]] procedure::OperationRecord operation_record() const;
 
+  /// Everything that decides the future, for keyframes. Not for the 1 kHz thread.
+  [[nodiscard]] std::vector<std::byte> write_state() const;
+  /// Takes over a state that write_state made, of the same case and procedure. Untrusted bytes: a
+  /// refusal leaves the world as it was.
+  [[nodiscard]] Result<bool> read_state(std::span<const std::byte> bytes);
+
   [[nodiscard]] const TickFaults& faults() const noexcept;
-  [[nodiscard]] procedure::ProcedureId procedure() const noexcept;
+  [[nodiscard]] const procedure::Procedure& procedure() const noexcept;
   [[nodiscard]] std::uint64_t seed() const noexcept;
-  [[nodiscard]] const cases::CaseData& posed_case() const noexcept;
+  [[nodiscard]] const cases::CaseData& case_data() const noexcept;
 
  private:
-  struct Model;  ///< fixed: fields, hulls, catalogue
-  struct State;  ///< plain data, copied for checkpoints
+  struct Model;  ///< fixed: bodies, shapes, the target's solid
+  struct State;  ///< what changes
   std::unique_ptr<Model> model_;
   std::unique_ptr<State> state_;
 };

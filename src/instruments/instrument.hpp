@@ -1,0 +1,104 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An instrument, defined once (data/instruments.json, data/screws.json): its shape for contact, how
+// it is held and moves, what it does to bone, how it is drawn and how it shows in the beam.
+// Frame Tool throughout: the foremost point is the origin, +z runs along the shaft towards the hand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/instrument_shape.hpp"
+
+namespace carpus::instruments {
+
+/// What it does to bone when it is driven.
+enum class Work : std::uint8_t {
+  None = 0,    ///< touches only: probe, sleeve, gauge
+  Drill = 1,   ///< cuts its own way and keeps to it: a wire
+  Ream = 2,    ///< widens the way of the wire on which it rides
+  Thread = 3,  ///< screws itself in over the wire on which it rides
+};
+
+/// Who turns it.
+enum class Drive : std::uint8_t { None = 0, Powered = 1, ByHand = 2 };
+
+/// How fast it goes on: 0 below the resistance, then linear in what is pushed beyond it.
+struct Feed {
+  double bite_n = 0.0;            ///< thrust that it needs even in soft tissue [N]
+  double resistance_share = 1.0;  ///< of a 1.14 mm wire's resistance in the same bone
+  double mm_per_s_per_n = 0.0;    ///< speed gained by each newton above the resistance
+  double fastest_mm_per_s = 0.0;
+  double back_mm_per_s = 0.0;  ///< in reverse
+};
+
+enum class Material : std::uint8_t { Steel = 0, Titanium = 1, Handle = 2, Black = 3 };
+
+/// One round part, for the eye.
+struct DrawnPart {
+  double from_mm = 0.0;  ///< along z
+  double to_mm = 0.0;
+  double radius_mm = 0.0;  ///< at from_mm
+  double end_radius_mm = 0.0;
+  bool is_threaded = false;
+  Material material = Material::Steel;
+};
+
+/// One rod of metal, for the beam.
+struct BeamRod {
+  double from_mm = 0.0;
+  double to_mm = 0.0;
+  double radius_mm = 0.0;
+  double end_radius_mm = 0.0;
+  double bore_radius_mm = 0.0;
+  double thread_depth_mm = 0.0;
+  double thread_pitch_mm = 1.0;
+  Material material = Material::Steel;
+};
+
+struct Instrument {
+  std::string id;    ///< stable, snake_case: "guide_wire", "acutrak_2_mini_24"
+  std::string name;  ///< for people: "Guide wire 1.14 mm"
+  std::string use;   ///< what it is for, one sentence
+  std::string mark;  ///< where its measures come from: "[S1]", "[K]", "[E]"
+  InstrumentShape shape;
+  double length_mm = 0.0;  ///< over all, tip to tail; what a gauge subtracts from
+  Work work = Work::None;
+  Drive drive = Drive::None;
+  Feed feed;
+  double cut_tip_radius_mm = 0.0;   ///< of the hole that it leaves, at its tip …
+  double cut_tail_radius_mm = 0.0;  ///< … and length_mm behind it (core of a screw's thread)
+  double bore_radius_mm = 0.0;      ///< rides on wires up to this radius; 0: it has no bore
+  bool is_sleeve = false;           ///< a wire may be led through its bore
+  bool is_gauge = false;            ///< reads how much of a wire is beyond its foot
+  bool stays = false;               ///< let go in bone, it stays there
+  double gauge_step_mm = 0.0;       ///< of its scale
+  std::vector<DrawnPart> parts;
+  std::vector<BeamRod> rods;
+  std::string family;  ///< of a screw: "acutrak_2_mini"; else empty
+  bool is_confirmed = false;  ///< measures checked against the maker's guide
+};
+
+/// Place in catalogue(): how Input, State and recordings of one program name an instrument. What is
+/// stored or sent names it by id.
+using InstrumentIndex = std::uint8_t;
+inline constexpr InstrumentIndex kNoInstrument = 255;
+
+/// All instruments, screws last by family and length. Read once, on the first call.
+/// @throws InvalidInput naming file and field when the built-in data are wrong.
+[[nodiscard]] std::span<const Instrument> catalogue();
+
+/// Empty when no instrument has this id.
+[[nodiscard]] std::optional<InstrumentIndex> instrument_of(std::string_view id);
+
+/// Reads instruments from JSON text; `file` names it in errors. For the catalogue and for tests.
+/// @throws InvalidInput "instruments.json: guide_wire: shape: radius_mm is missing".
+[[nodiscard]] std::vector<Instrument> read_instruments(std::string_view json, std::string_view file);
+
+}  // namespace carpus::instruments

@@ -1,0 +1,83 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a procedure sees of an operation while it goes on: plain facts that the simulation keeps, in
+// words that no single procedure owns. Steps are ticked off, and undone things noticed, by
+// predicates on these.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/units.hpp"
+#include "geometry/vec3.hpp"
+#include "instruments/instrument.hpp"
+
+namespace carpus::procedure {
+
+inline constexpr std::size_t kHands = 2;
+inline constexpr std::size_t kMaxSteps = 32;
+inline constexpr std::uint8_t kNoBody = 255;
+
+/// How hand and forearm are held, from the neutral wrist.
+struct WristPose {
+  double flexion_rad = 0.0;           ///< positive flexes
+  double radial_deviation_rad = 0.0;  ///< positive towards the thumb
+  double pronation_rad = 0.0;         ///< from the forearm as scanned, positive pronates
+  double traction_n = 0.0;
+  constexpr bool operator==(const WristPose&) const = default;
+};
+
+/// One fluoroscopy picture.
+struct Shot {
+  double rotation_deg = 0.0;  ///< relative to the forearm as it is held: fluoroscopy/c_arm.hpp,
+                              ///< 0 PA, 90 lateral, 45 pronated oblique
+  double tilt_deg = 0.0;      ///< towards proximal (positive) or distal
+  Tick tick = 0;
+  std::uint32_t completed_steps = 0;  ///< bit i: step i was done when it was taken
+  WristPose wrist;
+  bool operator==(const Shot&) const = default;
+};
+
+/// An instrument whose line is fixed in bone: a wire, and what rides on it. "Target" is the bone
+/// that the procedure operates on, all its fragments and the gap between them.
+struct LineFacts {
+  instruments::InstrumentIndex instrument = instruments::kNoInstrument;
+  std::uint8_t body = kNoBody;  ///< index in CaseData::bones: the frame in which the line is fixed
+  bool in_hand = false;
+  bool in_target = false;   ///< it entered the target on this line
+  Vec3 entry_in_bone{};     ///< where it entered the target, else bone at all [mm]
+  Vec3 direction_in_bone{};  ///< unit, from the entry towards the tip
+  double depth_mm = 0.0;    ///< tip beyond the entry; of what rides, its own tip
+  double chord_mm = 0.0;    ///< of the line inside the target, gap included; 0 outside it
+  double buried_mm = 0.0;   ///< a screw's tail below the surface; negative while it stands out
+  bool operator==(const LineFacts&) const = default;
+};
+
+/// What a hand holds and touches.
+struct HandFacts {
+  instruments::InstrumentIndex instrument = instruments::kNoInstrument;
+  std::uint8_t touched_body = kNoBody;
+  bool touches_target = false;
+  bool operator==(const HandFacts&) const = default;
+};
+
+/// Everything so far; spans live as long as the call. Predicates are noexcept, allocate nothing and
+/// use only + - * / and sqrt: they run in every tick.
+struct Situation {
+  Tick tick = 0;
+  std::array<HandFacts, kHands> hands{};
+  std::span<const LineFacts> lines;  ///< in the order in which they were laid
+  std::span<const Shot> shots;
+  std::uint32_t completed_steps = 0;
+  /// Number of shots when step i was last completed.
+  std::array<std::uint16_t, kMaxSteps> shots_at_completion{};
+  double gauge_reading_mm = -1.0;  ///< last one, -1 before any
+  double reamed_mm = 0.0;          ///< greatest depth of a reamer along its wire, from the entry
+  WristPose wrist;
+  bool is_finishing = false;  ///< this is the tick of Finish
+};
+
+}  // namespace carpus::procedure

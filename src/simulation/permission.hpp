@@ -1,0 +1,45 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What may be done now, and the reason where it may not: one rule for the world, which refuses, and
+// for whoever shows it beforehand.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "procedure/procedure.hpp"
+#include "simulation/input.hpp"
+#include "simulation/snapshot.hpp"
+
+namespace carpus::simulation {
+
+/// Why a command is refused.
+enum class Refusal : std::uint8_t {
+  None = 0,  ///< it may be done
+  Finished,
+  UnknownCommand,
+  NoSuchHand,
+  ShotOutOfRange,
+  TooManyShots,
+  NotOnTheTray,
+  HandIsFull,        ///< what it holds is in bone and does not stay there: draw it back first
+  TooManyItems,
+  NoWireToRideOn,    ///< a reamer, gauge or screw needs a wire that lies in the target
+  WireIsTaken,       ///< something rides on that wire already
+  NothingInHand,
+  NothingThere,      ///< no such item, or it is in a hand already
+  SomethingRidesOnIt,
+  NoGaugeInHand,
+  NothingToUndo,
+};
+
+/// Plain comparisons on what the last tick left: real-time.
+[[nodiscard]] Refusal why_not(const procedure::Procedure& procedure,
+                              const Snapshot& now,
+                              const Command& command) noexcept;
+
+/// "no_wire_to_ride_on": stable, for the protocol.
+[[nodiscard]] std::string_view name_of(Refusal refusal) noexcept;
+
+}  // namespace carpus::simulation
