@@ -18,7 +18,6 @@ namespace carpus::bench {
 namespace {
 
 using collision::ContactField;
-using collision::InstrumentShape;
 using BonePose = Pose<frame::Patient, frame::Bone>;
 using ToolPose = Pose<frame::Patient, frame::Tool>;
 
@@ -29,11 +28,11 @@ constexpr double kSureMm = 0.35;
 constexpr std::size_t kTicks = 200;
 
 std::vector<InstrumentShape> instruments() {
-  return {InstrumentShape(collision::ConeTipShape{0.57, 1.5, 80}),           // wire
-          InstrumentShape(collision::ConeTipShape{1.2, 2.5, 60}),            // drill
-          InstrumentShape(collision::ThreadedCylinderShape{1, 1.5, 1, 24}),  // screw
-          InstrumentShape(collision::CapsuleShape{2, 60}),                   // driver
-          InstrumentShape(collision::SphereShape{1.5})};                     // probe
+  return {InstrumentShape(ConeTipShape{0.57, 1.5, 80}),           // wire
+          InstrumentShape(ConeTipShape{1.2, 2.5, 60}),            // drill
+          InstrumentShape(ThreadedCylinderShape{1, 1.5, 1, 24}),  // screw
+          InstrumentShape(CapsuleShape{2, 60}),                   // driver
+          InstrumentShape(SphereShape{1.5})};                     // probe
 }
 
 /// The hull of points of its balls: inside the true shape by some hundredths of a millimetre.
@@ -42,7 +41,7 @@ TriangleMesh mesh_of(const InstrumentShape& shape) {
   constexpr int kSides = 20;
   constexpr double kPi = 3.14159265358979323846;
   std::vector<Vec3> points;
-  for (const collision::AxisKnot& knot : shape.knots()) {
+  for (const AxisKnot& knot : shape.knots()) {
     for (int i = 0; i <= 2 * kRings; ++i) {
       const double up = kPi * (static_cast<double>(i) / (2 * kRings) - 0.5);
       for (int k = 0; k < kSides; ++k) {

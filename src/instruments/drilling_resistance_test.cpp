@@ -7,8 +7,6 @@
 
 #include <limits>
 
-#include "instruments/guide_wire.hpp"
-
 namespace carpus::instruments {
 namespace {
 
@@ -24,25 +22,14 @@ TEST(DrillingResistance, LiesInTheProposedRanges) {
   EXPECT_LT(wire_resistance_n(60.0), 1.0) << "the gap is nearly free";
 }
 
-RC_GTEST_PROP(DrillingResistance, GrowsWithDensityAndFeedWithThrust, ()) {
+RC_GTEST_PROP(DrillingResistance, GrowsWithDensity, ()) {
   const double hu = *rc::gen::inRange(-1000, 3000);
   const double more = *rc::gen::inRange(0, 500);
   RC_ASSERT(wire_resistance_n(hu + more) >= wire_resistance_n(hu));
-  const double thrust = *rc::gen::inRange(0, 60);
-  RC_ASSERT(wire_feed_mm_per_s(thrust + 1, wire_resistance_n(hu)) >=
-            wire_feed_mm_per_s(thrust, wire_resistance_n(hu)));
 }
 
-TEST(DrillingResistance, BelowTheResistanceNothingMoves) {
-  EXPECT_EQ(wire_feed_mm_per_s(10.0, 10.0), 0.0);
-  EXPECT_EQ(screw_feed_mm_per_s(0.0, screw_resistance_n(300)), 0.0);
+TEST(DrillingResistance, UnknownDensityResists) {
   EXPECT_GT(wire_resistance_n(std::numeric_limits<double>::quiet_NaN()), 0.0);
-}
-
-TEST(GuideWire, TapersToItsTip) {
-  EXPECT_EQ(wire_radius_at(0.0), 0.0);
-  EXPECT_EQ(wire_radius_at(kWireTipLengthMm), kWireRadiusMm);
-  EXPECT_EQ(wire_radius_at(50.0), kWireRadiusMm);
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 //
 // An instrument, defined once (data/instruments.json, data/screws.json): its shape for contact, how
 // it is held and moves, what it does to bone, how it is drawn and how it shows in the beam.
-// Frame Tool throughout: the foremost point is the origin, +z runs along the shaft towards the hand.
+// Frame Tool throughout: the foremost point is the origin, +z runs along the shaft towards the
+// hand.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,6 +18,7 @@
 #include <vector>
 
 #include "geometry/instrument_shape.hpp"
+#include "geometry/vec3.hpp"
 
 namespace carpus::instruments {
 
@@ -40,40 +44,48 @@ struct Feed {
 
 enum class Material : std::uint8_t { Steel = 0, Titanium = 1, Handle = 2, Black = 3 };
 
-/// One round part, for the eye.
+/// One round part, for the eye: a cone or cylinder about its axis, smooth or threaded.
 struct DrawnPart {
-  double from_mm = 0.0;  ///< along z
+  double from_mm = 0.0;  ///< along its axis
   double to_mm = 0.0;
-  double radius_mm = 0.0;  ///< at from_mm
+  double radius_mm = 0.0;  ///< at from_mm; of a thread the outer one
   double end_radius_mm = 0.0;
   bool is_threaded = false;
+  double pitch_mm = 0.0;      ///< of a thread at from_mm, crest to crest
+  double end_pitch_mm = 0.0;  ///< at to_mm
   Material material = Material::Steel;
+  bool only_in_hand = false;  ///< of what holds it: gone once it is let go
+  Vec3 origin_mm{};           ///< its axis starts here …
+  Vec3 axis{0, 0, 1};         ///< … and runs this way: a pistol's grip lies across the shaft
+  std::array<double, 2> squash{1, 1};  ///< scales across the axis: a grip is no cylinder
 };
 
 /// One rod of metal, for the beam.
 struct BeamRod {
   double from_mm = 0.0;
   double to_mm = 0.0;
-  double radius_mm = 0.0;
+  double radius_mm = 0.0;  ///< at from_mm; of a thread over its crests
   double end_radius_mm = 0.0;
   double bore_radius_mm = 0.0;
-  double thread_depth_mm = 0.0;
+  double thread_depth_mm = 0.0;  ///< crest minus root
   double thread_pitch_mm = 1.0;
   Material material = Material::Steel;
+  bool only_in_hand = false;
 };
 
 struct Instrument {
-  std::string id;    ///< stable, snake_case: "guide_wire", "acutrak_2_mini_24"
-  std::string name;  ///< for people: "Guide wire 1.14 mm"
-  std::string use;   ///< what it is for, one sentence
-  std::string mark;  ///< where its measures come from: "[S1]", "[K]", "[E]"
-  InstrumentShape shape;
-  double length_mm = 0.0;  ///< over all, tip to tail; what a gauge subtracts from
+  std::string id;                         ///< stable, snake_case: "guide_wire", "acutrak_2_mini_24"
+  std::string name;                       ///< for people: "Guide wire 1.14 mm"
+  std::string use;                        ///< what it is for, one sentence
+  std::string mark;                       ///< where its measures come from: "[S1]", "[K]", "[E]"
+  InstrumentShape shape{CapsuleShape{}};  ///< what of it can meet tissue
+  double length_mm = 0.0;                 ///< over all, tip to tail; what a gauge subtracts from
   Work work = Work::None;
   Drive drive = Drive::None;
   Feed feed;
   double cut_tip_radius_mm = 0.0;   ///< of the hole that it leaves, at its tip …
-  double cut_tail_radius_mm = 0.0;  ///< … and length_mm behind it (core of a screw's thread)
+  double cut_tail_radius_mm = 0.0;  ///< … and cut_length_mm behind it (core of a screw's thread)
+  double cut_length_mm = 0.0;       ///< further back the hole is as wide as there
   double bore_radius_mm = 0.0;      ///< rides on wires up to this radius; 0: it has no bore
   bool is_sleeve = false;           ///< a wire may be led through its bore
   bool is_gauge = false;            ///< reads how much of a wire is beyond its foot
@@ -81,8 +93,10 @@ struct Instrument {
   double gauge_step_mm = 0.0;       ///< of its scale
   std::vector<DrawnPart> parts;
   std::vector<BeamRod> rods;
-  std::string family;  ///< of a screw: "acutrak_2_mini"; else empty
-  bool is_confirmed = false;  ///< measures checked against the maker's guide
+  std::string family;             ///< of a screw: "acutrak_2_mini"; else empty
+  double tip_diameter_mm = 0.0;   ///< of a screw, over its thread
+  double tail_diameter_mm = 0.0;  ///< of a screw
+  bool is_confirmed = false;      ///< measures checked against the maker's guide
 };
 
 /// Place in catalogue(): how Input, State and recordings of one program name an instrument. What is
@@ -90,15 +104,30 @@ struct Instrument {
 using InstrumentIndex = std::uint8_t;
 inline constexpr InstrumentIndex kNoInstrument = 255;
 
-/// All instruments, screws last by family and length. Read once, on the first call.
+/// All instruments, at most 255: data/instruments.json, then the screws of data/screws.json by
+/// family and length. Read once, on the first call.
 /// @throws InvalidInput naming file and field when the built-in data are wrong.
 [[nodiscard]] std::span<const Instrument> catalogue();
 
 /// Empty when no instrument has this id.
 [[nodiscard]] std::optional<InstrumentIndex> instrument_of(std::string_view id);
 
-/// Reads instruments from JSON text; `file` names it in errors. For the catalogue and for tests.
+/// Reads instruments and families of screws from JSON text (format: data/README.md); `file` names
+/// it in errors. For the catalogue and for tests.
 /// @throws InvalidInput "instruments.json: guide_wire: shape: radius_mm is missing".
-[[nodiscard]] std::vector<Instrument> read_instruments(std::string_view json, std::string_view file);
+[[nodiscard]] std::vector<Instrument> read_instruments(std::string_view json,
+                                                       std::string_view file);
+
+/// Thrust [N] that the instrument needs to go on where a wire of 1.14 mm meets `wire_n`.
+[[nodiscard]] constexpr double resistance_n(const Feed& feed, double wire_n) noexcept {
+  return feed.bite_n + feed.resistance_share * wire_n;
+}
+
+/// Speed [mm/s] at which it goes on under this thrust; 0 below the resistance.
+[[nodiscard]] constexpr double speed_mm_per_s(const Feed& feed,
+                                              double thrust_n,
+                                              double resistance) noexcept {
+  return std::clamp(feed.mm_per_s_per_n * (thrust_n - resistance), 0.0, feed.fastest_mm_per_s);
+}
 
 }  // namespace carpus::instruments

@@ -7,7 +7,7 @@
 
 #include "collision/surface/contact_field.hpp"
 #include "collision/surface/instrument_contact.hpp"
-#include "collision/surface/shapes.hpp"
+#include "geometry/instrument_shape.hpp"
 #include "collision/surface/triangle_tree.hpp"
 #include "geometry/pose.hpp"
 

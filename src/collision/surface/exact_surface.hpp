@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "collision/surface/shapes.hpp"
+#include "geometry/instrument_shape.hpp"
 #include "collision/surface/triangle_tree.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/triangle_mesh.hpp"

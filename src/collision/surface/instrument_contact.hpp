@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "collision/surface/contact_field.hpp"
-#include "collision/surface/shapes.hpp"
+#include "geometry/instrument_shape.hpp"
 #include "geometry/pose.hpp"
 
 namespace carpus::collision {

@@ -11,7 +11,7 @@
 
 #include "collision/surface/contact_field.hpp"
 #include "collision/surface/instrument_contact.hpp"
-#include "collision/surface/shapes.hpp"
+#include "geometry/instrument_shape.hpp"
 #include "geometry/pose.hpp"
 
 namespace carpus::collision {

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "collision/surface/shapes.hpp"
+#include "geometry/instrument_shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
-namespace carpus::collision {
+namespace carpus {
 namespace {
 
 std::vector<InstrumentShape> one_of_each() {
@@ -61,8 +61,8 @@ TEST(Shapes, GiveTheConeItsStraightFlank) {
 
 TEST(Shapes, KnowTheirThread) {
   const InstrumentShape screw(ThreadedCylinderShape{1.0, 1.5, 0.8, 24});
-  EXPECT_DOUBLE_EQ(screw.thread().value_or(Thread{}).depth_mm, 0.5);
-  EXPECT_DOUBLE_EQ(screw.thread().value_or(Thread{}).pitch_mm, 0.8);
+  EXPECT_DOUBLE_EQ(screw.thread().value_or(ScrewThread{}).depth_mm, 0.5);
+  EXPECT_DOUBLE_EQ(screw.thread().value_or(ScrewThread{}).pitch_mm, 0.8);
   EXPECT_NEAR(screw.signed_distance({1.5, 0, 12}), 0, 1e-12);
   EXPECT_FALSE(InstrumentShape(SphereShape{}).thread().has_value());
 }
@@ -82,4 +82,4 @@ TEST(Shapes, RefuseImpossibleMeasures) {
 }
 
 }  // namespace
-}  // namespace carpus::collision
+}  // namespace carpus

@@ -13,7 +13,7 @@
 
 #include "geometry/vec3.hpp"
 
-namespace carpus::collision {
+namespace carpus {
 
 // Frame Tool throughout: the foremost point of the shape is the origin, +z runs along the shaft
 // towards the hand. Lengths are over all, ends included [mm].
@@ -57,7 +57,7 @@ struct AxisKnot {
   double radius_mm = 0;
 };
 
-struct Thread {
+struct ScrewThread {
   double depth_mm = 0;  ///< crest radius less core radius
   double pitch_mm = 0;
 };
@@ -80,7 +80,7 @@ class InstrumentShape {
   [[nodiscard]] double least_radius_mm() const noexcept { return knots_[0].radius_mm; }
   [[nodiscard]] double greatest_radius_mm() const noexcept { return knots_[count_ - 1].radius_mm; }
   /// Only of a threaded cylinder.
-  [[nodiscard]] const std::optional<Thread>& thread() const noexcept { return thread_; }
+  [[nodiscard]] const std::optional<ScrewThread>& thread() const noexcept { return thread_; }
 
   /// Radius of the ball centred at z; z is clamped to the axis.
   [[nodiscard]] double radius_at(double z_mm) const noexcept;
@@ -92,7 +92,7 @@ class InstrumentShape {
   std::array<AxisKnot, 3> knots_{};
   std::size_t count_ = 1;
   ShapeKind kind_;
-  std::optional<Thread> thread_;
+  std::optional<ScrewThread> thread_;
 };
 
-}  // namespace carpus::collision
+}  // namespace carpus

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "collision/surface/shapes.hpp"
+#include "geometry/instrument_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 
-namespace carpus::collision {
+namespace carpus {
 namespace {
 
 void require_positive(const char* shape, const char* name, double value) {
@@ -68,7 +68,7 @@ InstrumentShape::InstrumentShape(const ConeTipShape& shape) : kind_(ShapeKind::C
 
 InstrumentShape::InstrumentShape(const ThreadedCylinderShape& shape)
     : kind_(ShapeKind::ThreadedCylinder),
-      thread_(Thread{shape.crest_radius_mm - shape.core_radius_mm, shape.pitch_mm}) {
+      thread_(ScrewThread{shape.crest_radius_mm - shape.core_radius_mm, shape.pitch_mm}) {
   require_positive("threaded cylinder", "core_radius_mm", shape.core_radius_mm);
   require_positive("threaded cylinder", "crest_radius_mm", shape.crest_radius_mm);
   require_positive("threaded cylinder", "pitch_mm", shape.pitch_mm);
@@ -100,4 +100,4 @@ double InstrumentShape::signed_distance(const Vec3& point) const noexcept {
   return best;
 }
 
-}  // namespace carpus::collision
+}  // namespace carpus
