@@ -9,16 +9,15 @@
 #include "bench/collision/surface_peer.hpp"
 #include "bench/collision/tables.hpp"
 #include "bench/stopwatch.hpp"
-#include "collision/surface/distance_field.hpp"
-#include "collision/surface/instrument_scene.hpp"
+#include "contact/instrument_scene.hpp"
 #include "core/error.hpp"
+#include "fields/distance_field.hpp"
 #include "hull/fast_hull.hpp"
 
 namespace carpus::bench {
 namespace {
 
-using collision::ContactField;
-using collision::InstrumentShape;
+using fields::ContactField;
 using BonePose = Pose<frame::Patient, frame::Bone>;
 using ToolPose = Pose<frame::Patient, frame::Tool>;
 
@@ -29,11 +28,11 @@ constexpr double kSureMm = 0.35;
 constexpr std::size_t kTicks = 200;
 
 std::vector<InstrumentShape> instruments() {
-  return {InstrumentShape(collision::ConeTipShape{0.57, 1.5, 80}),           // wire
-          InstrumentShape(collision::ConeTipShape{1.2, 2.5, 60}),            // drill
-          InstrumentShape(collision::ThreadedCylinderShape{1, 1.5, 1, 24}),  // screw
-          InstrumentShape(collision::CapsuleShape{2, 60}),                   // driver
-          InstrumentShape(collision::SphereShape{1.5})};                     // probe
+  return {InstrumentShape(ConeTipShape{0.57, 1.5, 80}),           // wire
+          InstrumentShape(ConeTipShape{1.2, 2.5, 60}),            // drill
+          InstrumentShape(ThreadedCylinderShape{1, 1.5, 1, 24}),  // screw
+          InstrumentShape(CapsuleShape{2, 60}),                   // driver
+          InstrumentShape(SphereShape{1.5})};                     // probe
 }
 
 /// The hull of points of its balls: inside the true shape by some hundredths of a millimetre.
@@ -42,7 +41,7 @@ TriangleMesh mesh_of(const InstrumentShape& shape) {
   constexpr int kSides = 20;
   constexpr double kPi = 3.14159265358979323846;
   std::vector<Vec3> points;
-  for (const collision::AxisKnot& knot : shape.knots()) {
+  for (const AxisKnot& knot : shape.knots()) {
     for (int i = 0; i <= 2 * kRings; ++i) {
       const double up = kPi * (static_cast<double>(i) / (2 * kRings) - 0.5);
       for (int k = 0; k < kSides; ++k) {
@@ -106,7 +105,7 @@ struct SurfaceRun {
 Timing time_own(const SurfaceRun& run, bool cold, Outcomes* outcomes) {
   std::vector<std::vector<double>> passes;
   for (int pass = 0; pass < kPasses; ++pass) {
-    collision::InstrumentScene scene(run.fields, instruments(), {.within_mm = kSureMm});
+    contact::InstrumentScene scene(run.fields, instruments(), {.within_mm = kSureMm});
     scene.update(run.script->bones[0], run.script->tools[0]);
     std::vector<double> seconds;
     for (std::size_t t = 0; t < kTicks; ++t) {
@@ -119,7 +118,7 @@ Timing time_own(const SurfaceRun& run, bool cold, Outcomes* outcomes) {
       for (std::size_t i = 0; i < scene.instrument_count(); ++i) {
         for (std::size_t b = 0; b < scene.bone_count(); ++b) {
           const auto& c = scene.contact(i, b);
-          const bool far = c.outcome == collision::ContactOutcome::Far;
+          const bool far = c.outcome == contact::ContactOutcome::Far;
           row.push_back(!far && std::abs(c.gap_mm) < kSureMm ? 2 : (c.has_contact() ? 1 : 0));
         }
       }
@@ -145,7 +144,7 @@ Timing time_peer(const SurfaceRun& run,
     for (std::size_t i = 0; i < run.tool_meshes.size(); ++i) {
       for (std::size_t b = 0; b < run.meshes.size(); ++b) {
         const auto relative = run.script->bones[t][b].inverse() * run.script->tools[t][i];
-        const collision::PairPose pose{relative.rotation, relative.translation};
+        const convex::PairPose pose{relative.rotation, relative.translation};
         touching.push_back(distance ? peer->distance(b, i, pose) <= 0 : peer->collide(b, i, pose));
       }
     }
@@ -170,9 +169,9 @@ std::vector<CollisionRow> surface_table(const BoneSet& bones, const BenchOptions
       throw InvalidInput("table surface needs surfaces: give --bones, a folder of <bone>.ply");
     }
     std::fprintf(stderr, "field of %s\n", bone.name.c_str());
-    run.fields.emplace_back(collision::build_distance_field(
-                                bone.surface, {.spacing_mm = kSpacingMm, .band_mm = kBandMm}),
-                            bone.surface);
+    run.fields.emplace_back(
+        fields::build_distance_field(bone.surface, {.spacing_mm = kSpacingMm, .band_mm = kBandMm}),
+        bone.surface);
     run.meshes.push_back(bone.surface);
     facets += static_cast<double>(bone.surface.facets.size());
   }

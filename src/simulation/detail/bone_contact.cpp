@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
+#include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
 #include "instruments/guide_wire.hpp"
 
@@ -20,14 +20,14 @@ constexpr int kMaxShaftSamples = 96;     // 80 mm in steps of at least 1 mm, and
 
 /// The wire as a square prism around it, thickened by the margin; no sin or cos, so that the filter
 /// too is the same on every machine.
-collision::ConvexBody thick_wire() {
+convex::ConvexBody thick_wire() {
   const double half = instruments::kWireRadiusMm + kHullMarginMm;
   std::vector<Vec3> corners;
   for (const double z : {-kHullMarginMm, instruments::kWireLengthMm}) {
     corners.insert(corners.end(),
                    {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
   }
-  return collision::ConvexBody(hull::build_convex_hull(corners).polytope);
+  return convex::ConvexBody(hull::build_convex_hull(corners).polytope);
 }
 
 Pose<frame::Patient, frame::Tool> tool_pose(const WirePose& wire) noexcept {
@@ -37,7 +37,7 @@ Pose<frame::Patient, frame::Tool> tool_pose(const WirePose& wire) noexcept {
 
 }  // namespace
 
-BoneContact::PosedBone::PosedBone(const cases::Bone& posed, const collision::ConvexBody& thick_wire)
+BoneContact::PosedBone::PosedBone(const cases::Bone& posed, const convex::ConvexBody& thick_wire)
     : bone(&posed),
       bone_from_patient(posed.patient_from_bone.inverse()),
       hull(posed.hull),
@@ -85,7 +85,7 @@ NearBones BoneContact::hulls_met(const NearBones& near, const WirePose& wire) no
     const auto bone_from_tool = bone.bone_from_patient * patient_from_tool;
     const auto verdict =
         bone.hull_and_wire.meets({bone_from_tool.rotation, bone_from_tool.translation});
-    if (verdict != collision::Verdict::Apart) met.index[met.count++] = near.index[i];
+    if (verdict != convex::Verdict::Apart) met.index[met.count++] = near.index[i];
   }
   return met;
 }
@@ -94,7 +94,7 @@ SurfacePoint BoneContact::surface_of(const PosedBone& bone, const Vec3& point) c
   SurfacePoint result;
   if (!bone.box.contains(point)) return result;
   const Vec3 local = (bone.bone_from_patient * Point<frame::Patient>{point}).v;
-  const auto sample = collision::sample_distance(bone.bone->distance_field, local);
+  const auto sample = fields::sample_distance(bone.bone->distance_field, local);
   if (!sample.is_inside_grid) return result;
   result.is_near = true;
   result.distance_mm = sample.distance_mm;
@@ -136,7 +136,7 @@ BoneContact::Penetration BoneContact::deepest_in(const PosedBone& bone,
   for (int i = 0; i < kMaxShaftSamples && along <= instruments::kWireLengthMm; ++i) {
     const Vec3 p = wire.tip + wire.shaft * along;
     const Vec3 local = (bone.bone_from_patient * Point<frame::Patient>{p}).v;
-    const auto sample = collision::sample_distance(bone.bone->distance_field, local);
+    const auto sample = fields::sample_distance(bone.bone->distance_field, local);
     const double radius = instruments::wire_radius_at(along);
     const double depth = radius - sample.distance_mm;
     if (sample.is_inside_grid && depth > deepest.depth_mm) {

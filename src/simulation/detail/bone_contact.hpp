@@ -10,8 +10,8 @@
 #include <deque>
 
 #include "cases/case_data.hpp"
-#include "collision/convex_body.hpp"
-#include "collision/lp/growth.hpp"
+#include "convex/convex_body.hpp"
+#include "convex/growth/growth.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/vec3.hpp"
 
@@ -74,13 +74,13 @@ class BoneContact {
 
  private:
   struct PosedBone {
-    PosedBone(const cases::Bone& posed, const collision::ConvexBody& thick_wire);
+    PosedBone(const cases::Bone& posed, const convex::ConvexBody& thick_wire);
 
     const cases::Bone* bone;
     Pose<frame::Bone, frame::Patient> bone_from_patient;
     Aabb box;  ///< of the surface, in Patient
-    collision::ConvexBody hull;
-    collision::GrowthQuery hull_and_wire;  ///< keeps its last proof, which changes no answer
+    convex::ConvexBody hull;
+    convex::GrowthQuery hull_and_wire;  ///< keeps its last proof, which changes no answer
   };
 
   /// Deepest penetration of the wire into one bone.
@@ -91,7 +91,7 @@ class BoneContact {
   [[nodiscard]] Penetration deepest_in(const PosedBone& bone, const WirePose& wire) const noexcept;
   [[nodiscard]] SurfacePoint surface_of(const PosedBone& bone, const Vec3& point) const noexcept;
 
-  collision::ConvexBody thick_wire_;
+  convex::ConvexBody thick_wire_;
   std::deque<PosedBone> bones_;  ///< never moved: the queries hold references
 };
 
