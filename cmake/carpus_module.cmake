@@ -1,17 +1,19 @@
 # Copyright 2026 The Carpus authors
 # SPDX-License-Identifier: Apache-2.0
 
-# carpus_module(<name> [DEPENDS <module>...] [PACKAGES <target>...] [PRIVATE_PACKAGES <target>...] [EMBED <file>...])
+# carpus_module(<name> [DEPENDS <module>...] [USED_BY <module>...] [PACKAGES <target>...] [PRIVATE_PACKAGES <target>...]
+#               [EMBED <file>...])
 #
 # Declares the module in the current directory: the library carpus::<name> from all *.cpp here and in
 # its folders (but program/, which holds a main) except the tests, and the test program <name>_test
 # from all *_test.cpp. Files are globbed, so that adding one touches no list. DEPENDS is the whole
-# truth about which modules it may include; tools/check_layers compares it with every #include.
+# truth about which modules it may include; tools/check_layers compares it with every #include. A
+# module with USED_BY is for the modules listed there alone; check_layers proves that too.
 #
 # EMBED makes each data/<file> available as `carpus::data::<stem>()`, declared by the module itself
 # as `namespace carpus::data { std::string_view <stem>(); }`: pure modules read no files.
 function(carpus_module name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PACKAGES;PRIVATE_PACKAGES;EMBED" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;USED_BY;PACKAGES;PRIVATE_PACKAGES;EMBED" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp
        ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/program/")

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "bytes.hpp"
-#include "collision/convex_body.hpp"
-#include "collision/pair_query.hpp"
+#include "convex/convex_body.hpp"
+#include "convex/pair_query.hpp"
 #include "geometry/mat3.hpp"
 #include "geometry/vec3.hpp"
 #include "hull/fast_hull.hpp"
@@ -45,7 +45,7 @@ inline double coordinate(Bytes& bytes, unsigned kind, std::size_t axis) {
 }
 
 /// Empty where the bytes make no body.
-inline std::optional<collision::ConvexBody> body_from(Bytes& bytes) {
+inline std::optional<convex::ConvexBody> body_from(Bytes& bytes) {
   const std::uint8_t first = bytes.byte();
   const unsigned kind = first % 8U;
   const std::size_t count = 4 + bytes.below(9);
@@ -62,11 +62,11 @@ inline std::optional<collision::ConvexBody> body_from(Bytes& bytes) {
   }
   hull::HullResult result = hull::build_fast_hull(points);
   if (result.status != hull::HullStatus::Ok) return std::nullopt;
-  return collision::ConvexBody(std::move(result.polytope));
+  return convex::ConvexBody(std::move(result.polytope));
 }
 
 /// A corner, a point of an edge or one of a face.
-inline Vec3 feature_of(Bytes& bytes, const collision::ConvexBody& body) {
+inline Vec3 feature_of(Bytes& bytes, const convex::ConvexBody& body) {
   const hull::PolygonalFace& face = body.faces()[bytes.below(body.faces().size())];
   const Vec3& a = body.vertices()[face.corners[0]];
   const Vec3& b = body.vertices()[face.corners[1]];
@@ -137,11 +137,11 @@ inline Mat3 matrix_from(Bytes& bytes, const Mat3& before) {
 }
 
 /// The pose that follows `before` on the way of the second body.
-inline collision::PairPose pose_from(Bytes& bytes,
-                                     const collision::ConvexBody& first,
-                                     const collision::ConvexBody& second,
-                                     const collision::PairPose& before) {
-  collision::PairPose pose{matrix_from(bytes, before.rotation), before.translation};
+inline convex::PairPose pose_from(Bytes& bytes,
+                                  const convex::ConvexBody& first,
+                                  const convex::ConvexBody& second,
+                                  const convex::PairPose& before) {
+  convex::PairPose pose{matrix_from(bytes, before.rotation), before.translation};
   const double size = first.radius_mm() + second.radius_mm();
   const std::size_t axis = bytes.below(3);
   switch (bytes.below(10)) {

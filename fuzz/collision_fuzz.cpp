@@ -16,14 +16,15 @@
 #include <string>
 #include <vector>
 
-#include "collision/lp/exact_meeting.hpp"
-#include "collision/lp/growth_scene.hpp"
-#include "collision/lp/test_oracle.hpp"
-#include "collision/pair_query.hpp"
-#include "collision/scene.hpp"
 #include "collision_course.hpp"
+#include "convex/exact_meeting.hpp"
+#include "convex/growth/test_oracle.hpp"
+#include "convex/pair_query.hpp"
 #include "geometry/exact_number.hpp"
 #include "geometry/tolerance.hpp"
+#include "survey/lp/growth_scene.hpp"
+#include "survey/methods.hpp"
+#include "survey/scene.hpp"
 
 namespace {
 
@@ -32,20 +33,20 @@ using carpus::kContactToleranceMm;
 using carpus::kRoundoff;
 using carpus::Mat3;
 using carpus::Vec3;
-using carpus::collision::BodyPose;
-using carpus::collision::BroadPhase;
-using carpus::collision::Closest;
-using carpus::collision::ConvexBody;
-using carpus::collision::exactly_meet;
-using carpus::collision::GrowthScene;
-using carpus::collision::Method;
-using carpus::collision::PairPose;
-using carpus::collision::PairQuery;
-using carpus::collision::Penetration;
-using carpus::collision::relative_pose;
-using carpus::collision::Scene;
-using carpus::collision::Verdict;
+using carpus::convex::Closest;
+using carpus::convex::ConvexBody;
+using carpus::convex::exactly_meet;
+using carpus::convex::PairPose;
+using carpus::convex::PairQuery;
+using carpus::convex::Penetration;
+using carpus::convex::Verdict;
 using carpus::fuzz::Bytes;
+using carpus::survey::BodyPose;
+using carpus::survey::BroadPhase;
+using carpus::survey::GrowthScene;
+using carpus::survey::Method;
+using carpus::survey::relative_pose;
+using carpus::survey::Scene;
 
 constexpr std::size_t kMostPoses = 12;
 /// All axes are tried for bodies with at most this many pairs of edges.
@@ -167,7 +168,7 @@ class Course {
     if (edge_count(first_) * edge_count(second_) > kMostEdgePairs || is_singular(pose_.rotation)) {
       return;
     }
-    const Verdict by_axes = carpus::collision::lp_test::verdict_by_all_axes(first_, second_, pose_);
+    const Verdict by_axes = carpus::convex::lp_test::verdict_by_all_axes(first_, second_, pose_);
     if (by_axes != expected_) fail("all axes: " + name_of(by_axes));
   }
 
@@ -258,7 +259,7 @@ class Course {
     if (!(left <= tolerance_mm_ + kEpaToleranceMm)) fail(name + " gives too small a depth");
   }
 
-  std::span<const Method> methods_ = carpus::collision::all_methods();
+  std::span<const Method> methods_ = carpus::survey::all_methods();
   const ConvexBody& first_;
   const ConvexBody& second_;
   std::vector<std::unique_ptr<PairQuery>> queries_;
@@ -278,7 +279,7 @@ class Scenes {
         growth_(std::array<const ConvexBody*, 3>{&bodies_[0], &bodies_[1], &bodies_[2]}) {
     constexpr std::array kPhases{BroadPhase::None, BroadPhase::AllBoxes, BroadPhase::SweepAndPrune};
     for (const BroadPhase phase : kPhases) {
-      boxed_.emplace_back(bodies_, *carpus::collision::find_method("lp_growth"), phase);
+      boxed_.emplace_back(bodies_, *carpus::survey::find_method("lp_growth"), phase);
     }
   }
 

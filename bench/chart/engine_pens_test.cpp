@@ -6,7 +6,7 @@
 
 #include "bench/chart/curve_chart.hpp"
 #include "bench/hull/engine.hpp"
-#include "collision/pair_query.hpp"
+#include "survey/methods.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -32,7 +32,7 @@ TEST(EnginePens, CollisionEnginesDiffer) {
   std::vector<std::string> names{"fcl",        "fcl_convex", "fcl_indep",
                                  "libccd_gjk", "libccd_mpr", "bullet",
                                  "glpk",       "clp",        "ivri_all_vertices"};
-  for (const collision::Method& m : collision::all_methods()) names.emplace_back(m.name);
+  for (const survey::Method& m : survey::all_methods()) names.emplace_back(m.name);
   expect_apart(names);
 }
 

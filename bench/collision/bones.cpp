@@ -26,9 +26,9 @@ ConvexPolytope hull_of(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::unique_ptr<collision::ConvexBody> body_of(const std::vector<Vec3>& points,
-                                               std::size_t count,
-                                               std::uint64_t seed) {
+std::unique_ptr<convex::ConvexBody> body_of(const std::vector<Vec3>& points,
+                                            std::size_t count,
+                                            std::uint64_t seed) {
   ConvexPolytope hull = hull_of(points);
   if (hull.vertices.size() > count) {
     Rng rng(seed);
@@ -38,7 +38,7 @@ std::unique_ptr<collision::ConvexBody> body_of(const std::vector<Vec3>& points,
     hull.vertices.resize(count);
     hull = hull_of(hull.vertices);
   }
-  return std::make_unique<collision::ConvexBody>(std::move(hull));
+  return std::make_unique<convex::ConvexBody>(std::move(hull));
 }
 
 double BoneSet::mean_facets() const {

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "collision/convex_body.hpp"
+#include "convex/convex_body.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace carpus::bench {
 
 struct Bone {
   std::string name;
-  std::unique_ptr<collision::ConvexBody> body;
+  std::unique_ptr<convex::ConvexBody> body;
   TriangleMesh surface;  ///< empty for bones of the model
 };
 
@@ -32,9 +32,9 @@ struct BoneSet {
 [[nodiscard]] BoneSet load_bones(const std::filesystem::path& folder);
 
 /// The hull of a random `count` of the points' own corners; of all where there are fewer.
-[[nodiscard]] std::unique_ptr<collision::ConvexBody> body_of(const std::vector<Vec3>& points,
-                                                             std::size_t count,
-                                                             std::uint64_t seed);
+[[nodiscard]] std::unique_ptr<convex::ConvexBody> body_of(const std::vector<Vec3>& points,
+                                                          std::size_t count,
+                                                          std::uint64_t seed);
 
 /// Pairs whose boxes, grown by `reach_mm`, overlap.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const BoneSet& set,

@@ -9,18 +9,18 @@
 #include <cstdint>
 #include <span>
 
-#include "collision/convex_body.hpp"
-#include "collision/pair_query.hpp"
+#include "convex/convex_body.hpp"
+#include "convex/pair_query.hpp"
 
 namespace carpus::bench {
 
 class ClimbingPair {
  public:
-  ClimbingPair(const collision::ConvexBody& first, const collision::ConvexBody& second)
+  ClimbingPair(const convex::ConvexBody& first, const convex::ConvexBody& second)
       : first_(&first), second_(&second) {}
 
-  void place(const collision::PairPose& pose) noexcept { pose_ = pose; }
-  [[nodiscard]] const collision::PairPose& pose() const noexcept { return pose_; }
+  void place(const convex::PairPose& pose) noexcept { pose_ = pose; }
+  [[nodiscard]] const convex::PairPose& pose() const noexcept { return pose_; }
   void forget() noexcept {
     has_axis_ = false;
     first_at_ = second_at_ = 0;
@@ -56,18 +56,18 @@ class ClimbingPair {
     return dot(n, first_support(n)) < dot(n, second_support(-n));
   }
   /// The last direction in which the peer asked for a support point of the first is kept.
-  [[nodiscard]] collision::Verdict answered(bool meet) noexcept {
+  [[nodiscard]] convex::Verdict answered(bool meet) noexcept {
     if (!meet) {
       axis_ = asked_;
       has_axis_ = true;
     }
-    return meet ? collision::Verdict::Meet : collision::Verdict::Apart;
+    return meet ? convex::Verdict::Meet : convex::Verdict::Apart;
   }
   [[nodiscard]] bool has_axis() const noexcept { return has_axis_; }
   [[nodiscard]] const Vec3& axis() const noexcept { return axis_; }
 
  private:
-  static std::uint32_t climb(const collision::ConvexBody& body,
+  static std::uint32_t climb(const convex::ConvexBody& body,
                              std::uint32_t at,
                              const Vec3& direction) noexcept {
     const std::span<const Vec3> vertices = body.vertices();
@@ -86,9 +86,9 @@ class ClimbingPair {
     }
   }
 
-  const collision::ConvexBody* first_;
-  const collision::ConvexBody* second_;
-  collision::PairPose pose_;
+  const convex::ConvexBody* first_;
+  const convex::ConvexBody* second_;
+  convex::PairPose pose_;
   Vec3 asked_;
   Vec3 axis_;
   bool has_axis_ = false;

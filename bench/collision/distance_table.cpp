@@ -14,8 +14,8 @@
 namespace carpus::bench {
 namespace {
 
-using collision::ConvexBody;
-using collision::PairQuery;
+using convex::ConvexBody;
+using convex::PairQuery;
 
 constexpr double kNearMm = 1;
 constexpr double kAgreementMm = 1e-9;
@@ -54,7 +54,7 @@ KnownScript known(const ConvexBody& first,
   return k;
 }
 
-std::optional<double> ask(PairQuery& query, const collision::PairPose& pose, bool depth) {
+std::optional<double> ask(PairQuery& query, const convex::PairPose& pose, bool depth) {
   if (depth) {
     const auto p = query.penetration(pose);
     return p ? std::optional(p->depth_mm) : std::nullopt;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/pair_query.hpp"
+#include "convex/pair_query.hpp"
 
 namespace carpus::bench {
 
@@ -20,12 +20,12 @@ struct PairEngine {
   bool gives_distance = false;
   bool gives_depth = false;
   /// Both bodies must outlive the query.
-  std::function<std::unique_ptr<collision::PairQuery>(const collision::ConvexBody&,
-                                                      const collision::ConvexBody&)>
+  std::function<std::unique_ptr<convex::PairQuery>(const convex::ConvexBody&,
+                                                   const convex::ConvexBody&)>
       make;
 };
 
-/// collision::all_methods(), in their order.
+/// survey::all_methods(), in their order.
 [[nodiscard]] std::vector<PairEngine> own_pair_engines();
 /// The peers that this machine has: FCL, libccd and Bullet.
 [[nodiscard]] std::vector<PairEngine> peer_pair_engines();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/collision/engine.hpp"
 #include "bench/collision/peers.hpp"
+#include "survey/methods.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 
 std::vector<PairEngine> own_pair_engines() {
   std::vector<PairEngine> engines;
-  for (const collision::Method& m : collision::all_methods()) {
+  for (const survey::Method& m : survey::all_methods()) {
     engines.push_back({std::string(m.name), false, m.gives_distance, m.gives_depth, m.make});
   }
   return engines;

@@ -24,7 +24,7 @@ bool is_slow(const std::string& name) {
 }
 
 /// A body like a carpal bone, all of whose points are corners.
-std::unique_ptr<collision::ConvexBody> pebble(std::size_t facets, std::uint64_t seed) {
+std::unique_ptr<convex::ConvexBody> pebble(std::size_t facets, std::uint64_t seed) {
   Rng rng(seed);
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < facets / 2 + 2; ++i) {

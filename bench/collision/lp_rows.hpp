@@ -10,14 +10,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "collision/convex_body.hpp"
-#include "collision/pair_query.hpp"
+#include "convex/convex_body.hpp"
+#include "convex/pair_query.hpp"
 
 namespace carpus::bench {
 
 class LpRows {
  public:
-  LpRows(const collision::ConvexBody& first, const collision::ConvexBody& second)
+  LpRows(const convex::ConvexBody& first, const convex::ConvexBody& second)
       : first_(&first), second_(&second) {
     for (std::size_t f = 0; f < first.faces().size(); ++f) {
       planes.push_back(first.face_plane(static_cast<std::uint32_t>(f)));
@@ -25,7 +25,7 @@ class LpRows {
     second_start = planes.size();
     planes.resize(planes.size() + second.faces().size());
   }
-  void place(const collision::PairPose& pose) noexcept {
+  void place(const convex::PairPose& pose) noexcept {
     for (std::size_t f = second_start; f < planes.size(); ++f) {
       const Plane& p = second_->face_plane(static_cast<std::uint32_t>(f - second_start));
       const Vec3 n = pose.rotation * p.normal;
@@ -37,8 +37,8 @@ class LpRows {
   std::size_t second_start = 0;  ///< before it the first's, which do not move
 
  private:
-  const collision::ConvexBody* first_;
-  const collision::ConvexBody* second_;
+  const convex::ConvexBody* first_;
+  const convex::ConvexBody* second_;
 };
 
 }  // namespace carpus::bench

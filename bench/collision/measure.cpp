@@ -10,8 +10,8 @@
 namespace carpus::bench {
 namespace {
 
-using collision::PairQuery;
-using collision::Verdict;
+using convex::PairQuery;
+using convex::Verdict;
 
 void score(Timing& counts, const TimedPose& pose, Verdict verdict) {
   if (verdict == Verdict::Unknown) {

@@ -32,8 +32,8 @@ struct CollisionRow {
 
 /// Bodies of one pair with its poses.
 struct PairScript {
-  const collision::ConvexBody* first = nullptr;
-  const collision::ConvexBody* second = nullptr;
+  const convex::ConvexBody* first = nullptr;
+  const convex::ConvexBody* second = nullptr;
   PoseScript poses;
 };
 

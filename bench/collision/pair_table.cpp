@@ -20,8 +20,8 @@ std::vector<CollisionRow> pair_table(const BoneSet& bones, bool cold, const Benc
   for (const std::string& pose_case : pose_cases()) {
     std::vector<PairScript> scripts;
     for (const auto& [i, j] : pairs) {
-      const collision::ConvexBody& first = *bones.bones[i].body;
-      const collision::ConvexBody& second = *bones.bones[j].body;
+      const convex::ConvexBody& first = *bones.bones[i].body;
+      const convex::ConvexBody& second = *bones.bones[j].body;
       scripts.push_back(
           {&first, &second, make_poses(pose_case, first, second, options.poses, i * 100 + j)});
     }

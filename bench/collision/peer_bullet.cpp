@@ -24,10 +24,10 @@
 namespace carpus::bench {
 namespace {
 
-using collision::Closest;
-using collision::PairPose;
-using collision::Penetration;
-using collision::Verdict;
+using convex::Closest;
+using convex::PairPose;
+using convex::Penetration;
+using convex::Verdict;
 
 Vec3 vector_of(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 btVector3 bullet_of(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -78,9 +78,9 @@ struct Side {
   [[nodiscard]] const btTransform& getWorldTransform() const { return placed; }
 };
 
-class BulletQuery final : public collision::PairQuery {
+class BulletQuery final : public convex::PairQuery {
  public:
-  BulletQuery(const collision::ConvexBody& first, const collision::ConvexBody& second)
+  BulletQuery(const convex::ConvexBody& first, const convex::ConvexBody& second)
       : pair_(first, second) {}
   Verdict meets(const PairPose& pose) noexcept override {
     place(pose);
@@ -162,10 +162,10 @@ class BulletQuery final : public collision::PairQuery {
 }  // namespace
 
 std::vector<PairEngine> bullet_engines() {
-  return {{"bullet", true, true, true,
-           [](const collision::ConvexBody& a, const collision::ConvexBody& b) {
-             return std::make_unique<BulletQuery>(a, b);
-           }}};
+  return {
+      {"bullet", true, true, true, [](const convex::ConvexBody& a, const convex::ConvexBody& b) {
+         return std::make_unique<BulletQuery>(a, b);
+       }}};
 }
 
 }  // namespace carpus::bench

@@ -10,11 +10,11 @@
 namespace carpus::bench {
 namespace {
 
-using collision::Verdict;
+using convex::Verdict;
 
-class ClpQuery final : public collision::PairQuery {
+class ClpQuery final : public convex::PairQuery {
  public:
-  ClpQuery(const collision::ConvexBody& first, const collision::ConvexBody& second)
+  ClpQuery(const convex::ConvexBody& first, const convex::ConvexBody& second)
       : rows_(first, second) {
     const std::size_t n = rows_.planes.size();
     values_.resize(3 * n);
@@ -29,7 +29,7 @@ class ClpQuery final : public collision::PairQuery {
     for (std::size_t i = 0; i < rows_.second_start; ++i) load(i);
     model_.setLogLevel(0);
   }
-  Verdict meets(const collision::PairPose& pose) noexcept override {
+  Verdict meets(const convex::PairPose& pose) noexcept override {
     rows_.place(pose);
     for (std::size_t i = rows_.second_start; i < rows_.planes.size(); ++i) load(i);
     constexpr double kOnes[] = {1, 1, 1};
@@ -66,8 +66,7 @@ class ClpQuery final : public collision::PairQuery {
 }  // namespace
 
 PairEngine clp_engine() {
-  return {"clp", true, false, false,
-          [](const collision::ConvexBody& a, const collision::ConvexBody& b) {
+  return {"clp", true, false, false, [](const convex::ConvexBody& a, const convex::ConvexBody& b) {
             return std::make_unique<ClpQuery>(a, b);
           }};
 }

@@ -17,11 +17,11 @@
 namespace carpus::bench {
 namespace {
 
-using collision::Closest;
-using collision::ConvexBody;
-using collision::PairPose;
-using collision::Penetration;
-using collision::Verdict;
+using convex::Closest;
+using convex::ConvexBody;
+using convex::PairPose;
+using convex::Penetration;
+using convex::Verdict;
 using FclVector = fcl::Vector3d;
 
 constexpr unsigned kMostIterations = 500;
@@ -51,7 +51,7 @@ std::optional<Penetration> penetration_of(double signed_distance,
                      vector_of(p), vector_of(q)};
 }
 
-class FclHookQuery final : public collision::PairQuery {
+class FclHookQuery final : public convex::PairQuery {
  public:
   FclHookQuery(const ConvexBody& first, const ConvexBody& second) : pair_(first, second) {}
   Verdict meets(const PairPose& pose) noexcept override {
@@ -108,7 +108,7 @@ std::shared_ptr<const Shape> shape_of(const ConvexBody& body) {
 }
 
 template <typename Solver>
-class FclShapeQuery final : public collision::PairQuery {
+class FclShapeQuery final : public convex::PairQuery {
  public:
   FclShapeQuery(const ConvexBody& first, const ConvexBody& second)
       : first_(shape_of(first)), second_(shape_of(second)) {

@@ -29,13 +29,13 @@ class FclSurfacePeer final : public SurfacePeer {
     for (const TriangleMesh& m : bones) bones_.push_back(model_of(m));
     for (const TriangleMesh& m : tools) tools_.push_back(model_of(m));
   }
-  double distance(std::size_t bone, std::size_t tool, const collision::PairPose& pose) override {
+  double distance(std::size_t bone, std::size_t tool, const convex::PairPose& pose) override {
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
     return fcl::distance(bones_[bone].get(), fcl::Transform3d::Identity(), tools_[tool].get(),
                          placed(pose), request, result);
   }
-  bool collide(std::size_t bone, std::size_t tool, const collision::PairPose& pose) override {
+  bool collide(std::size_t bone, std::size_t tool, const convex::PairPose& pose) override {
     const fcl::CollisionRequestd request;
     fcl::CollisionResultd result;
     return fcl::collide(bones_[bone].get(), fcl::Transform3d::Identity(), tools_[tool].get(),
@@ -43,7 +43,7 @@ class FclSurfacePeer final : public SurfacePeer {
   }
 
  private:
-  static fcl::Transform3d placed(const collision::PairPose& pose) {
+  static fcl::Transform3d placed(const convex::PairPose& pose) {
     fcl::Transform3d t = fcl::Transform3d::Identity();
     for (int i = 0; i < 3; ++i) {
       const Vec3& row = pose.rotation.rows[static_cast<std::size_t>(i)];

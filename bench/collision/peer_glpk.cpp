@@ -10,11 +10,11 @@
 namespace carpus::bench {
 namespace {
 
-using collision::Verdict;
+using convex::Verdict;
 
-class GlpkQuery final : public collision::PairQuery {
+class GlpkQuery final : public convex::PairQuery {
  public:
-  GlpkQuery(const collision::ConvexBody& first, const collision::ConvexBody& second)
+  GlpkQuery(const convex::ConvexBody& first, const convex::ConvexBody& second)
       : rows_(first, second), problem_(glp_create_prob()) {
     glp_term_out(GLP_OFF);
     glp_init_smcp(&options_);
@@ -32,7 +32,7 @@ class GlpkQuery final : public collision::PairQuery {
   GlpkQuery(const GlpkQuery&) = delete;
   GlpkQuery& operator=(const GlpkQuery&) = delete;
 
-  Verdict meets(const collision::PairPose& pose) noexcept override {
+  Verdict meets(const convex::PairPose& pose) noexcept override {
     rows_.place(pose);
     for (std::size_t i = rows_.second_start; i < rows_.planes.size(); ++i) load(i);
     if (is_cold_) glp_std_basis(problem_);
@@ -67,8 +67,7 @@ class GlpkQuery final : public collision::PairQuery {
 }  // namespace
 
 PairEngine glpk_engine() {
-  return {"glpk", true, false, false,
-          [](const collision::ConvexBody& a, const collision::ConvexBody& b) {
+  return {"glpk", true, false, false, [](const convex::ConvexBody& a, const convex::ConvexBody& b) {
             return std::make_unique<GlpkQuery>(a, b);
           }};
 }

@@ -10,8 +10,8 @@
 namespace carpus::bench {
 namespace {
 
-using collision::Penetration;
-using collision::Verdict;
+using convex::Penetration;
+using convex::Verdict;
 
 void support(const void* side, const ccd_vec3_t* d, ccd_vec3_t* out) {
   const Vec3 v = static_cast<const ClimbingSide*>(side)->support({d->v[0], d->v[1], d->v[2]});
@@ -27,9 +27,9 @@ void first_direction(const void* first, const void* /*second*/, ccd_vec3_t* out)
   ccdVec3Set(out, d.x, d.y, d.z);
 }
 
-class LibccdQuery final : public collision::PairQuery {
+class LibccdQuery final : public convex::PairQuery {
  public:
-  LibccdQuery(const collision::ConvexBody& first, const collision::ConvexBody& second, bool is_mpr)
+  LibccdQuery(const convex::ConvexBody& first, const convex::ConvexBody& second, bool is_mpr)
       : pair_(first, second), is_mpr_(is_mpr) {
     CCD_INIT(&ccd_);
     ccd_.first_dir = first_direction;
@@ -37,14 +37,14 @@ class LibccdQuery final : public collision::PairQuery {
     ccd_.center1 = ccd_.center2 = centre;
     ccd_.max_iterations = 200;
   }
-  Verdict meets(const collision::PairPose& pose) noexcept override {
+  Verdict meets(const convex::PairPose& pose) noexcept override {
     pair_.place(pose);
     if (pair_.last_axis_separates()) return Verdict::Apart;
     const int meet = is_mpr_ ? ccdMPRIntersect(&first_, &second_, &ccd_)
                              : ccdGJKIntersect(&first_, &second_, &ccd_);
     return pair_.answered(meet != 0);
   }
-  std::optional<Penetration> penetration(const collision::PairPose& pose) noexcept override {
+  std::optional<Penetration> penetration(const convex::PairPose& pose) noexcept override {
     pair_.place(pose);
     ccd_real_t depth = 0;
     ccd_vec3_t direction;
@@ -67,7 +67,7 @@ class LibccdQuery final : public collision::PairQuery {
 
 PairEngine engine(std::string name, bool is_mpr) {
   return {std::move(name), true, false, true,
-          [is_mpr](const collision::ConvexBody& a, const collision::ConvexBody& b) {
+          [is_mpr](const convex::ConvexBody& a, const convex::ConvexBody& b) {
             return std::make_unique<LibccdQuery>(a, b, is_mpr);
           }};
 }

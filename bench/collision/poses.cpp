@@ -10,8 +10,8 @@
 namespace carpus::bench {
 namespace {
 
-using collision::ConvexBody;
-using collision::PairPose;
+using convex::ConvexBody;
+using convex::PairPose;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kTurnAtStart = 2 * kDegree;

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "collision/pair_query.hpp"
+#include "convex/pair_query.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace carpus::bench {
@@ -21,10 +21,10 @@ class SurfacePeer {
   /// Least distance of the surfaces; 0 or less where they cross [mm].
   virtual double distance(std::size_t bone,
                           std::size_t tool,
-                          const collision::PairPose& bone_from_tool) = 0;
+                          const convex::PairPose& bone_from_tool) = 0;
   virtual bool collide(std::size_t bone,
                        std::size_t tool,
-                       const collision::PairPose& bone_from_tool) = 0;
+                       const convex::PairPose& bone_from_tool) = 0;
 };
 
 /// FCL: a tree of oriented boxes and swept spheres (OBBRSS) over each mesh.

@@ -9,15 +9,15 @@
 #include "bench/collision/surface_peer.hpp"
 #include "bench/collision/tables.hpp"
 #include "bench/stopwatch.hpp"
-#include "collision/surface/distance_field.hpp"
-#include "collision/surface/instrument_scene.hpp"
+#include "contact/instrument_scene.hpp"
 #include "core/error.hpp"
+#include "fields/distance_field.hpp"
 #include "hull/fast_hull.hpp"
 
 namespace carpus::bench {
 namespace {
 
-using collision::ContactField;
+using fields::ContactField;
 using BonePose = Pose<frame::Patient, frame::Bone>;
 using ToolPose = Pose<frame::Patient, frame::Tool>;
 
@@ -105,7 +105,7 @@ struct SurfaceRun {
 Timing time_own(const SurfaceRun& run, bool cold, Outcomes* outcomes) {
   std::vector<std::vector<double>> passes;
   for (int pass = 0; pass < kPasses; ++pass) {
-    collision::InstrumentScene scene(run.fields, instruments(), {.within_mm = kSureMm});
+    contact::InstrumentScene scene(run.fields, instruments(), {.within_mm = kSureMm});
     scene.update(run.script->bones[0], run.script->tools[0]);
     std::vector<double> seconds;
     for (std::size_t t = 0; t < kTicks; ++t) {
@@ -118,7 +118,7 @@ Timing time_own(const SurfaceRun& run, bool cold, Outcomes* outcomes) {
       for (std::size_t i = 0; i < scene.instrument_count(); ++i) {
         for (std::size_t b = 0; b < scene.bone_count(); ++b) {
           const auto& c = scene.contact(i, b);
-          const bool far = c.outcome == collision::ContactOutcome::Far;
+          const bool far = c.outcome == contact::ContactOutcome::Far;
           row.push_back(!far && std::abs(c.gap_mm) < kSureMm ? 2 : (c.has_contact() ? 1 : 0));
         }
       }
@@ -144,7 +144,7 @@ Timing time_peer(const SurfaceRun& run,
     for (std::size_t i = 0; i < run.tool_meshes.size(); ++i) {
       for (std::size_t b = 0; b < run.meshes.size(); ++b) {
         const auto relative = run.script->bones[t][b].inverse() * run.script->tools[t][i];
-        const collision::PairPose pose{relative.rotation, relative.translation};
+        const convex::PairPose pose{relative.rotation, relative.translation};
         touching.push_back(distance ? peer->distance(b, i, pose) <= 0 : peer->collide(b, i, pose));
       }
     }
@@ -169,9 +169,9 @@ std::vector<CollisionRow> surface_table(const BoneSet& bones, const BenchOptions
       throw InvalidInput("table surface needs surfaces: give --bones, a folder of <bone>.ply");
     }
     std::fprintf(stderr, "field of %s\n", bone.name.c_str());
-    run.fields.emplace_back(collision::build_distance_field(
-                                bone.surface, {.spacing_mm = kSpacingMm, .band_mm = kBandMm}),
-                            bone.surface);
+    run.fields.emplace_back(
+        fields::build_distance_field(bone.surface, {.spacing_mm = kSpacingMm, .band_mm = kBandMm}),
+        bone.surface);
     run.meshes.push_back(bone.surface);
     facets += static_cast<double>(bone.surface.facets.size());
   }

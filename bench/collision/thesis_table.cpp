@@ -13,8 +13,8 @@
 #include "bench/hull/bone_points.hpp"
 #include "bench/hull/thesis_tables.hpp"
 #include "bench/text_format.hpp"
-#include "collision/ivri/ivri_cd.hpp"
 #include "core/error.hpp"
+#include "survey/ivri/ivri_cd.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -63,24 +63,24 @@ PointSet points_of(const std::filesystem::path& folder, BoneId bone, std::size_t
                         : thinned_bone(file_of(folder, bone), vertices);
 }
 
-class IvriOnAllVertices final : public collision::PairQuery {
+class IvriOnAllVertices final : public convex::PairQuery {
  public:
   IvriOnAllVertices(std::span<const Vec3> first, std::span<const Vec3> second)
       : program_(first, second) {}
-  collision::Verdict meets(const collision::PairPose& pose) noexcept override {
+  convex::Verdict meets(const convex::PairPose& pose) noexcept override {
     switch (program_.query(pose).status) {
-      case collision::IvriStatus::Meet:
-        return collision::Verdict::Meet;
-      case collision::IvriStatus::Apart:
-        return collision::Verdict::Apart;
+      case survey::IvriStatus::Meet:
+        return convex::Verdict::Meet;
+      case survey::IvriStatus::Apart:
+        return convex::Verdict::Apart;
       default:
-        return collision::Verdict::Unknown;
+        return convex::Verdict::Unknown;
     }
   }
   void forget() noexcept override { program_.forget(); }
 
  private:
-  collision::IvriCd program_;
+  survey::IvriCd program_;
 };
 
 std::vector<PairEngine> engines_for(std::span<const Vec3> first, std::span<const Vec3> second) {
@@ -91,7 +91,7 @@ std::vector<PairEngine> engines_for(std::span<const Vec3> first, std::span<const
     }
   }
   engines.push_back({"ivri_all_vertices", false, false, false,
-                     [first, second](const collision::ConvexBody&, const collision::ConvexBody&) {
+                     [first, second](const convex::ConvexBody&, const convex::ConvexBody&) {
                        return std::make_unique<IvriOnAllVertices>(first, second);
                      }});
   for (PairEngine& peer : peer_lp_engines()) engines.push_back(std::move(peer));

@@ -10,19 +10,20 @@
 
 #include "bench/collision/tables.hpp"
 #include "bench/stopwatch.hpp"
-#include "collision/lp/growth_scene.hpp"
-#include "collision/scene.hpp"
-#include "collision/volumes/sweep_and_prune.hpp"
 #include "oracles/exact_meet.hpp"
+#include "survey/lp/growth_scene.hpp"
+#include "survey/methods.hpp"
+#include "survey/scene.hpp"
+#include "survey/volumes/sweep_and_prune.hpp"
 
 namespace carpus::bench {
 namespace {
 
-using collision::Closest;
-using collision::ConvexBody;
-using collision::PairPose;
-using collision::PairQuery;
-using collision::Verdict;
+using convex::Closest;
+using convex::ConvexBody;
+using convex::PairPose;
+using convex::PairQuery;
+using convex::Verdict;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr std::size_t kTicks = 1000;
@@ -150,9 +151,8 @@ class PairsEngine final : public TickEngine {
       }
       sweep_.update(boxes_);
       std::fill(verdicts_.begin(), verdicts_.end(), Verdict::Apart);
-      sweep_.for_each_overlapping([&](collision::IndexPair p) {
-        ask(collision::pair_number(p.first, p.second, bones.size()));
-      });
+      sweep_.for_each_overlapping(
+          [&](survey::IndexPair p) { ask(survey::pair_number(p.first, p.second, bones.size())); });
     } else {
       for (std::size_t p = 0; p < queries_.size(); ++p) ask(p);
     }
@@ -172,7 +172,7 @@ class PairsEngine final : public TickEngine {
   }
   const BoneSet* set_;
   TickSetup setup_;
-  collision::SweepAndPrune sweep_;
+  survey::SweepAndPrune sweep_;
   std::vector<Aabb> boxes_;
   std::vector<std::unique_ptr<PairQuery>> queries_;
   std::vector<PairPose> poses_;
@@ -180,20 +180,19 @@ class PairsEngine final : public TickEngine {
   double sum_ = 0;
 };
 
-std::vector<collision::BodyPose> body_poses(const std::vector<PairPose>& bones) {
-  std::vector<collision::BodyPose> poses;
+std::vector<survey::BodyPose> body_poses(const std::vector<PairPose>& bones) {
+  std::vector<survey::BodyPose> poses;
   for (const PairPose& p : bones) poses.push_back({p.rotation, p.translation});
   return poses;
 }
 
-/// collision::Scene: poses in the world in, relative poses inside the time.
+/// survey::Scene: poses in the world in, relative poses inside the time.
 class SceneEngine final : public TickEngine {
  public:
-  SceneEngine(std::span<const ConvexBody> bodies, const collision::Method& method, TickSetup setup)
-      : scene_(
-            bodies,
-            method,
-            setup.broad_phase ? collision::BroadPhase::SweepAndPrune : collision::BroadPhase::None),
+  SceneEngine(std::span<const ConvexBody> bodies, const survey::Method& method, TickSetup setup)
+      : scene_(bodies,
+               method,
+               setup.broad_phase ? survey::BroadPhase::SweepAndPrune : survey::BroadPhase::None),
         distance_(setup.distance) {}
   double tick(const std::vector<PairPose>& bones) override {
     const auto poses = body_poses(bones);
@@ -208,7 +207,7 @@ class SceneEngine final : public TickEngine {
   [[nodiscard]] std::span<const Verdict> verdicts() const override { return scene_.verdicts(); }
 
  private:
-  collision::Scene scene_;
+  survey::Scene scene_;
   bool distance_;
 };
 
@@ -230,7 +229,7 @@ class GrowthSceneEngine final : public TickEngine {
     for (const ConvexBody& b : bodies) all.push_back(&b);
     return all;
   }
-  collision::GrowthScene scene_;
+  survey::GrowthScene scene_;
 };
 
 struct NamedTick {
@@ -251,9 +250,9 @@ std::vector<NamedTick> tick_engines(const BoneSet& set,
     }
   }
   for (const std::string_view name : {"lp_growth", "closest_active_set", "gjk_table"}) {
-    const collision::Method* const found = collision::find_method(name);
+    const survey::Method* const found = survey::find_method(name);
     if (found == nullptr || (setup.distance && !found->gives_distance)) continue;
-    const collision::Method& m = *found;
+    const survey::Method& m = *found;
     all.push_back({"scene:" + std::string(m.name), false, [bodies, &m, setup] {
                      return std::make_unique<SceneEngine>(bodies, m, setup);
                    }});

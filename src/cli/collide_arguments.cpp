@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/collide_arguments.hpp"
+#include "survey/methods.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,11 +85,11 @@ Placement parse_pose(const std::string& option, const std::string& text) {
   return {rotation_from_quaternion(n[3], n[4], n[5], n[6]), {n[0], n[1], n[2]}};
 }
 
-const collision::Method& method_named(const std::string& name) {
-  if (const collision::Method* method = collision::find_method(name)) return *method;
+const survey::Method& method_named(const std::string& name) {
+  if (const survey::Method* method = survey::find_method(name)) return *method;
   std::string message = "unknown method '" + name + "'";
   std::string near;
-  for (const collision::Method& m : collision::all_methods()) {
+  for (const survey::Method& m : survey::all_methods()) {
     const bool is_near =
         edit_distance(name, m.name) <= 2 ||
         (name.size() > 1 && (m.name.find(name) != m.name.npos || name.find(m.name) != name.npos));

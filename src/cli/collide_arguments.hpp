@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/collide_report.hpp"
-#include "collision/pair_query.hpp"
+#include "survey/methods.hpp"
 
 namespace carpus::cli {
 
@@ -19,6 +19,6 @@ namespace carpus::cli {
 [[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& text);
 
 /// @throws UsageError naming methods whose names are near.
-[[nodiscard]] const collision::Method& method_named(const std::string& name);
+[[nodiscard]] const survey::Method& method_named(const std::string& name);
 
 }  // namespace carpus::cli

@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/collide_command.hpp"
+#include "survey/methods.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -27,9 +28,9 @@ namespace carpus::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using collision::Method;
-using collision::MotionOutcome;
-using collision::Verdict;
+using convex::Verdict;
+using survey::Method;
+using survey::MotionOutcome;
 using json = nlohmann::ordered_json;
 
 struct Arguments {
@@ -46,7 +47,7 @@ struct Arguments {
 
 void list_methods() {
   std::printf("%-20s %-8s %-5s %-24s %s\n", "method", "distance", "depth", "source", "limits");
-  for (const Method& m : collision::all_methods()) {
+  for (const Method& m : survey::all_methods()) {
     std::printf("%-20s %-8s %-5s %-24s %s\n", std::string(m.name).c_str(),
                 m.gives_distance ? "yes" : "-", m.gives_depth ? "yes" : "-",
                 std::string(m.source).c_str(),
@@ -94,7 +95,7 @@ CollideBody read_body(const Arguments& a, const std::string& name, const Placeme
                          ": a coordinate is beyond 1e100 or nearer to 0 than 1e-100; scale");
   }
   return {a.case_folder.empty() ? fs::path(name).filename().string() : name,
-          collision::ConvexBody(std::move(result.polytope)), placement};
+          convex::ConvexBody(std::move(result.polytope)), placement};
 }
 
 json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -138,7 +139,7 @@ const char* name_of(MotionOutcome outcome) {
 }
 
 json sweep_json(const CollideReport& report) {
-  const collision::ContactInterval& s = report.sweep;
+  const survey::ContactInterval& s = report.sweep;
   const bool has_times = s.outcome == MotionOutcome::WillMeet ||
                          s.outcome == MotionOutcome::Touching ||
                          s.outcome == MotionOutcome::HasPassed;

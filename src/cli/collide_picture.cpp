@@ -15,8 +15,8 @@
 namespace carpus::cli {
 namespace {
 
-using collision::MotionOutcome;
-using collision::Verdict;
+using convex::Verdict;
+using survey::MotionOutcome;
 
 constexpr std::uint32_t kWidth = 1320;
 constexpr std::uint32_t kHeight = 900;

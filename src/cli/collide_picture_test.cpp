@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/collide_picture.hpp"
+#include "survey/methods.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ CollideBody cube_at(const Vec3& place) {
                   (i & 4U) != 0 ? 1.0 : -1.0};
   }
   return {"cube",
-          collision::ConvexBody(hull::build_fast_hull(corners).polytope),
+          convex::ConvexBody(hull::build_fast_hull(corners).polytope),
           {Mat3::identity(), place}};
 }
 
@@ -39,22 +40,22 @@ std::ptrdiff_t marked_pixels(const Picture& picture) {
 TEST(CollideReport, AnswersInTheCommonFrame) {
   const CollideBody first = cube_at({10, 0, 0});
   const CollideReport apart = collide(first, cube_at({14, 0, 0}), nullptr, Vec3{-4, 0, 0});
-  EXPECT_EQ(apart.verdict, collision::Verdict::Apart);
-  const collision::Closest closest = apart.closest.value_or(collision::Closest{});
+  EXPECT_EQ(apart.verdict, convex::Verdict::Apart);
+  const convex::Closest closest = apart.closest.value_or(convex::Closest{});
   EXPECT_NEAR(closest.distance_mm, 2, 1e-12);
   EXPECT_NEAR(closest.on_first.x, 11, 1e-12);
   EXPECT_NEAR(apart.sweep.t_min_s, 0.5, 1e-12);
   EXPECT_NEAR(apart.sweep.first.point.x, 11, 1e-12);
 
   const CollideReport meet = collide(first, cube_at({11.5, 0, 0}), nullptr, {});
-  EXPECT_EQ(meet.verdict, collision::Verdict::Meet);
-  const collision::Penetration depth = meet.penetration.value_or(collision::Penetration{});
+  EXPECT_EQ(meet.verdict, convex::Verdict::Meet);
+  const convex::Penetration depth = meet.penetration.value_or(convex::Penetration{});
   EXPECT_NEAR(depth.depth_mm, 0.5, 1e-9);
   EXPECT_NEAR(depth.direction.x, 1, 1e-9);
 }
 
 TEST(CollideReport, SaysWhatAChosenMethodDoesNotGive) {
-  const collision::Method* ivri = collision::find_method("ivri");
+  const survey::Method* ivri = survey::find_method("ivri");
   const CollideReport report = collide(cube_at({}), cube_at({5, 0, 0}), ivri, {});
   EXPECT_EQ(report.method, ivri);
   EXPECT_EQ(report.distance_method, nullptr);

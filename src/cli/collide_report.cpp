@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/collide_report.hpp"
+#include "survey/methods.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +14,9 @@
 namespace carpus::cli {
 namespace {
 
-using collision::Method;
-using collision::PairPose;
-using collision::Verdict;
+using convex::PairPose;
+using convex::Verdict;
+using survey::Method;
 
 constexpr std::size_t kTimedQueries = 21;
 
@@ -23,15 +24,15 @@ constexpr std::size_t kTimedQueries = 21;
 template <typename Suits>
 const Method* choose(std::initializer_list<std::string_view> preferred, Suits suits) {
   for (const std::string_view name : preferred) {
-    const Method* method = collision::find_method(name);
+    const Method* method = survey::find_method(name);
     if (method != nullptr && suits(*method)) return method;
   }
-  const auto methods = collision::all_methods();
+  const auto methods = survey::all_methods();
   const auto found = std::find_if(methods.begin(), methods.end(), suits);
   return found == methods.end() ? nullptr : &*found;
 }
 
-double median_query_us(collision::PairQuery& query, const PairPose& pose) {
+double median_query_us(convex::PairQuery& query, const PairPose& pose) {
   std::array<double, kTimedQueries> times{};
   for (double& time : times) {
     query.forget();
@@ -44,19 +45,19 @@ double median_query_us(collision::PairQuery& query, const PairPose& pose) {
   return times[kTimedQueries / 2];
 }
 
-void place(collision::Closest& closest, const Placement& where) {
+void place(convex::Closest& closest, const Placement& where) {
   closest.on_first = where(closest.on_first);
   closest.on_second = where(closest.on_second);
   closest.normal = where.rotation * closest.normal;
 }
 
-void place(collision::Penetration& penetration, const Placement& where) {
+void place(convex::Penetration& penetration, const Placement& where) {
   penetration.on_first = where(penetration.on_first);
   penetration.on_second = where(penetration.on_second);
   penetration.direction = where.rotation * penetration.direction;
 }
 
-void place(collision::MotionContact& contact, const Placement& where) {
+void place(survey::MotionContact& contact, const Placement& where) {
   contact = {where(contact.point), where.rotation * contact.normal};
 }
 
@@ -98,7 +99,7 @@ CollideReport collide(const CollideBody& first,
 
   report.velocity_mm_per_s = velocity_mm_per_s;
   if (velocity_mm_per_s) {
-    collision::ContactIntervalQuery sweep(first.hull, second.hull);
+    survey::ContactIntervalQuery sweep(first.hull, second.hull);
     report.sweep = sweep.query(pose, back * *velocity_mm_per_s);
     place(report.sweep.first, first.placement);
     place(report.sweep.last, first.placement);

@@ -7,10 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "collision/motion/contact_interval.hpp"
-#include "collision/pair_query.hpp"
+#include "convex/pair_query.hpp"
 #include "geometry/mat3.hpp"
 #include "geometry/vec3.hpp"
+#include "survey/methods.hpp"
+#include "survey/motion/contact_interval.hpp"
 
 namespace carpus::cli {
 
@@ -23,30 +24,30 @@ struct Placement {
 
 struct CollideBody {
   std::string name;
-  collision::ConvexBody hull;
+  convex::ConvexBody hull;
   Placement placement;
 };
 
 /// Positions and directions in the common frame; methods by their names.
 struct CollideReport {
-  collision::Verdict verdict = collision::Verdict::Unknown;
-  const collision::Method* method = nullptr;
+  convex::Verdict verdict = convex::Verdict::Unknown;
+  const survey::Method* method = nullptr;
   double query_us = 0;  ///< of one verdict without memory of an earlier one, median of 21
 
-  const collision::Method* distance_method = nullptr;  ///< null: none was asked
-  std::optional<collision::Closest> closest;
-  const collision::Method* depth_method = nullptr;
-  std::optional<collision::Penetration> penetration;
+  const survey::Method* distance_method = nullptr;  ///< null: none was asked
+  std::optional<convex::Closest> closest;
+  const survey::Method* depth_method = nullptr;
+  std::optional<convex::Penetration> penetration;
 
   std::optional<Vec3> velocity_mm_per_s;  ///< of the second body against the first
-  collision::ContactInterval sweep;
+  survey::ContactInterval sweep;
 };
 
 /// @param method  null: the verdict by lp_growth, distance by closest_active_set, depth by
 ///        depth_exact, or what else gives them; otherwise all by this one, as far as it can.
 [[nodiscard]] CollideReport collide(const CollideBody& first,
                                     const CollideBody& second,
-                                    const collision::Method* method,
+                                    const survey::Method* method,
                                     const std::optional<Vec3>& velocity_mm_per_s);
 
 }  // namespace carpus::cli

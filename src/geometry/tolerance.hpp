@@ -40,7 +40,7 @@ inline constexpr double kContactToleranceMm = 1e-9;
 inline constexpr double kLeastLpWeight = 1e-11;
 
 /// Boxes of moved bodies grow by this times the sizes that enter: (9 + 7) u for the rounded pose of
-/// one body as another sees it (collision::relative_pose), 8 u for the box's own sums of six
+/// one body as another sees it (survey::relative_pose), 8 u for the box's own sums of six
 /// products, and as much again for bodies far from the origin.
 inline constexpr double kMovedBoxRounding = 32 * kRoundoff;
 

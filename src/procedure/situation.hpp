@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 
+#include "anatomy/hand_pose.hpp"
 #include "core/units.hpp"
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
@@ -22,13 +23,7 @@ inline constexpr std::size_t kMaxSteps = 32;
 inline constexpr std::uint8_t kNoBody = 255;
 
 /// How hand and forearm are held, from the neutral wrist.
-struct WristPose {
-  double flexion_rad = 0.0;           ///< positive flexes
-  double radial_deviation_rad = 0.0;  ///< positive towards the thumb
-  double pronation_rad = 0.0;         ///< from the forearm as scanned, positive pronates
-  double traction_n = 0.0;
-  constexpr bool operator==(const WristPose&) const = default;
-};
+using WristPose = anatomy::HandPose;
 
 /// One fluoroscopy picture.
 struct Shot {

@@ -11,9 +11,9 @@
 #include "anatomy/bone_naming.hpp"
 #include "cases/posture.hpp"
 #include "cases/scaphoid_landmarks.hpp"
-#include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
 #include "reconstruct/skin_surface.hpp"
 
@@ -267,7 +267,7 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   for_each_bone(result, [](cases::Bone& bone, BoneFigures& f) { build_hull(bone, f); });
   stage("distance fields", 0.65);
   for (cases::Bone& bone : data.bones) {
-    bone.distance_field = collision::build_distance_field(bone.surface);
+    bone.distance_field = fields::build_distance_field(bone.surface);
   }
   stage("skin", 0.85);
   data.skin = build_skin_surface(ct.view());

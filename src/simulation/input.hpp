@@ -71,8 +71,9 @@ struct Input {
 };
 static_assert(std::is_trivially_copyable_v<Input>);
 
-/// The input as recordings hold it and the world uses it: positions to 1/1024 mm, directions to
-/// 1/16384, angles to 1e-4 rad, forces to 1/64 N. Idempotent. What is not finite stays so.
+/// The input as recordings hold it and the world uses it (quantisation.hpp): positions to 1/1024 mm,
+/// directions and angles to 1/16384, forces to 1/64 N. Idempotent. What is not
+/// finite becomes a number that the world refuses.
 [[nodiscard]] Input quantised(const Input& input) noexcept;
 
 }  // namespace carpus::simulation

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "procedure/procedure.hpp"
@@ -38,6 +39,12 @@ enum class Refusal : std::uint8_t {
 [[nodiscard]] Refusal why_not(const procedure::Procedure& procedure,
                               const Snapshot& now,
                               const Command& command) noexcept;
+
+/// The item on which an instrument with a bore would ride: the wire laid last that fits it, lies in
+/// the target and carries nothing yet; kNoItem when there is none.
+[[nodiscard]] std::uint8_t wire_to_ride_on(std::span<const instruments::Instrument> catalogue,
+                                           const Snapshot& now,
+                                           InstrumentIndex instrument) noexcept;
 
 /// "no_wire_to_ride_on": stable, for the protocol.
 [[nodiscard]] std::string_view name_of(Refusal refusal) noexcept;

@@ -3,152 +3,186 @@
 #include "simulation/recording.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "core/state_hash.hpp"
-#include "simulation/world.hpp"
+#include "simulation/detail/bytes.hpp"
+#include "simulation/quantisation.hpp"
 
 namespace carpus::simulation {
 namespace {
 
+using detail::Reader;
+using detail::Writer;
+
 constexpr std::string_view kMagic = "CARPREC1";
+constexpr std::size_t kMostInstruments = 255;
+constexpr std::size_t kMostKeyframes = kMaxRecordedTicks / 1000;
 
-// What of an input changed since the tick before: bits of one byte.
-constexpr std::uint8_t kTipChanged = 1;
-constexpr std::uint8_t kShaftChanged = 2;
-constexpr std::uint8_t kThrustChanged = 4;
-constexpr std::uint8_t kDriverChanged = 8;
-constexpr std::uint8_t kCommandChanged = 16;
-constexpr std::uint8_t kAllChanges = 31;
+/// Bits of the mask of what changed: five a hand, then wrist and command.
+constexpr unsigned kBitsPerHand = 5;
+constexpr unsigned kWristBit = kBitsPerHand * kHands;
+constexpr unsigned kCommandBit = kWristBit + 1;
+constexpr unsigned kAllBits = (1U << (kCommandBit + 1)) - 1;
 
-class Writer {
- public:
-  template <typename T>
-  void put(T value) {
-    static_assert(std::is_unsigned_v<T>);
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      bytes_.push_back(static_cast<std::byte>(static_cast<std::uint64_t>(value) >> (8 * i)));
-    }
-  }
-  void put(double value) { put(std::bit_cast<std::uint64_t>(value)); }
-  void put(const Vec3& v) {
-    put(v.x);
-    put(v.y);
-    put(v.z);
-  }
-  void put(std::string_view text) {
-    for (const char c : text) bytes_.push_back(static_cast<std::byte>(c));
-  }
-  [[nodiscard]] std::vector<std::byte>& bytes() { return bytes_; }
-
- private:
-  std::vector<std::byte> bytes_;
+/// An input as whole numbers: what is written, and what differs.
+struct InputUnits {
+  struct Hand {
+    std::array<std::int64_t, 3> tip{};
+    std::array<std::int64_t, 3> shaft{};
+    std::int64_t thrust = 0;
+    std::uint8_t driver = 0;
+    std::uint8_t guidance = 0;
+    bool operator==(const Hand&) const = default;
+  };
+  struct What {
+    std::uint8_t kind = 0;
+    std::uint8_t hand = 0;
+    std::uint8_t index = 0;
+    std::int64_t rotation = 0;
+    std::int64_t tilt = 0;
+    bool operator==(const What&) const = default;
+  };
+  std::array<Hand, kHands> hands;
+  std::array<std::int64_t, 4> wrist{};
+  What command;
+  bool operator==(const InputUnits&) const = default;
 };
 
-/// Reads forward; the first read beyond the end spoils it, and every later one.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <typename T>
-  T get() {
-    std::uint64_t value = 0;
-    if (!take(sizeof(T))) return T{};
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      value |= static_cast<std::uint64_t>(bytes_[at_ - sizeof(T) + i]) << (8 * i);
+double from_units(std::int64_t units, double unit) { return static_cast<double>(units) * unit; }
+
+InputUnits in_units(const Input& input) {
+  InputUnits units;
+  for (std::size_t h = 0; h < kHands; ++h) {
+    const HandInput& hand = input.hands[h];
+    InputUnits::Hand& out = units.hands[h];
+    for (std::size_t i = 0; i < 3; ++i) {
+      out.tip[i] = units_of(hand.tip_in_patient[i], kPositionUnitMm);
+      out.shaft[i] = units_of(hand.shaft_in_patient[i], kDirectionUnit);
     }
-    return static_cast<T>(value);
+    out.thrust = units_of(hand.thrust_n, kForceUnitN);
+    out.driver = static_cast<std::uint8_t>(hand.driver);
+    out.guidance = static_cast<std::uint8_t>(hand.guidance);
   }
-  double get_double() { return std::bit_cast<double>(get<std::uint64_t>()); }
-  Vec3 get_vec3() {
-    const double x = get_double();
-    const double y = get_double();
-    return {x, y, get_double()};
-  }
-  std::string get_text(std::size_t size) {
-    if (!take(size)) return {};
-    std::string text(size, '\0');
-    if (size > 0) std::memcpy(text.data(), bytes_.data() + at_ - size, size);
-    return text;
-  }
-  [[nodiscard]] bool is_spoilt() const { return spoilt_; }
-  [[nodiscard]] std::size_t at() const { return at_; }
+  units.wrist = {units_of(input.wrist.flexion_rad, kAngleUnitRad),
+                 units_of(input.wrist.radial_deviation_rad, kAngleUnitRad),
+                 units_of(input.wrist.pronation_rad, kAngleUnitRad),
+                 units_of(input.wrist.traction_n, kForceUnitN)};
+  const Command& command = input.command;
+  units.command = {static_cast<std::uint8_t>(command.kind), command.hand, command.index,
+                   units_of(command.rotation_deg, kViewUnitDeg),
+                   units_of(command.tilt_deg, kViewUnitDeg)};
+  return units;
+}
 
- private:
-  bool take(std::size_t size) {
-    if (spoilt_ || bytes_.size() - at_ < size) {
-      spoilt_ = true;
-      return false;
+Input input_of(const InputUnits& units) {
+  Input input;
+  for (std::size_t h = 0; h < kHands; ++h) {
+    const InputUnits::Hand& hand = units.hands[h];
+    HandInput& out = input.hands[h];
+    for (std::size_t i = 0; i < 3; ++i) {
+      out.tip_in_patient[i] = from_units(hand.tip[i], kPositionUnitMm);
+      out.shaft_in_patient[i] = from_units(hand.shaft[i], kDirectionUnit);
     }
-    at_ += size;
-    return true;
+    out.thrust_n = from_units(hand.thrust, kForceUnitN);
+    out.driver = static_cast<Driver>(hand.driver);
+    out.guidance = static_cast<Guidance>(hand.guidance);
   }
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-  bool spoilt_ = false;
-};
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-bool same_bits(const Vec3& a, const Vec3& b) {
-  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
-}
-bool same_bits(const Command& a, const Command& b) {
-  return a.kind == b.kind && a.index == b.index && same_bits(a.rotation_deg, b.rotation_deg) &&
-         same_bits(a.tilt_deg, b.tilt_deg);
+  input.wrist = {from_units(units.wrist[0], kAngleUnitRad),
+                 from_units(units.wrist[1], kAngleUnitRad),
+                 from_units(units.wrist[2], kAngleUnitRad),
+                 from_units(units.wrist[3], kForceUnitN)};
+  const InputUnits::What& command = units.command;
+  input.command = {static_cast<CommandKind>(command.kind), command.hand, command.index,
+                   from_units(command.rotation, kViewUnitDeg),
+                   from_units(command.tilt, kViewUnitDeg)};
+  return input;
 }
 
-/// Which fields differ, to the bit: NaN equals itself and -0 differs from 0, as replay must see
-/// them.
-std::uint8_t changes(const Input& a, const Input& b) {
+unsigned changes(const InputUnits& a, const InputUnits& b) {
   unsigned mask = 0;
-  if (!same_bits(a.tip_in_patient, b.tip_in_patient)) mask |= kTipChanged;
-  if (!same_bits(a.shaft_in_patient, b.shaft_in_patient)) mask |= kShaftChanged;
-  if (!same_bits(a.thrust_n, b.thrust_n)) mask |= kThrustChanged;
-  if (a.driver != b.driver) mask |= kDriverChanged;
-  if (!same_bits(a.command, b.command)) mask |= kCommandChanged;
-  return static_cast<std::uint8_t>(mask);
+  for (unsigned h = 0; h < kHands; ++h) {
+    const unsigned first = h * kBitsPerHand;
+    if (a.hands[h].tip != b.hands[h].tip) mask |= 1U << first;
+    if (a.hands[h].shaft != b.hands[h].shaft) mask |= 1U << (first + 1);
+    if (a.hands[h].thrust != b.hands[h].thrust) mask |= 1U << (first + 2);
+    if (a.hands[h].driver != b.hands[h].driver) mask |= 1U << (first + 3);
+    if (a.hands[h].guidance != b.hands[h].guidance) mask |= 1U << (first + 4);
+  }
+  if (a.wrist != b.wrist) mask |= 1U << kWristBit;
+  if (a.command != b.command) mask |= 1U << kCommandBit;
+  return mask;
 }
 
-void put_run(Writer& out, const InputRun& run, const Input& previous) {
-  const std::uint8_t mask = changes(run.input, previous);
-  out.put(run.ticks);
-  out.put(mask);
-  if ((mask & kTipChanged) != 0) out.put(run.input.tip_in_patient);
-  if ((mask & kShaftChanged) != 0) out.put(run.input.shaft_in_patient);
-  if ((mask & kThrustChanged) != 0) out.put(run.input.thrust_n);
-  if ((mask & kDriverChanged) != 0) out.put(static_cast<std::uint8_t>(run.input.driver));
-  if ((mask & kCommandChanged) != 0) {
-    const Command& command = run.input.command;
-    out.put(static_cast<std::uint8_t>(command.kind));
-    out.put(static_cast<std::uint32_t>(command.index));
-    out.put(command.rotation_deg);
-    out.put(command.tilt_deg);
+template <std::size_t Count>
+void put_differences(Writer& out,
+                     const std::array<std::int64_t, Count>& now,
+                     const std::array<std::int64_t, Count>& before) {
+  for (std::size_t i = 0; i < Count; ++i) out.put_signed(now[i] - before[i]);
+}
+
+template <std::size_t Count>
+void add_differences(Reader& in, std::array<std::int64_t, Count>& values) {
+  // As unsigned: a hostile difference may wrap, never overflow.
+  for (std::int64_t& value : values) {
+    value = static_cast<std::int64_t>(static_cast<std::uint64_t>(value) +
+                                      static_cast<std::uint64_t>(in.get_signed()));
   }
 }
 
-/// Reads what changed into `input`; false when a value names nothing.
-bool get_changes(Reader& in, std::uint8_t mask, Input& input) {
-  if ((mask & kTipChanged) != 0) input.tip_in_patient = in.get_vec3();
-  if ((mask & kShaftChanged) != 0) input.shaft_in_patient = in.get_vec3();
-  if ((mask & kThrustChanged) != 0) input.thrust_n = in.get_double();
-  if ((mask & kDriverChanged) != 0) {
-    const auto driver = in.get<std::uint8_t>();
-    if (driver > static_cast<std::uint8_t>(Driver::Reverse)) return false;
-    input.driver = static_cast<Driver>(driver);
+void put_run(Writer& out, const InputRun& run, const InputUnits& before, InputUnits& now) {
+  now = in_units(run.input);
+  const unsigned mask = changes(now, before);
+  out.put(run.ticks, 4);
+  out.put(mask, 2);
+  for (unsigned h = 0; h < kHands; ++h) {
+    const unsigned bits = mask >> (h * kBitsPerHand);
+    const InputUnits::Hand& hand = now.hands[h];
+    if ((bits & 1U) != 0) put_differences(out, hand.tip, before.hands[h].tip);
+    if ((bits & 2U) != 0) put_differences(out, hand.shaft, before.hands[h].shaft);
+    if ((bits & 4U) != 0) out.put_signed(hand.thrust - before.hands[h].thrust);
+    if ((bits & 8U) != 0) out.put(hand.driver, 1);
+    if ((bits & 16U) != 0) out.put(hand.guidance, 1);
   }
-  if ((mask & kCommandChanged) != 0) {
-    const auto kind = in.get<std::uint8_t>();
-    if (kind > static_cast<std::uint8_t>(CommandKind::Finish)) return false;
-    input.command.kind = static_cast<CommandKind>(kind);
-    input.command.index = static_cast<std::int32_t>(in.get<std::uint32_t>());
-    input.command.rotation_deg = in.get_double();
-    input.command.tilt_deg = in.get_double();
+  if ((mask >> kWristBit & 1U) != 0) put_differences(out, now.wrist, before.wrist);
+  if ((mask >> kCommandBit & 1U) != 0) {
+    out.put(now.command.kind, 1);
+    out.put(now.command.hand, 1);
+    out.put(now.command.index, 1);
+    out.put_signed(now.command.rotation);
+    out.put_signed(now.command.tilt);
   }
-  return true;
+}
+
+/// Reads what changed into `units`; false when a value names nothing.
+bool get_changes(Reader& in, unsigned mask, InputUnits& units) {
+  bool is_sound = true;
+  for (unsigned h = 0; h < kHands; ++h) {
+    const unsigned bits = mask >> (h * kBitsPerHand);
+    InputUnits::Hand& hand = units.hands[h];
+    if ((bits & 1U) != 0) add_differences(in, hand.tip);
+    if ((bits & 2U) != 0) add_differences(in, hand.shaft);
+    if ((bits & 4U) != 0) {
+      std::array<std::int64_t, 1> thrust{hand.thrust};
+      add_differences(in, thrust);
+      hand.thrust = thrust[0];
+    }
+    if ((bits & 8U) != 0) hand.driver = static_cast<std::uint8_t>(in.get(1));
+    if ((bits & 16U) != 0) hand.guidance = static_cast<std::uint8_t>(in.get(1));
+    is_sound = is_sound && hand.driver <= static_cast<std::uint8_t>(Driver::Reverse) &&
+               hand.guidance <= static_cast<std::uint8_t>(Guidance::Planned);
+  }
+  if ((mask >> kWristBit & 1U) != 0) add_differences(in, units.wrist);
+  if ((mask >> kCommandBit & 1U) != 0) {
+    units.command.kind = static_cast<std::uint8_t>(in.get(1));
+    units.command.hand = static_cast<std::uint8_t>(in.get(1));
+    units.command.index = static_cast<std::uint8_t>(in.get(1));
+    units.command.rotation = in.get_signed();
+    units.command.tilt = in.get_signed();
+    is_sound = is_sound && units.command.kind < kCommandKinds;
+  }
+  return is_sound;
 }
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
@@ -159,47 +193,53 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
 
 /// Reads the runs up to their end mark; the reason for refusing, or empty.
 std::string get_runs(Reader& in, std::vector<InputRun>& runs) {
-  Input input;
+  InputUnits units = in_units(Input{});
   std::uint64_t ticks = 0;
   while (true) {
-    const auto count = in.get<std::uint32_t>();
+    const auto count = static_cast<std::uint32_t>(in.get(4));
     if (in.is_spoilt()) return "recording: cut off among the inputs";
     if (count == 0) return {};
-    const auto mask = in.get<std::uint8_t>();
-    if ((mask & ~unsigned{kAllChanges}) != 0 || !get_changes(in, mask, input)) {
+    const auto mask = static_cast<unsigned>(in.get(2));
+    if ((mask & ~kAllBits) != 0 || !get_changes(in, mask, units)) {
       return "recording: an input names a driver, command or field that does not exist";
     }
     if (in.is_spoilt()) return "recording: cut off among the inputs";
     ticks += count;
     if (ticks > kMaxRecordedTicks) return "recording: longer than 4 hours";
-    runs.push_back({input, count});
+    runs.push_back({input_of(units), count});
   }
 }
 
-void add_vector(StateHash& hash, const Vec3& v) {
-  for (std::size_t i = 0; i < 3; ++i) hash.add(v[i]);
-}
-
-void add_grid_geometry(StateHash& hash, const GridGeometry& geometry) {
-  for (const int n : geometry.size) hash.add(static_cast<std::uint64_t>(n));
-  for (std::size_t i = 0; i < 3; ++i) {
-    hash.add(geometry.spacing[i]);
-    hash.add(geometry.origin[i]);
-    for (std::size_t j = 0; j < 3; ++j) hash.add(geometry.direction.rows[i][j]);
-  }
-}
-
-/// Four voxels at a time: a CT has tens of millions of bytes.
-template <typename T, typename Convert>
-void add_values(StateHash& hash, std::span<const T> values, Convert convert) {
-  constexpr std::size_t kPacked = 8 / sizeof(T);
-  for (std::size_t i = 0; i < values.size(); i += kPacked) {
-    std::uint64_t word = 0;
-    for (std::size_t j = i; j < std::min(i + kPacked, values.size()); ++j) {
-      word = (word << (8 * sizeof(T) % 64)) ^ convert(values[j]);
+std::string get_keyframes(Reader& in, std::vector<Keyframe>& keyframes) {
+  const auto count = static_cast<std::size_t>(in.get(4));
+  if (count > kMostKeyframes) return "recording: more keyframes than seconds";
+  for (std::size_t i = 0; i < count; ++i) {
+    const Tick tick = in.get(8);
+    const auto size = static_cast<std::size_t>(in.get(4));
+    const auto bytes = in.get_bytes(size);
+    if (in.is_spoilt()) return "recording: cut off among the keyframes";
+    if (!keyframes.empty() && tick <= keyframes.back().tick) {
+      return "recording: keyframes out of order";
     }
-    hash.add(word);
+    keyframes.push_back({tick, {bytes.begin(), bytes.end()}});
   }
+  return {};
+}
+
+/// The reason for refusing, or empty. Numbers of instruments are those of this program's catalogue.
+std::string get_instruments(Reader& in, std::vector<std::string>& ids) {
+  const auto count = static_cast<std::size_t>(in.get(2));
+  if (in.is_spoilt() || count > kMostInstruments) return "recording: cut off in the header";
+  const auto catalogue = instruments::catalogue();
+  for (std::size_t i = 0; i < count; ++i) {
+    ids.push_back(in.get_text());
+    if (in.is_spoilt()) return "recording: cut off in the header";
+    if (i >= catalogue.size() || catalogue[i].id != ids.back()) {
+      return "recording: its instrument '" + ids.back() +
+             "' is not the one with that number here; use the program that recorded it";
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -212,21 +252,31 @@ std::uint64_t Recording::tick_count() const noexcept {
 
 Recorder::Recorder(std::string program_version,
                    std::uint64_t case_fingerprint,
-                   procedure::ProcedureId procedure,
+                   const procedure::Procedure& procedure,
                    std::uint64_t seed) {
   recording_.program_version = std::move(program_version);
   recording_.case_fingerprint = case_fingerprint;
-  recording_.procedure = procedure;
+  recording_.procedure = procedure.id;
   recording_.seed = seed;
+  for (const instruments::Instrument& instrument : instruments::catalogue()) {
+    recording_.instruments.push_back(instrument.id);
+  }
 }
 
-void Recorder::append(const Input& input) {
-  if (!recording_.runs.empty() && changes(recording_.runs.back().input, input) == 0 &&
+void Recorder::append(const Input& raw) {
+  // What comes back from the file is what the world was given, to the bit.
+  const Input input = input_of(in_units(raw));
+  ++tick_;
+  if (!recording_.runs.empty() && recording_.runs.back().input == input &&
       recording_.runs.back().ticks < UINT32_MAX) {
     ++recording_.runs.back().ticks;
   } else {
     recording_.runs.push_back({input, 1});
   }
+}
+
+void Recorder::append_keyframe(Keyframe keyframe) {
+  recording_.keyframes.push_back(std::move(keyframe));
 }
 
 Recording Recorder::finished(std::uint64_t end_hash) const {
@@ -235,106 +285,120 @@ Recording Recorder::finished(std::uint64_t end_hash) const {
   return recording;
 }
 
-std::uint64_t fingerprint_of(const cases::CaseData& posed_case) {
-  StateHash hash;
-  hash.add(static_cast<std::uint64_t>(posed_case.side));
-  add_grid_geometry(hash, posed_case.ct.geometry());
-  add_values(hash, posed_case.ct.values(),
-             [](std::int16_t v) { return std::uint64_t{static_cast<std::uint16_t>(v)}; });
-  for (const cases::Bone& bone : posed_case.bones) {
-    hash.add(static_cast<std::uint64_t>(bone.label));
-    for (const Vec3& v : bone.surface.vertices) add_vector(hash, v);
-    add_vector(hash, bone.patient_from_bone.translation);
-    for (const Vec3& row : bone.patient_from_bone.rotation.rows) add_vector(hash, row);
-    add_grid_geometry(hash, bone.distance_field.geometry());
-    add_values(hash, bone.distance_field.values(),
-               [](float v) { return std::uint64_t{std::bit_cast<std::uint32_t>(v)}; });
-  }
-  add_vector(hash, posed_case.wrist_from_patient.translation);
-  for (const Vec3& row : posed_case.wrist_from_patient.rotation.rows) add_vector(hash, row);
-  const cases::ScaphoidLandmarks& scaphoid = posed_case.scaphoid;
-  for (const Vec3& end :
-       {scaphoid.central_axis.proximal, scaphoid.central_axis.distal,
-        scaphoid.longest_line.proximal, scaphoid.longest_line.distal, scaphoid.waist}) {
-    add_vector(hash, end);
-  }
-  hash.add(scaphoid.central_radius_mm);
-  return hash.value();
-}
-
 std::vector<std::byte> encode(const Recording& recording) {
   Writer out;
-  out.put(kMagic);
-  out.put(kRecordingFormat);
-  const std::string_view version = std::string_view(recording.program_version).substr(0, UINT8_MAX);
-  out.put(static_cast<std::uint8_t>(version.size()));
-  out.put(version);
-  out.put(recording.case_fingerprint);
-  out.put(static_cast<std::uint8_t>(recording.procedure));
-  out.put(recording.seed);
-  Input previous;
+  for (const char c : kMagic) out.put(static_cast<std::uint64_t>(c), 1);
+  out.put(kRecordingFormat, 2);
+  out.put(recording.program_version);
+  out.put(recording.case_fingerprint, 8);
+  out.put(recording.procedure);
+  out.put(recording.seed, 8);
+  out.put(recording.instruments.size(), 2);
+  for (const std::string& id : recording.instruments) out.put(id);
+  InputUnits before = in_units(Input{});
+  InputUnits now;
   for (const InputRun& run : recording.runs) {
-    put_run(out, run, previous);
-    previous = run.input;
+    put_run(out, run, before, now);
+    before = now;
   }
-  out.put(std::uint32_t{0});
-  out.put(recording.tick_count());
-  out.put(recording.end_hash);
-  out.put(checksum_of(out.bytes()));
+  out.put(0, 4);
+  out.put(recording.tick_count(), 8);
+  out.put(recording.end_hash, 8);
+  out.put(recording.keyframes.size(), 4);
+  for (const Keyframe& keyframe : recording.keyframes) {
+    out.put(keyframe.tick, 8);
+    out.put(keyframe.state.size(), 4);
+    out.put(std::span<const std::byte>(keyframe.state));
+  }
+  out.put(checksum_of(out.bytes()), 8);
   return std::move(out.bytes());
 }
 
 Result<Recording> decode(std::span<const std::byte> bytes) {
   Reader in(bytes);
-  if (in.get_text(kMagic.size()) != kMagic) {
-    return Refusal{"recording: this is no Carpus recording"};
+  for (const char c : kMagic) {
+    if (in.get(1) != static_cast<std::uint64_t>(c) || in.is_spoilt()) {
+      return carpus::Refusal{"recording: this is no Carpus recording"};
+    }
   }
-  const auto format = in.get<std::uint16_t>();
-  if (in.is_spoilt()) return Refusal{"recording: cut off in the header"};
+  const auto format = in.get(2);
+  if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
+  if (format == 1) {
+    return carpus::Refusal{
+        "recording: format 1, of a wrist that did not move; it cannot be replayed, its stored score "
+        "can be shown"};
+  }
   if (format != kRecordingFormat) {
-    return Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
+    return carpus::Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
                    std::to_string(kRecordingFormat) + "; use the program that recorded it"};
   }
   Recording recording;
-  recording.program_version = in.get_text(in.get<std::uint8_t>());
-  recording.case_fingerprint = in.get<std::uint64_t>();
-  const auto procedure = in.get<std::uint8_t>();
-  recording.seed = in.get<std::uint64_t>();
-  if (in.is_spoilt()) return Refusal{"recording: cut off in the header"};
-  if (procedure != static_cast<std::uint8_t>(procedure::ProcedureId::DorsalScaphoidFixation)) {
-    return Refusal{"recording: of a procedure that this program does not know"};
-  }
-  if (std::string reason = get_runs(in, recording.runs); !reason.empty()) {
-    return Refusal{std::move(reason)};
-  }
-  const auto ticks = in.get<std::uint64_t>();
-  recording.end_hash = in.get<std::uint64_t>();
+  recording.program_version = in.get_text();
+  recording.case_fingerprint = in.get(8);
+  recording.procedure = in.get_text();
+  recording.seed = in.get(8);
+  std::string reason = get_instruments(in, recording.instruments);
+  if (reason.empty()) reason = get_runs(in, recording.runs);
+  if (!reason.empty()) return carpus::Refusal{std::move(reason)};
+  const auto ticks = in.get(8);
+  recording.end_hash = in.get(8);
+  if (in.is_spoilt()) return carpus::Refusal{"recording: cut off at the end"};
+  reason = get_keyframes(in, recording.keyframes);
+  if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   const std::size_t checked = in.at();
-  const auto checksum = in.get<std::uint64_t>();
-  if (in.is_spoilt()) return Refusal{"recording: cut off at the end"};
-  if (in.at() != bytes.size()) return Refusal{"recording: bytes after its end"};
+  const auto checksum = in.get(8);
+  if (in.is_spoilt()) return carpus::Refusal{"recording: cut off at the end"};
+  if (in.at() != bytes.size()) return carpus::Refusal{"recording: bytes after its end"};
   if (ticks != recording.tick_count() || checksum != checksum_of(bytes.first(checked))) {
-    return Refusal{"recording: damaged, its checksum does not match"};
+    return carpus::Refusal{"recording: damaged, its checksum does not match"};
   }
   return recording;
 }
 
-Replay replay(const cases::CaseData& posed_case, const Recording& recording) {
-  World world(posed_case, recording.procedure, recording.seed);
+Replay replay(const cases::CaseData& data,
+              const procedure::Procedure& procedure,
+              const Recording& recording) {
+  World world(data, procedure, recording.seed);
   for (const InputRun& run : recording.runs) {
     for (std::uint32_t i = 0; i < run.ticks; ++i) world.step(run.input);
   }
   Replay result;
   result.last = world.now();
   result.hash_matches = result.last.state_hash == recording.end_hash;
-  result.case_matches = fingerprint_of(posed_case) == recording.case_fingerprint;
+  result.case_matches = fingerprint_of(data) == recording.case_fingerprint;
   result.record = world.operation_record();
   return result;
 }
 
-procedure::ScoreReport score_recording(const cases::CaseData& posed_case,
+procedure::ScoreReport score_recording(const cases::CaseData& data,
+                                       const procedure::Procedure& procedure,
                                        const Recording& recording) {
-  return procedure::score_operation(posed_case, replay(posed_case, recording).record);
+  return procedure.score(data, replay(data, procedure, recording).record);
+}
+
+Result<bool> seek(World& world, const Recording& recording, Tick tick) {
+  const Keyframe* nearest = nullptr;
+  for (const Keyframe& keyframe : recording.keyframes) {
+    if (keyframe.tick <= tick) nearest = &keyframe;
+  }
+  Tick at = 0;
+  if (nearest != nullptr) {
+    const Result<bool> taken = world.read_state(nearest->state);
+    if (!taken) return taken;
+    at = nearest->tick;
+    if (world.now().tick != at) {
+      return carpus::Refusal{"recording: a keyframe is not of the tick that it names"};
+    }
+  } else {
+    world = World(world.case_data(), world.procedure(), recording.seed);
+  }
+  Tick begin = 0;
+  for (const InputRun& run : recording.runs) {
+    const Tick end = begin + run.ticks;
+    for (Tick t = begin > at ? begin : at; t < end && t < tick; ++t) world.step(run.input);
+    begin = end;
+  }
+  return true;
 }
 
 }  // namespace carpus::simulation

@@ -1,13 +1,15 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A recording: every tick's input, from which the whole operation can be replayed to the same
-// bytes.
+// A recording: every tick's input, from which the whole operation can be replayed to the same bytes,
+// and keyframes, from which any moment is reached.
 //
-// Layout, all little-endian: "CARPREC1"; u16 format version; u8 length + program version; u64 case
-// fingerprint; u8 procedure; u64 seed; then runs: u32 ticks (not 0), u8 mask of what changed, the
-// changed fields as exact bits; u32 0; u64 ticks in all; u64 hash at the end; u64 FNV-1a of all
-// bytes before it. A still hand costs nothing, a moving one 24 bytes a tick.
+// Layout, all little-endian: "CARPREC1"; u16 format version; text program version; u64 case
+// fingerprint; text procedure; u64 seed; u16 count and texts: the ids of the instruments that
+// commands name by number; then runs: u32 ticks (not 0), u16 mask of what changed, the changed
+// fields as signed differences in the units of quantisation.hpp, seven bits a byte; u32 0; u64 ticks
+// in all; u64 hash at the end; u32 keyframes, each u64 tick, u32 size, its bytes; u64 FNV-1a of all
+// bytes before it. A text is u16 size and UTF-8. A still hand costs nothing.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +20,22 @@
 
 #include "cases/case_data.hpp"
 #include "core/result.hpp"
-#include "procedure/procedure_id.hpp"
+#include "procedure/procedure.hpp"
 #include "procedure/score.hpp"
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
+#include "simulation/world.hpp"
 
 namespace carpus::simulation {
 
-inline constexpr std::uint16_t kRecordingFormat = 1;
+/// 1 was of a world of one wire; such recordings show their stored score only.
+inline constexpr std::uint16_t kRecordingFormat = 2;
 
 /// Longest exercise that is recorded: 4 hours. Bounds what decoding untrusted bytes may allocate.
 inline constexpr std::uint64_t kMaxRecordedTicks = 4ULL * 3600 * 1000;
+
+/// A keyframe stands this often.
+inline constexpr Tick kKeyframeTicks = 10'000;
 
 /// Ticks in which the input did not change.
 struct InputRun {
@@ -37,14 +44,23 @@ struct InputRun {
   bool operator==(const InputRun&) const = default;
 };
 
+/// A world's state after a tick: World::write_state.
+struct Keyframe {
+  Tick tick = 0;
+  std::vector<std::byte> state;
+  bool operator==(const Keyframe&) const = default;
+};
+
 /// One exercise.
 struct Recording {
   std::string program_version;
   std::uint64_t case_fingerprint = 0;
-  procedure::ProcedureId procedure = procedure::ProcedureId::DorsalScaphoidFixation;
+  std::string procedure;
   std::uint64_t seed = 0;
+  std::vector<std::string> instruments;  ///< ids by number
   std::vector<InputRun> runs;
-  std::uint64_t end_hash = 0;  ///< Snapshot::state_hash after the last tick
+  std::vector<Keyframe> keyframes;  ///< rising ticks
+  std::uint64_t end_hash = 0;       ///< Snapshot::state_hash after the last tick
 
   [[nodiscard]] std::uint64_t tick_count() const noexcept;
   bool operator==(const Recording&) const = default;
@@ -56,25 +72,31 @@ class Recorder {
  public:
   Recorder(std::string program_version,
            std::uint64_t case_fingerprint,
-           procedure::ProcedureId procedure,
+           const procedure::Procedure& procedure,
            std::uint64_t seed);
   void reserve(std::size_t runs) { recording_.runs.reserve(runs); }
+  /// Takes the input as the world does, quantised.
   void append(const Input& input);
+  /// Of the world after the last input that was appended.
+  void append_keyframe(Keyframe keyframe);
+  [[nodiscard]] Tick tick() const noexcept { return tick_; }
   /// The recording with its end hash.
   [[nodiscard]] Recording finished(std::uint64_t end_hash) const;
 
  private:
   Recording recording_;
+  Tick tick_ = 0;
 };
 
-/// What identifies a posed case to a recording: CT, surfaces, poses,
-/// fields, wrist frame and landmarks, to the bit.
-[[nodiscard]] std::uint64_t fingerprint_of(const cases::CaseData& posed_case);
+/// What identifies a case to a recording: CT, surfaces, fields, hand motion, wrist frame and
+/// landmarks, to the bit.
+[[nodiscard]] std::uint64_t fingerprint_of(const cases::CaseData& data);
 
 [[nodiscard]] std::vector<std::byte> encode(const Recording& recording);
 
 /// Decodes untrusted bytes; never reads beyond them. Memory grows with the bytes that are there (at
-/// most some 25 for one), never with what they claim.
+/// most some 60 for one), never with what they claim. Refuses by name: another format, instruments
+/// that this program does not have.
 [[nodiscard]] Result<Recording> decode(std::span<const std::byte> bytes);
 
 /// Outcome of a replay.
@@ -86,10 +108,18 @@ struct Replay {
 };
 
 /// Steps a new world through the recording, as fast as it can.
-[[nodiscard]] Replay replay(const cases::CaseData& posed_case, const Recording& recording);
+/// @param procedure  the one that the recording names.
+[[nodiscard]] Replay replay(const cases::CaseData& data,
+                            const procedure::Procedure& procedure,
+                            const Recording& recording);
 
 /// The same, and the score.
-[[nodiscard]] procedure::ScoreReport score_recording(const cases::CaseData& posed_case,
+[[nodiscard]] procedure::ScoreReport score_recording(const cases::CaseData& data,
+                                                     const procedure::Procedure& procedure,
                                                      const Recording& recording);
+
+/// Brings a world to the state after `tick` (at most the last one): from the nearest keyframe before
+/// it, or from the beginning. Refuses a keyframe that does not fit.
+[[nodiscard]] Result<bool> seek(World& world, const Recording& recording, Tick tick);
 
 }  // namespace carpus::simulation

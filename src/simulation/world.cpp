@@ -1,113 +1,199 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One tick: check the input -> carry out the command -> move what the hand holds (free wire, wire
-// in bone, or screw) -> tick off steps -> force, limited last -> snapshot and hash.
+// One tick: quantise and check the input -> move the wrist and its bones -> carry out the command ->
+// move what each hand holds (free, or along its line in bone) -> tick off steps -> force, limited
+// last -> snapshot and hash.
 #include "simulation/world.hpp"
 
 #include <cstdint>
+#include <utility>
 
 #include "core/error.hpp"
-#include "instruments/guide_wire.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
+
+using detail::absolute;
+using detail::Item;
+
 namespace {
 
 constexpr double kWorkspaceMm = 1000.0;    // beyond this from the CT's origin a tip makes no sense
 constexpr double kGreatestThrustN = 60.0;  // protocol/protocol.json
-constexpr double kWaitingMm = 60.0;        // over skin and bones
+constexpr double kGreatestShaft = 4.0;     // by component, before it is normalised
 
-double absolute(double value) noexcept { return value < 0 ? -value : value; }
+std::vector<fields::ContactField> fields_of(const cases::CaseData& data) {
+  std::vector<fields::ContactField> fields;
+  fields.reserve(data.bones.size());
+  for (const cases::Bone& bone : data.bones) {
+    fields.emplace_back(bone.distance_field, bone.surface);
+  }
+  return fields;
+}
+
+std::vector<BoneSolid> target_of(const cases::CaseData& data, BoneId target) {
+  std::vector<const TriangleMesh*> fragments;
+  for (const cases::Bone& bone : data.bones) {
+    if (bone.bone == target) fragments.push_back(&bone.surface);
+  }
+  std::vector<BoneSolid> solid;
+  solid.emplace_back(fragments);
+  return solid;
+}
 
 }  // namespace
 
-Input World::State::checked(const Input& raw) noexcept {
-  Input input = raw;
+World::Model::Model(const cases::CaseData& case_data,
+                    const procedure::Procedure& declared,
+                    std::uint64_t first_seed)
+    : data(case_data),
+      procedure(declared),
+      seed(first_seed),
+      kinds(detail::kinds_of(case_data, declared)),
+      catalogue(instruments::catalogue()),
+      fields(fields_of(case_data)),
+      target(target_of(case_data, declared.target)),
+      opening(declared.opening(case_data)) {
+  for (std::size_t b = 0; b < case_data.bones.size(); ++b) {
+    groups[b] = anatomy::group_of(case_data.bones[b].bone);
+  }
+  if (declared.tray.empty() || declared.steps.empty() ||
+      declared.steps.size() > procedure::kMaxSteps) {
+    throw InvalidInput("simulation: the procedure " + declared.id +
+                       " needs a tray and 1 to 32 steps");
+  }
+}
+
+World::State::State(const Model& model)
+    : tissue(model.fields), scene(model.fields, kHands) {
+  snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
+}
+
+/// Until the first input the first instrument waits where the procedure says, outside all tissue: a
+/// host that holds it there must not start with it across the bones.
+void World::State::open(const Model& model) noexcept {
+  spent.wrist = model.data.hand_motion.limits.clamp(model.opening.wrist);
+  pose_bodies(model);
+  Item& first = now.items[0];
+  first.instrument = model.procedure.tray.front();
+  first.hand = 0;
+  first.tip = model.opening.tip_in_patient;
+  first.shaft = normalized_or(model.opening.shaft_in_patient, {0, 0, 1});
+  now.held[0] = 0;
+  scene.set_instrument(0, kind_of(model, first).shape);
+  for (detail::HandState& hand : spent.hands) {
+    hand.wish.tip_in_patient = first.tip;
+    hand.wish.shaft_in_patient = first.shaft;
+    hand.plan = resting_at(first.tip, first.shaft);
+  }
+  publish(model);
+}
+
+HandInput World::State::checked(std::size_t hand, const HandInput& raw) noexcept {
+  HandInput input = raw;
+  const detail::HandState& held = spent.hands[hand];
   bool is_bad = false;
   const Vec3& t = raw.tip_in_patient;
   if (!(absolute(t.x) <= kWorkspaceMm && absolute(t.y) <= kWorkspaceMm &&
         absolute(t.z) <= kWorkspaceMm)) {
-    input.tip_in_patient = spent.has_input ? spent.last_hand_tip : now.tip;
+    input.tip_in_patient = held.wish.tip_in_patient;
     is_bad = true;
   }
-  input.shaft_in_patient = normalized_or(raw.shaft_in_patient, {0, 0, 0});
+  const Vec3& s = raw.shaft_in_patient;
+  const bool is_direction = absolute(s.x) <= kGreatestShaft && absolute(s.y) <= kGreatestShaft &&
+                            absolute(s.z) <= kGreatestShaft;
+  input.shaft_in_patient = is_direction ? normalized_or(s, {0, 0, 0}) : Vec3{};
   if (!(squared_length(input.shaft_in_patient) > 0.5)) {
-    input.shaft_in_patient = spent.last_hand_shaft;
+    input.shaft_in_patient = held.wish.shaft_in_patient;
     is_bad = true;
   }
   if (!(raw.thrust_n >= 0.0 && raw.thrust_n <= kGreatestThrustN)) {
-    input.thrust_n = raw.thrust_n > kGreatestThrustN ? kGreatestThrustN : 0.0;
+    // A little over the limit is a hand; far over it, or below nothing, is nobody's.
+    const bool is_push = raw.thrust_n > kGreatestThrustN && raw.thrust_n <= 10 * kGreatestThrustN;
+    input.thrust_n = is_push ? kGreatestThrustN : 0.0;
     is_bad = true;
   }
   if (static_cast<unsigned>(raw.driver) > static_cast<unsigned>(Driver::Reverse)) {
     input.driver = Driver::Off;
     is_bad = true;
   }
+  if (static_cast<unsigned>(raw.guidance) > static_cast<unsigned>(Guidance::Planned)) {
+    input.guidance = Guidance::Direct;
+    is_bad = true;
+  }
   if (is_bad) ++faults.bad_inputs;
   return input;
 }
 
-void World::State::emit(EventKind kind, std::int32_t detail, double value) noexcept {
+void World::State::emit(EventKind kind,
+                        std::uint8_t item,
+                        std::int32_t detail,
+                        double value) noexcept {
   if (snapshot.event_count >= kMaxEventsPerTick) {
     ++faults.lost_events;
     return;
   }
-  snapshot.events[snapshot.event_count++] = {kind, detail, value, spent.tick};
+  const InstrumentIndex instrument =
+      item < kMaxItems ? now.items[item].instrument : kNoInstrument;
+  snapshot.events[snapshot.event_count++] = {kind, item, instrument, detail, value, spent.tick};
 }
 
-void World::State::refuse(CommandKind kind) noexcept {
-  emit(EventKind::Refused, static_cast<std::int32_t>(kind), 0.0);
-}
-
-void World::State::step(Model& model, const Input& raw) noexcept {
+void World::State::step(const Model& model, const Input& raw) noexcept {
   snapshot.event_count = 0;
   snapshot.events = {};
   if (spent.finished) return;
   ++spent.tick;
-  const Input input = checked(raw);
-  const Vec3 hand_velocity =
-      spent.has_input ? (input.tip_in_patient - spent.last_hand_tip) / kTickSeconds : Vec3{};
-  if (!spent.has_input) {  // the wire comes in from behind the hand, so that it starts in no bone
-    now.tip = input.tip_in_patient + input.shaft_in_patient * instruments::kWireLengthMm;
-    now.shaft = input.shaft_in_patient;
-  }
-  snapshot.resistance_n = 0.0;
-  if (input.driver != Driver::Reverse) spent.reverse_is_held = false;
-  obey(model, input.command);
-  if (!spent.finished) {
-    if (now.instrument == Instrument::ScrewDriver) {
-      drive_screw(model, input);
-    } else if (now.wire.engaged) {
-      drive_wire(model, input);
-    } else {
-      move_free_wire(model, input);
+  const Input input = quantised(raw);
+  is_finishing = false;
+  move_wrist(model, input.wrist);
+  for (std::size_t h = 0; h < kHands; ++h) {
+    detail::HandState& hand = spent.hands[h];
+    snapshot.hands[h].resistance_n = 0.0;
+    hand.wish = checked(h, input.hands[h]);
+    Item* item = in_hand(h);
+    if (!hand.has_wish) {
+      // It comes in from behind the hand, so that it starts in no bone.
+      hand.plan = resting_at(hand.wish.tip_in_patient, hand.wish.shaft_in_patient);
+      if (item != nullptr && !item->is_fixed()) {
+        item->shaft = hand.wish.shaft_in_patient;
+        item->tip = hand.wish.tip_in_patient +
+                    item->shaft * kind_of(model, *item).shape.back_z_mm();
+      }
+      hand.has_wish = true;
     }
-    tick_off_steps();
+    if (hand.wish.driver != Driver::Reverse) hand.reverse_is_held = false;
+    advance(hand.plan, hand.wish, item == nullptr || !item->is_fixed());
   }
-  spent.forward_is_held = input.driver == Driver::Forward;
-  if (!spent.forward_is_held) spent.slip_is_told = false;
-  spent.last_hand_tip = input.tip_in_patient;
-  spent.last_hand_shaft = input.shaft_in_patient;
-  spent.has_input = true;
-  publish(model, input, hand_velocity);
+  obey(model, input.command);
+  for (std::uint8_t h = 0; h < kHands; ++h) {
+    const Item* item = in_hand(h);
+    if (item == nullptr) continue;
+    if (item->is_fixed()) {
+      drive(model, h);
+    } else {
+      move_free(model, h);
+    }
+  }
+  tick_off_steps(model);
+  if (is_finishing) {
+    spent.finished = true;
+    emit(EventKind::Finished, kNoItem, 0, 0.0);
+  }
+  for (detail::HandState& hand : spent.hands) {
+    hand.forward_is_held = hand.wish.driver == Driver::Forward;
+    if (!hand.forward_is_held) hand.slip_is_told = false;
+  }
+  publish(model);
   update_hash(model);
 }
 
-World::World(const cases::CaseData& posed_case,
-             procedure::ProcedureId procedure,
+World::World(const cases::CaseData& data,
+             const procedure::Procedure& procedure,
              std::uint64_t seed)
-    : model_(std::make_unique<Model>(posed_case)), state_(std::make_unique<State>()) {
-  model_->procedure = procedure;
-  model_->seed = seed;
-  // Until the first input the wire waits in the air over the back of the wrist: a host that holds
-  // it where it is must not start with it across the bones.
-  const Vec3 dorsal =
-      cases::held_wrist_from_patient(posed_case).rotation.transposed() * Vec3{0, 0, -1};
-  state_->now.tip = posed_case.scaphoid.waist + dorsal * kWaitingMm;
-  state_->now.shaft = dorsal;
-  state_->snapshot.tip_in_patient = state_->now.tip;
-  state_->snapshot.shaft_in_patient = state_->now.shaft;
+    : model_(std::make_unique<Model>(data, procedure, seed)),
+      state_(std::make_unique<State>(*model_)) {
+  state_->open(*model_);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -123,21 +209,19 @@ const Snapshot& World::now() const noexcept { return state_->snapshot; }
 procedure::OperationRecord World::operation_record() const {
   const State& state = *state_;
   procedure::OperationRecord record;
-  record.wire_in_scaphoid = state.now.wire.in_scaphoid;
-  if (record.wire_in_scaphoid) {
-    record.entry_in_patient = state.snapshot.wire.entry_in_patient;
-    record.direction_in_patient = state.now.wire.direction;
-    record.wire_depth_mm = state.snapshot.wire.depth_mm;
+  for (const Item& item : state.now.items) {
+    if (item.is_there() && item.is_fixed()) record.lines.push_back(state.facts_of(*model_, item));
   }
-  record.measured_mm = state.now.measured_mm;
-  record.screw_index = state.now.screw.index;
-  record.screw_advance_mm = state.now.screw.advance_mm;
-  record.passes = state.now.passes;
-  record.far_exits = state.now.far_exits;
-  record.far_exit_mm = state.now.far_exit_mm;
-  record.wrong_bones = state.now.wrong_bones;
-  record.undos = state.spent.undos;
+  for (std::size_t i = 0; i < state.spent.pass_count && i < detail::kMaxPasses; ++i) {
+    const detail::PassState& pass = state.spent.passes[i];
+    record.passes.push_back({pass.instrument, pass.first_body, pass.bodies_entered,
+                             pass.far_exit_mm, pass.far_exits, pass.was_undone});
+  }
   record.shots.assign(state.shots.begin(), state.shots.begin() + state.spent.shot_count);
+  record.gauge_reading_mm = state.now.gauge_reading_mm;
+  record.reamed_mm = state.now.reamed_mm;
+  record.holding_share = state.now.holding_share;
+  record.undos = state.spent.undos;
   record.ticks = state.spent.tick;
   record.completed_steps = state.now.completed_steps;
   record.finished = state.spent.finished;
@@ -145,8 +229,8 @@ procedure::OperationRecord World::operation_record() const {
 }
 
 const TickFaults& World::faults() const noexcept { return state_->faults; }
-procedure::ProcedureId World::procedure() const noexcept { return model_->procedure; }
+const procedure::Procedure& World::procedure() const noexcept { return model_->procedure; }
 std::uint64_t World::seed() const noexcept { return model_->seed; }
-const cases::CaseData& World::posed_case() const noexcept { return model_->posed_case; }
+const cases::CaseData& World::case_data() const noexcept { return model_->data; }
 
 }  // namespace carpus::simulation

@@ -9,10 +9,10 @@
 
 #include "cases/posture.hpp"
 #include "cases/synthetic_case_test_support.hpp"
-#include "collision/surface/distance_field.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/units.hpp"
+#include "fields/distance_field.hpp"
 #include "haptics/contact_force.hpp"
 #include "instruments/drilling_resistance.hpp"
 #include "instruments/guide_wire.hpp"
@@ -38,7 +38,7 @@ World make_world() {
 double tip_depth_in(BoneId id, const Vec3& tip) {
   const cases::Bone* bone = cases::find_bone(posed_wrist(), id);
   const Vec3 local = (bone->patient_from_bone.inverse() * Point<frame::Patient>{tip}).v;
-  return -collision::sample_distance(bone->distance_field, local).distance_mm;
+  return -fields::sample_distance(bone->distance_field, local).distance_mm;
 }
 
 TEST(World, TheFreeWireNeverEntersBone) {

@@ -14,18 +14,19 @@
 #include <string>
 #include <vector>
 
-#include "collision/features/feature_test_support.hpp"
-#include "collision/pair_query.hpp"
+#include "convex/features/feature_test_support.hpp"
+#include "convex/pair_query.hpp"
 #include "oracles/exhaustive_distance.hpp"
+#include "survey/methods.hpp"
 
 namespace carpus {
 namespace {
 
-using collision::Closest;
-using collision::Method;
-using collision::PairPose;
-using collision::PairQuery;
-using collision::Verdict;
+using convex::Closest;
+using convex::PairPose;
+using convex::PairQuery;
+using convex::Verdict;
+using survey::Method;
 
 constexpr std::array kNames{"lin_canny", "v_clip", "swift", "q_collide"};
 
@@ -44,17 +45,17 @@ class Poses {
 
   PairPose next() {
     const std::uint64_t kind = rng_.below(4);
-    const Vec3 axis = normalized_or(collision::test::random_vector(rng_), {1, 0, 0});
+    const Vec3 axis = normalized_or(convex::test::random_vector(rng_), {1, 0, 0});
     if (kind == 0) {
       rotation_ = Mat3::identity();
       const auto c = [&] { return static_cast<double>(rng_.below(30)) - 15; };
       translation_ = {c(), c(), c()};
     } else if (kind == 1) {
-      rotation_ = collision::test::random_rotation(rng_);
-      translation_ = collision::test::random_vector(rng_) * 5.0;
+      rotation_ = convex::test::random_rotation(rng_);
+      translation_ = convex::test::random_vector(rng_) * 5.0;
     } else if (kind == 2) {
       rotation_ = rotation_about(axis, 0.02 * rng_.normal()) * rotation_;
-      translation_ += collision::test::random_vector(rng_) * 0.1;
+      translation_ += convex::test::random_vector(rng_) * 0.1;
     } else {
       rotation_ = rotation_about(axis, tiny(17)) * rotation_;
       const long double target = rng_.below(3) == 0 ? -tiny(9) : tiny(9);
@@ -108,11 +109,11 @@ TEST(FeatureMethodsOracle, AgreeWithAllAxesAndAllPairsOfFeatures) {
   std::array<int, 2> seen{};
   for (std::uint64_t seed = 0; seed < pair_count(); ++seed) {
     Rng rng(seed + 77'000);
-    const collision::ConvexBody first = collision::test::random_body(rng);
-    const collision::ConvexBody second = collision::test::random_body(rng);
+    const convex::ConvexBody first = convex::test::random_body(rng);
+    const convex::ConvexBody second = convex::test::random_body(rng);
     std::vector<std::unique_ptr<PairQuery>> queries;
     for (const char* name : kNames) {
-      queries.push_back(collision::find_method(name)->make(first, second));
+      queries.push_back(survey::find_method(name)->make(first, second));
     }
     Poses poses(first.polytope(), second.polytope(), rng);
     for (int step = 0; step < 12; ++step) {
@@ -126,8 +127,8 @@ TEST(FeatureMethodsOracle, AgreeWithAllAxesAndAllPairsOfFeatures) {
       }
       for (std::size_t i = 0; i < kNames.size(); ++i) {
         const Verdict verdict = queries[i]->meets(pose);
-        expect_agreement(*collision::find_method(kNames[i]), verdict, queries[i]->closest(pose),
-                         gap, distance);
+        expect_agreement(*survey::find_method(kNames[i]), verdict, queries[i]->closest(pose), gap,
+                         distance);
       }
       ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed << " step " << step;
       ++seen[gap > 0 ? 0 : 1];

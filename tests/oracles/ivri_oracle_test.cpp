@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // IVRI-CD against all separating axes, and where it is wrong.
-#include "collision/ivri/ivri_cd.hpp"
+#include "survey/ivri/ivri_cd.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@
 namespace carpus {
 namespace {
 
-using collision::IvriCd;
-using collision::IvriStatus;
-using collision::PairPose;
+using convex::PairPose;
+using survey::IvriCd;
+using survey::IvriStatus;
 
 /// Counts of overlapping, touching and separate pairs, and of wrong answers.
 struct Tally {

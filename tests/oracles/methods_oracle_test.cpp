@@ -14,21 +14,22 @@
 #include <string>
 #include <vector>
 
-#include "collision/pair_query.hpp"
+#include "convex/pair_query.hpp"
 #include "oracles/exact_meet.hpp"
 #include "oracles/pair_generator.hpp"
 #include "oracles/separating_axes.hpp"
+#include "survey/methods.hpp"
 
 namespace carpus::oracles {
 namespace {
 
-using collision::Closest;
-using collision::ConvexBody;
-using collision::Method;
-using collision::PairPose;
-using collision::PairQuery;
-using collision::Penetration;
-using collision::Verdict;
+using convex::Closest;
+using convex::ConvexBody;
+using convex::PairPose;
+using convex::PairQuery;
+using convex::Penetration;
+using convex::Verdict;
+using survey::Method;
 
 constexpr std::uint64_t kPosesPerPair = 10;
 
@@ -58,7 +59,7 @@ struct Tally {
 };
 
 TEST(MethodsOracle, NoVerdictDiffersFromExactArithmetic) {
-  const auto methods = collision::all_methods();
+  const auto methods = survey::all_methods();
   std::vector<Tally> tallies(methods.size());
   std::uint64_t meeting = 0;
   std::uint64_t by_integers = 0;
@@ -168,7 +169,7 @@ constexpr long double kMostContactGap = 2e-9L;
 long double tolerance_of(const Method& method) { return method.name == "epa" ? 1e-3L : 1e-9L; }
 
 TEST(MethodsOracle, DistancesAndDepthsProveThemselves) {
-  const auto methods = collision::all_methods();
+  const auto methods = survey::all_methods();
   std::vector<Errors> errors(methods.size());
   for (std::uint64_t seed = 0; seed < pair_count() / 10; ++seed) {
     PairGenerator pairs(seed);

@@ -13,19 +13,19 @@
 #include <string_view>
 #include <vector>
 
-#include "collision/motion/contact_interval.hpp"
 #include "core/rng.hpp"
 #include "oracles/sample_bodies.hpp"
 #include "oracles/separating_axes.hpp"
+#include "survey/motion/contact_interval.hpp"
 
 namespace carpus {
 namespace {
 
-using collision::ContactInterval;
-using collision::ContactIntervalQuery;
-using collision::ConvexBody;
-using collision::MotionOutcome;
-using collision::PairPose;
+using convex::ConvexBody;
+using convex::PairPose;
+using survey::ContactInterval;
+using survey::ContactIntervalQuery;
+using survey::MotionOutcome;
 
 class Oracle {
  public:
@@ -135,7 +135,7 @@ void expect_contact(const ConvexPolytope& first,
                     const PairPose& pose,
                     const Vec3& velocity,
                     double t,
-                    const collision::MotionContact& contact) {
+                    const survey::MotionContact& contact) {
   double high = -1e300;
   double low = 1e300;
   for (const Vec3& v : first.vertices) high = std::max(high, dot(contact.normal, v));

@@ -14,15 +14,15 @@
 #include <string>
 #include <vector>
 
-#include "collision/surface/distance_field.hpp"
-#include "collision/surface/exact_surface.hpp"
-#include "collision/surface/instrument_contact.hpp"
-#include "collision/surface/surface_test_support.hpp"
+#include "contact/instrument_contact.hpp"
+#include "fields/distance_field.hpp"
+#include "fields/exact_surface.hpp"
+#include "fields/surface_test_support.hpp"
 
-namespace carpus::collision {
+namespace carpus::contact {
 namespace {
 
-using test::amount;
+using fields::test::amount;
 
 /// A bone of the reference wrist as 32-bit floats give it; empty where that is absent
 /// ($CARPUS_REFERENCE_WRIST, default ../shared/reference-wrist). Reads what those files hold and no
@@ -67,17 +67,18 @@ double quantile(std::vector<double>& values, double share) {
 }
 
 /// One instrument near a random vertex, against the triangles.
-void compare(const ContactField& field,
-             const ExactSurface& exact,
+void compare(const fields::ContactField& field,
+             const fields::ExactSurface& exact,
              const InstrumentShape& shape,
              Rng& rng,
              Errors& errors) {
   const auto& vertices = exact.surface().vertices;
-  const Vec3 shaft = test::random_direction(rng);
-  const Vec3 centre = vertices[rng.below(vertices.size())] +
-                      test::random_direction(rng) * rng.uniform(0, 2 * shape.greatest_radius_mm());
+  const Vec3 shaft = fields::test::random_direction(rng);
+  const Vec3 centre =
+      vertices[rng.below(vertices.size())] +
+      fields::test::random_direction(rng) * rng.uniform(0, 2 * shape.greatest_radius_mm());
   const double z = rng.uniform(shape.front_z_mm(), shape.back_z_mm());
-  const Pose<frame::Bone, frame::Tool> pose{test::turned_to(shaft), centre - shaft * z};
+  const Pose<frame::Bone, frame::Tool> pose{fields::test::turned_to(shaft), centre - shaft * z};
   const SurfaceContact contact = find_contact(field, shape, pose, 1.0);
   constexpr double kTolerance = 1e-3;
   const double truth = exact.gap_of(shape, pose, kTolerance).gap_mm;
@@ -107,8 +108,8 @@ TEST(SurfaceContactOracle, AgreesWithTheTrianglesOfReferenceBones) {
     if (mesh.facets.empty()) {
       GTEST_SKIP() << "no reference wrist; set CARPUS_REFERENCE_WRIST to its folder";
     }
-    const ContactField field(build_distance_field(mesh), mesh);
-    const ExactSurface exact(mesh);
+    const fields::ContactField field(fields::build_distance_field(mesh), mesh);
+    const fields::ExactSurface exact(mesh);
     Errors errors;
     for (const InstrumentShape& shape : shapes) {
       for (int i = 0; i < amount(2, 10, 100); ++i) compare(field, exact, shape, rng, errors);
@@ -128,4 +129,4 @@ TEST(SurfaceContactOracle, AgreesWithTheTrianglesOfReferenceBones) {
 }
 
 }  // namespace
-}  // namespace carpus::collision
+}  // namespace carpus::contact

@@ -10,20 +10,21 @@
 #include <string_view>
 #include <vector>
 
-#include "collision/pair_query.hpp"
-#include "collision/scene.hpp"
+#include "convex/pair_query.hpp"
 #include "core/rng.hpp"
 #include "oracles/sample_bodies.hpp"
 #include "oracles/separating_axes.hpp"
+#include "survey/methods.hpp"
+#include "survey/scene.hpp"
 
 namespace carpus {
 namespace {
 
-using collision::ConvexBody;
-using collision::Method;
-using collision::PairPose;
-using collision::PairQuery;
-using collision::Verdict;
+using convex::ConvexBody;
+using convex::PairPose;
+using convex::PairQuery;
+using convex::Verdict;
+using survey::Method;
 
 constexpr std::array<std::string_view, 6> kTrees{"aabb_tree",   "obb_tree",    "quick_cd_6",
                                                  "quick_cd_14", "quick_cd_18", "quick_cd_26"};
@@ -56,8 +57,8 @@ void compare(std::uint64_t seed, Tally& tally) {
   const ConvexBody second(is_small ? small_body(rng) : oracles::integer_body(rng));
   std::vector<std::unique_ptr<PairQuery>> queries;
   for (const std::string_view name : kTrees) {
-    queries.push_back(collision::find_method(name)->make(first, second));
-    queries.push_back(collision::find_method(name)->make(second, first));
+    queries.push_back(survey::find_method(name)->make(first, second));
+    queries.push_back(survey::find_method(name)->make(second, first));
   }
   const auto exact_first = in_quarters(first.polytope(), Mat3::identity(), {});
   for (int step = 0; step < 8; ++step) {  // the state of one answer starts the next
@@ -93,14 +94,14 @@ TEST(VolumesOracle, EveryBroadPhaseKeepsTheVerdictsOfEveryMethod) {
   Rng rng(9);
   std::vector<ConvexBody> bodies;
   for (int i = 0; i < 7; ++i) bodies.emplace_back(oracles::integer_body(rng));
-  for (const Method& method : collision::all_methods()) {
-    collision::Scene all(bodies, method, collision::BroadPhase::None);
-    collision::Scene boxes(bodies, method, collision::BroadPhase::AllBoxes);
-    collision::Scene sweep(bodies, method, collision::BroadPhase::SweepAndPrune);
-    std::vector<collision::BodyPose> poses(bodies.size());
+  for (const Method& method : survey::all_methods()) {
+    survey::Scene all(bodies, method, survey::BroadPhase::None);
+    survey::Scene boxes(bodies, method, survey::BroadPhase::AllBoxes);
+    survey::Scene sweep(bodies, method, survey::BroadPhase::SweepAndPrune);
+    std::vector<survey::BodyPose> poses(bodies.size());
     std::size_t culled = 0;
     for (int tick = 0; tick < 30; ++tick) {
-      for (collision::BodyPose& pose : poses) {
+      for (survey::BodyPose& pose : poses) {
         const auto c = [&] { return static_cast<double>(rng.below(40)) - 20; };
         pose = {oracles::axis_rotation(rng), {c(), c(), c()}};
       }

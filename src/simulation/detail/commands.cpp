@@ -1,97 +1,138 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the person commands: shots, measuring, choosing a screw, undo, finish.
-#include <algorithm>
-#include <cmath>
+// What is done once: shots, taking and putting down instruments, reading the gauge, undo, finish.
+// Whether it may be done is decided in permission.cpp alone.
 #include <cstdint>
 
+#include "core/units.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
-namespace {
 
-using procedure::Step;
-
-constexpr double kGaugeStepMm = 0.5;  // scale of the depth gauge
-
-double absolute(double value) noexcept { return value < 0 ? -value : value; }
-
-}  // namespace
-
-void World::State::save_checkpoint() noexcept {
-  if (checkpoint_count == checkpoints.size()) {  // the oldest is forgotten
-    for (std::size_t i = 1; i < checkpoints.size(); ++i) checkpoints[i - 1] = checkpoints[i];
-    --checkpoint_count;
-  }
-  checkpoints[checkpoint_count++] = now;
-}
+using detail::Item;
 
 void World::State::obey(const Model& model, const Command& command) noexcept {
+  if (command.kind == CommandKind::None) return;
+  const Refusal refusal = why_not(model.procedure, snapshot, command);
+  if (refusal != Refusal::None) {
+    emit(EventKind::Refused, kNoItem, static_cast<std::int32_t>(refusal), 0.0);
+    return;
+  }
   switch (command.kind) {
     case CommandKind::None:
       return;
     case CommandKind::TakeShot:
       return take_shot(command);
-    case CommandKind::Measure:
-      return measure(model);
-    case CommandKind::SelectScrew:
-      return select_screw(model, command.index);
+    case CommandKind::Take:
+      return take(model, command.hand, command.index);
+    case CommandKind::PickUp:
+      return pick_up(command.hand, command.index);
+    case CommandKind::PutDown:
+      return put_down(model, command.hand);
+    case CommandKind::ReadGauge:
+      return read_gauge(model, command.hand);
     case CommandKind::Undo:
       return undo();
     case CommandKind::Finish:
-      return finish();
+      is_finishing = true;
+      return;
   }
-  refuse(command.kind);
 }
 
 void World::State::take_shot(const Command& command) noexcept {
-  const bool is_in_range =
-      absolute(command.rotation_deg) <= 180.0 && absolute(command.tilt_deg) <= 60.0;
-  if (!is_in_range || spent.shot_count >= kMaxShots) return refuse(CommandKind::TakeShot);
   procedure::Shot& shot = shots[spent.shot_count++];
-  shot.rotation_deg = command.rotation_deg;
+  // What is seen hangs on how the forearm lies under the C-arm.
+  shot.rotation_deg = command.rotation_deg + degrees_from_radians(spent.wrist.pronation_rad);
   shot.tilt_deg = command.tilt_deg;
   shot.tick = spent.tick;
-  shot.wire_in_bone = (now.completed_steps & detail::step_bit(Step::Drive)) != 0;
-  shot.screw_in = now.screw.index >= 0 && buried_mm() >= 0.0;
-  emit(EventKind::ShotTaken, static_cast<std::int32_t>(spent.shot_count), 0.0);
+  shot.completed_steps = now.completed_steps;
+  shot.wrist = spent.wrist;
+  emit(EventKind::ShotTaken, kNoItem, static_cast<std::int32_t>(spent.shot_count), 0.0);
 }
 
-void World::State::measure(const Model& /*model*/) noexcept {
-  if (!now.wire.in_scaphoid || !(depth_mm() > 0.0)) return refuse(CommandKind::Measure);
-  // Between the cortices: what of the wire is beyond the far one does not count.
-  const double in_bone = now.wire.has_left ? std::min(depth_mm(), now.wire.chord_mm) : depth_mm();
-  const auto steps = std::int64_t{std::lround(in_bone / kGaugeStepMm)};
-  now.measured_mm = static_cast<double>(steps) * kGaugeStepMm;
-  emit(EventKind::Measured, 0, now.measured_mm);
-}
-
-void World::State::select_screw(const Model& model, std::int32_t index) noexcept {
-  const bool is_known = index >= 0 && static_cast<std::size_t>(index) < model.screw_count;
-  if (!is_known || !now.wire.in_scaphoid || now.screw.advance_mm > 0.0) {
-    return refuse(CommandKind::SelectScrew);
+void World::State::take(const Model& model,
+                        std::uint8_t hand,
+                        InstrumentIndex instrument) noexcept {
+  const instruments::Instrument& kind = model.catalogue[instrument];
+  // Where it appears: where the hand is.
+  Vec3 tip = spent.hands[hand].wish.tip_in_patient;
+  Vec3 shaft = spent.hands[hand].wish.shaft_in_patient;
+  if (const Item* held = in_hand(hand)) {
+    tip = held->tip;
+    shaft = held->shaft;
   }
   save_checkpoint();
-  now.screw = {index, model.screw_lengths[static_cast<std::size_t>(index)], 0.0, false};
-  now.instrument = Instrument::ScrewDriver;
-  emit(EventKind::ScrewSelected, index, now.screw.length_mm);
+  put_down(model, hand);
+  std::uint8_t place = 0;
+  while (place < kMaxItems && now.items[place].is_there()) ++place;
+  if (place == kMaxItems) return;  // permission.cpp refused before
+  Item& item = now.items[place];
+  item = Item{};
+  item.instrument = instrument;
+  item.hand = hand;
+  now.held[hand] = place;
+  item.shaft = normalized_or(shaft, {0, 0, 1});
+  item.tip = tip;
+  if (kind.bore_radius_mm > 0.0 && !kind.is_sleeve) {
+    ride_on(model, item, wire_to_ride_on(model.catalogue, snapshot, instrument));
+  } else {
+    // It comes in from behind the hand, so that it starts in no bone.
+    item.tip = tip + item.shaft * kind.shape.back_z_mm();
+  }
+  scene.set_instrument(hand, kind.shape);
+  emit(EventKind::Taken, place, instrument, 0.0);
 }
 
-void World::State::undo() noexcept {
-  if (checkpoint_count == 0) return refuse(CommandKind::Undo);
-  now = checkpoints[--checkpoint_count];
-  ++spent.undos;
-  emit(EventKind::Undone, 0, 0.0);
+/// Puts a reamer, gauge or screw over a wire, its tip at the wire's entry.
+void World::State::ride_on(const Model& /*model*/, Item& item, std::uint8_t wire) noexcept {
+  if (wire >= kMaxItems) return;
+  const Item& under = now.items[wire];
+  item.wire = wire;
+  item.body = under.body;
+  item.pass = under.pass;
+  item.in_target = under.in_target;
+  item.origin_in_bone = under.origin_in_bone;
+  item.direction_in_bone = under.direction_in_bone;
+  item.entry_at_mm = under.entry_at_mm;
+  item.chord_mm = under.chord_mm;
+  item.travel_mm = under.entry_at_mm;
+  item.cut_to_mm = item.travel_mm;
 }
 
-void World::State::finish() noexcept {
-  const bool was_verified =
-      spent.shot_count > 0 && shots[spent.shot_count - 1].screw_in && buried_mm() >= 0.0;
-  if (was_verified && now.screw.index >= 0) complete(Step::Verify);
-  complete(Step::Finished);
-  spent.finished = true;
-  emit(EventKind::Finished, 0, 0.0);
+void World::State::pick_up(std::uint8_t hand, std::uint8_t item) noexcept {
+  if (Item* held = in_hand(hand)) {  // a free instrument goes back to the tray
+    held->hand = kNoHand;
+    if (!held->is_fixed()) *held = Item{};
+  }
+  now.items[item].hand = hand;
+  now.held[hand] = item;
+  emit(EventKind::Taken, item, now.items[item].instrument, 0.0);
+}
+
+void World::State::put_down(const Model& model, std::uint8_t hand) noexcept {
+  Item* held = in_hand(hand);
+  if (held == nullptr) return;
+  const std::uint8_t place = now.held[hand];
+  const InstrumentIndex instrument = held->instrument;
+  now.held[hand] = kNoItem;
+  held->hand = kNoHand;
+  if (!held->is_fixed() || !kind_of(model, *held).stays) *held = Item{};
+  spent.hands[hand].touched_body = kNoBody;
+  scene.clear_instrument(hand);
+  emit(EventKind::PutDown, place, instrument, 0.0);
+}
+
+void World::State::read_gauge(const Model& model, std::uint8_t hand) noexcept {
+  const Item& gauge = *in_hand(hand);
+  const Item& wire = now.items[gauge.wire];
+  // The foot stands on bone where the wire went in; what of the wire is beyond it is read, to the
+  // scale's step, wherever its tip may be.
+  const double step = kind_of(model, gauge).gauge_step_mm;
+  const double steps = wire.depth_mm() / step + 0.5;
+  const auto whole = static_cast<std::int64_t>(steps < 0 ? 0.0 : steps);
+  now.gauge_reading_mm = static_cast<double>(whole) * step;
+  emit(EventKind::GaugeRead, now.held[hand], 0, now.gauge_reading_mm);
 }
 
 }  // namespace carpus::simulation

@@ -1,8 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole changing state of a world, as plain data: what undo restores apart from what stays
-// spent.
+// The whole changing state of a world but its tissue, as plain data: what undo restores apart from
+// what stays spent. Each struct lists its fields once, in visit(); hashing, writing and reading a
+// state all go through that list.
 #pragma once
 
 #include <array>
@@ -10,72 +11,204 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "core/state_hash.hpp"
 #include "core/units.hpp"
-#include "procedure/views.hpp"
+#include "geometry/vec3.hpp"
+#include "haptics/virtual_coupling.hpp"
+#include "procedure/situation.hpp"
+#include "simulation/hand_planning.hpp"
 #include "simulation/snapshot.hpp"
-#include "simulation/world.hpp"
 
 namespace carpus::simulation::detail {
 
-/// The wire in bone. Its line is fixed where it engaged: origin + direction * travel.
-struct WireLine {
-  bool engaged = false;
-  bool in_scaphoid = false;       ///< has entered the scaphoid on this line
-  bool has_left = false;          ///< its tip is beyond the scaphoid's far cortex
-  Vec3 origin;                    ///< where the tip was when it engaged [mm]
-  Vec3 direction;                 ///< unit, into the bone
-  double travel_mm = 0.0;         ///< tip from the origin
-  double entry_at_mm = 0.0;       ///< travel at which it entered the scaphoid
-  double chord_mm = 0.0;          ///< length of this line inside the scaphoid, gap included
-  std::uint32_t wrong_bones = 0;  ///< bones told of on this line, bit by label
-};
+inline constexpr std::uint8_t kNoTrack = 255;
+inline constexpr std::size_t kMaxPasses = 64;
+inline constexpr std::size_t kMaxCheckpoints = 16;
 
-struct ScrewOnWire {
-  std::int32_t index = -1;
-  double length_mm = 0.0;
-  double advance_mm = 0.0;  ///< tip below the scaphoid's entry
+/// T, const or not.
+template <typename Some, typename T>
+concept Is = std::is_same_v<std::remove_const_t<Some>, T>;
+
+/// An instrument that is out of the tray. While `body` is set its line is fixed in that body:
+/// origin + direction * travel, frame Bone; else it is free and lies at tip, shaft.
+struct Item {
+  InstrumentIndex instrument = kNoInstrument;
+  std::uint8_t hand = kNoHand;
+  std::uint8_t body = kNoBody;
+  std::uint8_t wire = kNoItem;    ///< on which it rides
+  std::uint8_t track = kNoTrack;  ///< the hole that it makes
+  std::uint8_t pass = 255;        ///< Spent::passes of its line, 255 when they are used up
+  bool in_target = false;         ///< it entered the target on this line
+  bool has_left = false;          ///< its tip is beyond the target's far surface
   bool told_seated = false;
+  Vec3 tip;                  ///< frame Patient, after contact [mm]
+  Vec3 shaft{0, 0, 1};       ///< unit, towards the hand
+  Vec3 origin_in_bone;       ///< where the tip was when the line was fixed
+  Vec3 direction_in_bone;    ///< unit, into the bone
+  double travel_mm = 0.0;    ///< tip from the origin
+  double entry_at_mm = 0.0;  ///< travel at which it entered the target, else the first bone
+  double chord_mm = 0.0;     ///< of this line inside the target, gap included
+  double cut_to_mm = 0.0;    ///< travel up to which bone was removed
+  std::uint32_t told_bodies = 0;  ///< wrong bones told of on this line, bit by body
+
+  [[nodiscard]] bool is_there() const noexcept { return instrument != kNoInstrument; }
+  [[nodiscard]] bool is_fixed() const noexcept { return body != kNoBody; }
+  [[nodiscard]] double depth_mm() const noexcept { return travel_mm - entry_at_mm; }
 };
 
-/// What an undo brings back.
+template <Is<Item> SomeItem, typename Visitor>
+void visit(SomeItem& item, Visitor&& v) noexcept {
+  v(item.instrument);
+  v(item.hand);
+  v(item.body);
+  v(item.wire);
+  v(item.track);
+  v(item.pass);
+  v(item.in_target);
+  v(item.has_left);
+  v(item.told_seated);
+  v(item.tip);
+  v(item.shaft);
+  v(item.origin_in_bone);
+  v(item.direction_in_bone);
+  v(item.travel_mm);
+  v(item.entry_at_mm);
+  v(item.chord_mm);
+  v(item.cut_to_mm);
+  v(item.told_bodies);
+}
+
+/// What an undo brings back, but the tissue, which undoes itself (detail/tissue).
 struct Operated {
-  Instrument instrument = Instrument::GuideWire;
-  Vec3 tip;             ///< of the instrument, after contact [mm]
-  Vec3 shaft{0, 0, 1};  ///< unit, towards the hand
-  WireLine wire;
-  ScrewOnWire screw;
-  double measured_mm = -1.0;
-  std::uint32_t passes = 0;
-  std::uint32_t far_exits = 0;
-  double far_exit_mm = 0.0;
-  std::uint32_t wrong_bones = 0;
+  std::array<Item, kMaxItems> items{};
+  std::array<std::uint8_t, kHands> held{kNoItem, kNoItem};  ///< item in each hand
+  std::array<TrackView, kMaxTracks> tracks{};
+  std::uint8_t track_count = 0;
+  /// A fragment's place beside where its bone's motion takes it [mm, frame Bone].
+  std::array<Vec3, kMaxBodies> shifted{};
+  double gauge_reading_mm = -1.0;
+  double reamed_mm = 0.0;
+  double holding_share = 1.0;
   std::uint32_t completed_steps = 0;
-  std::uint32_t shots_before_drive = 0;  ///< shots when Step::Drive was completed
+  std::array<std::uint16_t, procedure::kMaxSteps> shots_at_completion{};
 };
 static_assert(std::is_trivially_copyable_v<Operated>);
 
-inline constexpr std::size_t kMaxCheckpoints = 16;
+template <Is<Operated> SomeOperated, typename Visitor>
+void visit(SomeOperated& now, Visitor&& v) noexcept {
+  for (auto& item : now.items) {
+    v(item.instrument);
+    if (item.is_there()) visit(item, v);
+  }
+  for (auto& held : now.held) v(held);
+  v(now.track_count);
+  for (std::size_t i = 0; i < now.track_count && i < kMaxTracks; ++i) {
+    auto& track = now.tracks[i];
+    v(track.body);
+    v(track.from_in_bone);
+    v(track.to_in_bone);
+    v(track.from_radius_mm);
+    v(track.to_radius_mm);
+  }
+  for (auto& shift : now.shifted) v(shift);
+  v(now.gauge_reading_mm);
+  v(now.reamed_mm);
+  v(now.holding_share);
+  v(now.completed_steps);
+  for (auto& shots : now.shots_at_completion) v(shots);
+}
 
-/// What an undo does not bring back, and the last tick's facts.
+/// One way into bone: procedure::Pass.
+struct PassState {
+  InstrumentIndex instrument = kNoInstrument;
+  std::uint8_t first_body = kNoBody;
+  bool was_undone = false;
+  std::uint32_t bodies_entered = 0;
+  std::uint32_t far_exits = 0;
+  double far_exit_mm = 0.0;
+};
+
+/// A hand between two ticks.
+struct HandState {
+  HandInput wish;                     ///< newest good input
+  HandPlan plan;                      ///< on its way there
+  bool has_wish = false;
+  bool forward_is_held = false;       ///< driver forward since the last tick
+  bool reverse_is_held = false;       ///< in reverse since what it held came out: let go first
+  bool slip_is_told = false;          ///< since the driver started
+  std::uint8_t touched_body = kNoBody;
+  Vec3 contact_normal;                ///< frame Patient
+  haptics::VirtualCoupling coupling;
+};
+
+template <Is<HandState> SomeHand, typename Visitor>
+void visit(SomeHand& hand, Visitor&& v) noexcept {
+  v(hand.wish.tip_in_patient);
+  v(hand.wish.shaft_in_patient);
+  v(hand.wish.thrust_n);
+  v(hand.wish.driver);
+  v(hand.wish.guidance);
+  visit(hand.plan, v);
+  v(hand.has_wish);
+  v(hand.forward_is_held);
+  v(hand.reverse_is_held);
+  v(hand.slip_is_told);
+  v(hand.touched_body);
+  v(hand.contact_normal);
+  visit_coupling(hand.coupling, v);
+}
+
+/// What an undo does not bring back.
 struct Spent {
   Tick tick = 0;
   std::uint32_t undos = 0;
   std::uint32_t shot_count = 0;
   bool finished = false;
-  bool reverse_is_held = false;  ///< driver in reverse since the screw came off: let go first
-  bool forward_is_held = false;  ///< driver forward since the last tick
-  bool has_input = false;
-  bool slip_is_told = false;  ///< since the driver started; decides an event only: not hashed
-  Vec3 last_hand_tip;         ///< newest good input
-  Vec3 last_hand_shaft{0, 0, 1};
-  std::uint8_t touched_label = 0;
-  Vec3 contact_normal;
+  bool wrist_is_told = false;  ///< that it came to its limit or is held
+  WristPose wrist;             ///< as it is held now
+  std::array<HandState, kHands> hands{};
+  std::array<PassState, kMaxPasses> passes{};
+  std::uint32_t pass_count = 0;  ///< may exceed what is kept
+  std::uint32_t tissue_revision = 0;
   std::uint64_t hash = 0;
 };
+static_assert(std::is_trivially_copyable_v<Spent>);
 
-/// Adds what decides the future to the hash; in a fixed order, so that replays compare.
-void add_to(StateHash& hash, const Operated& operated) noexcept;
-void add_to(StateHash& hash, const Spent& spent) noexcept;
+template <Is<Spent> SomeSpent, typename Visitor>
+void visit(SomeSpent& spent, Visitor&& v) noexcept {
+  v(spent.tick);
+  v(spent.undos);
+  v(spent.shot_count);
+  v(spent.finished);
+  v(spent.wrist_is_told);
+  v(spent.wrist.flexion_rad);
+  v(spent.wrist.radial_deviation_rad);
+  v(spent.wrist.pronation_rad);
+  v(spent.wrist.traction_n);
+  for (auto& hand : spent.hands) visit(hand, v);
+  v(spent.pass_count);
+  for (std::size_t i = 0; i < spent.pass_count && i < kMaxPasses; ++i) {
+    auto& pass = spent.passes[i];
+    v(pass.instrument);
+    v(pass.first_body);
+    v(pass.was_undone);
+    v(pass.bodies_entered);
+    v(pass.far_exits);
+    v(pass.far_exit_mm);
+  }
+  v(spent.tissue_revision);
+  v(spent.hash);
+}
+
+template <typename SomeShot, typename Visitor>
+void visit_shot(SomeShot& shot, Visitor&& v) noexcept {
+  v(shot.rotation_deg);
+  v(shot.tilt_deg);
+  v(shot.tick);
+  v(shot.completed_steps);
+  v(shot.wrist.flexion_rad);
+  v(shot.wrist.radial_deviation_rad);
+  v(shot.wrist.pronation_rad);
+  v(shot.wrist.traction_n);
+}
 
 }  // namespace carpus::simulation::detail

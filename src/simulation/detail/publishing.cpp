@@ -4,98 +4,124 @@
 // The snapshot, the force and the hash that each tick leaves.
 #include <cstdint>
 
-#include "geometry/trilinear.hpp"
-#include "haptics/contact_force.hpp"
-#include "instruments/guide_wire.hpp"
+#include "core/state_hash.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
+
+using detail::Item;
+
 namespace {
 
-using detail::SurfacePoint;
-using procedure::Step;
-
-constexpr double kSoftTissueHu = 40.0;
+/// Adds every field that it is shown, in that order.
+struct HashFields {
+  StateHash& hash;
+  void operator()(const Vec3& v) const noexcept {
+    hash.add(v.x);
+    hash.add(v.y);
+    hash.add(v.z);
+  }
+  void operator()(double value) const noexcept { hash.add(value); }
+  template <typename T>
+  void operator()(const T& value) const noexcept {
+    hash.add(static_cast<std::uint64_t>(value));
+  }
+};
 
 }  // namespace
 
-void World::State::publish_wire(const Model& model) noexcept {
-  WireState& wire = snapshot.wire;
-  wire = WireState{};
-  wire.passes = now.passes;
-  wire.engaged = now.wire.engaged;
-  if (!now.wire.engaged) {
-    wire.tip_in_patient = now.tip;
-    wire.direction_in_patient = -now.shaft;
-    return;
+void World::State::publish_item(const Model& model, std::size_t index) noexcept {
+  const Item& item = now.items[index];
+  ItemView& view = snapshot.items[index];
+  view = ItemView{};
+  if (!item.is_there()) return;
+  view.instrument = item.instrument;
+  view.hand = item.hand;
+  view.body = item.body;
+  view.wire = item.wire;
+  view.tip_in_patient = item.tip;
+  view.shaft_in_patient = item.shaft;
+  if (!item.is_fixed()) return;
+  view.in_target = item.in_target;
+  view.entry_in_patient = (poses[item.body] * Point<frame::Bone>{entry_in_bone(item)}).v;
+  view.depth_mm = item.depth_mm();
+  if (kind_of(model, item).work == instruments::Work::Thread) {
+    view.buried_mm = buried_mm(model, item);
   }
-  wire.entry_in_patient = now.wire.in_scaphoid ? entry() : now.wire.origin;
-  wire.tip_in_patient = wire_tip();
-  wire.direction_in_patient = now.wire.direction;
-  wire.depth_mm = depth_mm();
-  wire.tip_hu = sample_at(model.ct, wire.tip_in_patient, kSoftTissueHu);
-  const SurfacePoint at_tip = model.contact.surface_at(wire.tip_in_patient);
-  wire.tip_label = at_tip.is_near && at_tip.distance_mm <= 0.0 ? at_tip.label : std::uint8_t{0};
+  // Only what is driven changes from tick to tick.
+  const Touched at_tip = surface_at(item.tip);
+  view.tip_body = at_tip.body != kNoBody && at_tip.distance_mm <= 0.0 ? at_tip.body : kNoBody;
+  view.tip_hu = density_hu(model, item.tip);
 }
 
-void World::State::publish(const Model& model,
-                           const Input& input,
-                           const Vec3& hand_velocity) noexcept {
+void World::State::publish_hand(std::size_t hand) noexcept {
+  detail::HandState& held = spent.hands[hand];
+  HandView& view = snapshot.hands[hand];
+  view.item = now.held[hand];
+  const Item* item = in_hand(hand);
+  const bool is_free = item != nullptr && !item->is_fixed();
+  view.touching = is_free && held.touched_body != kNoBody;
+  view.touched_body = view.touching ? held.touched_body : kNoBody;
+  view.contact_normal_in_patient = view.touching ? held.contact_normal : Vec3{};
+  const Vec3& wish = held.plan.tip;
+  view.contact_depth_mm = view.touching ? distance(wish, item->tip) : 0.0;
+  view.force_in_patient = {};
+  if (item == nullptr) {
+    held.coupling.release(wish);
+    return;
+  }
+  // The hand is tied to where its instrument could go: free, to beside the bone; in bone to its line,
+  // along which it goes as far as the bone lets it.
+  view.force_in_patient = held.coupling.force_n(item->tip, wish, haptics::kForceLimitN);
+  faults.forces_zeroed += held.coupling.take_faults();
+}
+
+/// All but what the hands feel, which belongs to the tick that made it.
+void World::State::publish_state(const Model& model) noexcept {
   snapshot.tick = spent.tick;
   snapshot.completed_steps = now.completed_steps;
-  // What was left out before a screw is in cannot be made up for any more.
-  const bool is_screw_in = (now.completed_steps & detail::step_bit(Step::Insert)) != 0;
-  int current = is_screw_in ? static_cast<int>(Step::Verify) : 0;
-  while (current < static_cast<int>(Step::Finished) && (now.completed_steps >> current & 1U) != 0) {
-    ++current;
+  const auto& steps = model.procedure.steps;
+  // What was left out before a step that passes over it cannot be made up for any more.
+  std::size_t current = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].passes_over_earlier && (now.completed_steps >> i & 1U) != 0) current = i;
   }
-  snapshot.step = spent.finished ? Step::Finished : static_cast<Step>(current);
-  // Let go with its screw seated, the driver comes off and the wire out: the final views show the
-  // screw alone. Driving on takes them up again.
-  const bool is_laid_down = now.instrument == Instrument::ScrewDriver && buried_mm() >= 0.0 &&
-                            (input.driver == Driver::Off || spent.finished);
-  snapshot.instrument = is_laid_down ? Instrument::None : now.instrument;
-  snapshot.tip_in_patient = now.tip;
-  snapshot.shaft_in_patient = now.shaft;
-  publish_wire(model);
-  snapshot.screw = {now.screw.index, now.screw.length_mm, now.screw.advance_mm,
-                    now.screw.index >= 0 ? buried_mm() : 0.0};
-  snapshot.measured_mm = now.measured_mm;
+  while (current < steps.size() && (now.completed_steps >> current & 1U) != 0) ++current;
+  snapshot.step = static_cast<std::uint8_t>(spent.finished ? steps.size() : current);
+  for (std::size_t i = 0; i < kMaxItems; ++i) publish_item(model, i);
+  for (std::size_t b = 0; b < snapshot.body_count; ++b) snapshot.patient_from_bone[b] = poses[b];
+  snapshot.wrist = spent.wrist;
+  if (snapshot.tissue_revision != spent.tissue_revision ||
+      snapshot.track_count != now.track_count) {
+    snapshot.tracks = now.tracks;
+    snapshot.track_count = now.track_count;
+    snapshot.tissue_revision = spent.tissue_revision;
+  }
+  snapshot.gauge_reading_mm = now.gauge_reading_mm;
+  snapshot.holding_share = now.holding_share;
+  snapshot.passes = spent.pass_count;
   snapshot.shots = spent.shot_count;
   snapshot.undos = spent.undos;
+  snapshot.can_undo = checkpoint_count > 0 && !spent.finished;
   snapshot.finished = spent.finished;
+}
 
-  const bool is_free = !now.wire.engaged;
-  snapshot.contact.touching = is_free && spent.touched_label != 0;
-  snapshot.contact.label = snapshot.contact.touching ? spent.touched_label : std::uint8_t{0};
-  snapshot.contact.normal_in_patient = snapshot.contact.touching ? spent.contact_normal : Vec3{};
-  snapshot.contact.depth_mm =
-      snapshot.contact.touching ? distance(input.tip_in_patient, now.tip) : 0.0;
-
-  // In bone the line is held by bone and guide; what the hand feels is the way along it.
-  const Vec3 force = is_free
-                         ? haptics::contact_force_n(now.tip, input.tip_in_patient, hand_velocity)
-                         : now.shaft * snapshot.resistance_n;
-  snapshot.force_in_patient = limiter.limited(force);
-  faults.forces_zeroed = limiter.faults();
+void World::State::publish(const Model& model) noexcept {
+  for (std::size_t h = 0; h < kHands; ++h) publish_hand(h);
+  publish_state(model);
 }
 
 void World::State::update_hash(const Model& model) noexcept {
   StateHash hash;
-  hash.add(spent.hash);
   hash.add(model.seed);
-  detail::add_to(hash, now);
-  detail::add_to(hash, spent);
-  if (spent.shot_count > 0) {
-    const procedure::Shot& shot = shots[spent.shot_count - 1];
-    hash.add(shot.rotation_deg);
-    hash.add(shot.tilt_deg);
-  }
-  hash.add(snapshot.force_in_patient.x);
-  hash.add(snapshot.force_in_patient.y);
-  hash.add(snapshot.force_in_patient.z);
+  const HashFields fields{hash};
+  visit(now, fields);
+  visit(spent, fields);
+  if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
+  tissue.cuts().add_to(hash);
+  for (const HandView& hand : snapshot.hands) fields(hand.force_in_patient);
   spent.hash = hash.value();
-  snapshot.state_hash = hash.value();
+  snapshot.state_hash = spent.hash;
 }
 
 }  // namespace carpus::simulation

@@ -1,61 +1,73 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which steps of the procedure are done.
+// Which steps of the procedure are done: its own predicates on the facts of this tick.
 #include <cstdint>
 
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
-namespace {
 
-using procedure::Step;
+using detail::bit_of;
+using detail::Item;
 
-constexpr double kDriveDoneShare = 0.6;  // of the line's length inside the scaphoid
-
-double absolute(double value) noexcept { return value < 0 ? -value : value; }
-
-}  // namespace
-
-void World::State::complete(Step step) noexcept {
-  if ((now.completed_steps & detail::step_bit(step)) != 0) return;
-  now.completed_steps |= detail::step_bit(step);
-  emit(EventKind::StepCompleted, static_cast<std::int32_t>(step), 0.0);
+procedure::LineFacts World::State::facts_of(const Model& model, const Item& item) const noexcept {
+  procedure::LineFacts facts;
+  facts.instrument = item.instrument;
+  facts.body = item.body;
+  facts.in_hand = item.hand != kNoHand;
+  facts.in_target = item.in_target;
+  facts.entry_in_bone = entry_in_bone(item);
+  facts.direction_in_bone = item.direction_in_bone;
+  facts.depth_mm = item.depth_mm();
+  facts.chord_mm = item.chord_mm;
+  if (kind_of(model, item).work == instruments::Work::Thread) {
+    facts.buried_mm = buried_mm(model, item);
+  }
+  return facts;
 }
 
-/// Whether the shots from `first_shot` on hold two different views, and the oblique if needed.
-bool World::State::are_views_enough(std::uint32_t first_shot, bool needs_oblique) const noexcept {
-  bool has_two = false;
-  bool has_oblique = !needs_oblique;
-  for (std::uint32_t i = first_shot; i < spent.shot_count; ++i) {
-    const procedure::Shot& shot = shots[i];
-    const procedure::Shot& first = shots[first_shot];
-    has_two = has_two ||
-              absolute(shot.rotation_deg - first.rotation_deg) >= procedure::kDifferentViewDeg ||
-              absolute(shot.tilt_deg - first.tilt_deg) >= procedure::kDifferentViewDeg;
-    has_oblique = has_oblique || procedure::shows(procedure::View::PronatedOblique,
-                                                  shot.rotation_deg, shot.tilt_deg);
+void World::State::gather(const Model& model, Facts& facts) const noexcept {
+  procedure::Situation& situation = facts.situation;
+  std::size_t count = 0;
+  for (const Item& item : now.items) {
+    if (item.is_there() && item.is_fixed()) facts.lines[count++] = facts_of(model, item);
   }
-  return has_two && has_oblique;
+  situation.lines = {facts.lines.data(), count};
+  situation.tick = spent.tick;
+  for (std::size_t h = 0; h < kHands; ++h) {
+    const std::uint8_t held = now.held[h];
+    if (held >= kMaxItems) continue;
+    const std::uint8_t body = spent.hands[h].touched_body;
+    const bool in_target = body != kNoBody && (model.kinds.target & bit_of(body)) != 0;
+    situation.hands[h] = {now.items[held].instrument, body, in_target};
+  }
+  situation.shots = {shots.data(), spent.shot_count};
+  situation.completed_steps = now.completed_steps;
+  situation.shots_at_completion = now.shots_at_completion;
+  situation.gauge_reading_mm = now.gauge_reading_mm;
+  situation.reamed_mm = now.reamed_mm;
+  situation.wrist = spent.wrist;
+  situation.is_finishing = is_finishing;
 }
 
-void World::State::tick_off_steps() noexcept {
-  if ((now.completed_steps & detail::step_bit(Step::Survey)) == 0 && are_views_enough(0, false)) {
-    complete(Step::Survey);
+void World::State::tick_off_steps(const Model& model) noexcept {
+  Facts facts;
+  gather(model, facts);
+  const std::vector<procedure::Step>& steps = model.procedure.steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::uint32_t bit = 1U << i;
+    const procedure::Step& step = steps[i];
+    facts.situation.completed_steps = now.completed_steps;
+    facts.situation.shots_at_completion = now.shots_at_completion;
+    if ((now.completed_steps & bit) != 0) {
+      if (step.is_lost != nullptr && step.is_lost(facts.situation)) now.completed_steps &= ~bit;
+    } else if (step.is_done(facts.situation)) {
+      now.completed_steps |= bit;
+      now.shots_at_completion[i] = static_cast<std::uint16_t>(spent.shot_count);
+      emit(EventKind::StepCompleted, kNoItem, static_cast<std::int32_t>(i), 0.0);
+    }
   }
-  const bool is_driven = now.wire.in_scaphoid && depth_mm() >= kDriveDoneShare * now.wire.chord_mm;
-  if (is_driven && (now.completed_steps & detail::step_bit(Step::Drive)) == 0) {
-    now.shots_before_drive = spent.shot_count;
-    complete(Step::Drive);
-  }
-  if ((now.completed_steps & detail::step_bit(Step::Drive)) != 0 &&
-      (now.completed_steps & detail::step_bit(Step::Check)) == 0 &&
-      are_views_enough(now.shots_before_drive, true)) {
-    complete(Step::Check);
-  }
-  if (now.measured_mm >= 0.0) complete(Step::Measure);
-  if (now.screw.index >= 0) complete(Step::Choose);
-  if (now.screw.index >= 0 && buried_mm() >= 0.0) complete(Step::Insert);
 }
 
 }  // namespace carpus::simulation

@@ -1,130 +1,156 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a world holds while it runs: the case as the tick reads it, and everything that changes.
+// What a world holds while it runs: the case as the tick reads it, everything that changes, and what
+// changes it.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "anatomy/bone_solid.hpp"
-#include "core/error.hpp"
-#include "haptics/contact_force.hpp"
-#include "procedure/screw_catalogue.hpp"
-#include "simulation/detail/bone_contact.hpp"
+#include "anatomy/carpal_kinematics.hpp"
+#include "contact/instrument_scene.hpp"
+#include "fields/contact_field.hpp"
+#include "haptics/virtual_coupling.hpp"
+#include "instruments/instrument.hpp"
+#include "simulation/detail/bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
+#include "simulation/detail/tissue.hpp"
+#include "simulation/permission.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::simulation {
 
-namespace detail {
-/// Its place in Operated::completed_steps.
-[[nodiscard]] constexpr std::uint32_t step_bit(procedure::Step step) noexcept {
-  return 1U << static_cast<unsigned>(step);
-}
-}  // namespace detail
-
 struct World::Model {
-  explicit Model(const cases::CaseData& data)
-      : posed_case(data), ct(data.ct.view()), contact(data), scaphoid(solid_of(data)) {
-    for (const procedure::Screw& screw : procedure::screw_catalogue()) {
-      if (screw_count == screw_lengths.size()) break;
-      screw_lengths[screw_count++] = screw.length_mm;
-    }
-  }
+  Model(const cases::CaseData& data, const procedure::Procedure& procedure, std::uint64_t seed);
 
-  static BoneSolid solid_of(const cases::CaseData& data) {
-    std::vector<const TriangleMesh*> fragments;
-    for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
-    if (fragments.empty()) throw InvalidInput("simulation: the case has no scaphoid to operate on");
-    if (data.ct.values().empty()) {
-      throw InvalidInput("simulation: the case has no CT; resistance and pictures come from it");
-    }
-    return BoneSolid(fragments);
-  }
-
-  /// Length of the line from `entry` along `direction` inside the scaphoid [mm].
-  [[nodiscard]] double chord_mm(const Vec3& entry, const Vec3& direction) const noexcept {
-    constexpr double kStepMm = 0.1;
-    constexpr int kSteps = 600;
-    double last_inside = 0.0;
-    for (int i = 1; i <= kSteps; ++i) {
-      const double t = i * kStepMm;
-      if (scaphoid.contains(entry + direction * t)) last_inside = t;
-    }
-    return last_inside;
-  }
-
-  const cases::CaseData& posed_case;
-  GridView<const std::int16_t> ct;
-  detail::BoneContact contact;
-  BoneSolid scaphoid;
-  std::array<double, 256> screw_lengths{};
-  std::size_t screw_count = 0;
-  procedure::ProcedureId procedure = procedure::ProcedureId::DorsalScaphoidFixation;
-  std::uint64_t seed = 0;
+  const cases::CaseData& data;
+  const procedure::Procedure& procedure;
+  std::uint64_t seed;
+  detail::BodyKinds kinds;
+  std::span<const instruments::Instrument> catalogue;
+  std::vector<fields::ContactField> fields;  ///< by body
+  std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
+  std::vector<BoneSolid> target;    ///< one: the target's fragments as scanned, gap bridged
+  procedure::Opening opening;
 };
 
-/// Everything that changes, and what changes it.
+/// Everything that changes.
 struct World::State {
+  explicit State(const Model& model);
+
   detail::Operated now;
   detail::Spent spent;
+  detail::Tissue tissue;
+  contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
+  std::array<detail::BodyPose, kMaxBodies> poses{};         ///< follow from wrist and shifts
+  std::array<Pose<frame::Bone, frame::Patient>, kMaxBodies> inverses{};
+  std::array<Vec3, kMaxBodies> applied_shift{};  ///< that is in `poses`
   Snapshot snapshot;
   TickFaults faults;
-  haptics::ForceLimiter limiter;
   std::array<procedure::Shot, kMaxShots> shots{};
   std::array<detail::Operated, detail::kMaxCheckpoints> checkpoints{};
+  std::array<std::uint32_t, detail::kMaxCheckpoints> passes_at_checkpoint{};
   std::size_t checkpoint_count = 0;
+  bool is_finishing = false;  ///< in the tick of Finish
 
-  void step(Model& model, const Input& raw) noexcept;
+  void step(const Model& model, const Input& raw) noexcept;
+  void open(const Model& model) noexcept;
 
- private:
-  [[nodiscard]] Input checked(const Input& raw) noexcept;
-  void emit(EventKind kind, std::int32_t detail, double value) noexcept;
-  void refuse(CommandKind kind) noexcept;
+  // world.cpp
+  [[nodiscard]] HandInput checked(std::size_t hand, const HandInput& raw) noexcept;
+  void emit(EventKind kind, std::uint8_t item, std::int32_t detail, double value) noexcept;
+
+  // checkpoints.cpp
   void save_checkpoint() noexcept;
+  void undo() noexcept;
 
+  // commands.cpp
   void obey(const Model& model, const Command& command) noexcept;
   void take_shot(const Command& command) noexcept;
-  void measure(const Model& model) noexcept;
-  void select_screw(const Model& model, std::int32_t index) noexcept;
-  void undo() noexcept;
-  void finish() noexcept;
+  void take(const Model& model, std::uint8_t hand, InstrumentIndex instrument) noexcept;
+  void pick_up(std::uint8_t hand, std::uint8_t item) noexcept;
+  void put_down(const Model& model, std::uint8_t hand) noexcept;
+  void read_gauge(const Model& model, std::uint8_t hand) noexcept;
+  void ride_on(const Model& model, detail::Item& item, std::uint8_t wire) noexcept;
 
-  void move_free_wire(Model& model, const Input& input) noexcept;
-  void chase(Model& model, const detail::NearBones& near, const Vec3& target) noexcept;
-  void turn_towards(const Vec3& shaft) noexcept;
-  void rest_or_engage(const Model& model,
-                      const detail::NearBones& near,
-                      const Input& input) noexcept;
-  void engage(const Model& model, const detail::SurfacePoint& surface) noexcept;
-  void enter_scaphoid(const Model& model) noexcept;
-  void drive_wire(const Model& model, const Input& input) noexcept;
-  void note_tip(const Model& model) noexcept;
-  void withdraw() noexcept;
-  void drive_screw(const Model& model, const Input& input) noexcept;
-  void unload_screw() noexcept;
+  // wrist_motion.cpp
+  void move_wrist(const Model& model, const WristPose& raw) noexcept;
+  void pose_bodies(const Model& model) noexcept;
+  void carry_fixed_items() noexcept;
+  [[nodiscard]] bool is_wrist_pinned(const Model& model) const noexcept;
 
-  void tick_off_steps() noexcept;
-  [[nodiscard]] bool are_views_enough(std::uint32_t first_shot, bool needs_oblique) const noexcept;
-  void complete(procedure::Step step) noexcept;
-  void publish(const Model& model, const Input& input, const Vec3& hand_velocity) noexcept;
-  void publish_wire(const Model& model) noexcept;
+  // free_motion.cpp
+  void move_free(const Model& model, std::uint8_t hand) noexcept;
+  void turn_towards(detail::Item& item, const Vec3& shaft) noexcept;
+  void chase(const Model& model, std::uint8_t hand, const Vec3& target) noexcept;
+  void rest_or_engage(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] bool lead_through_sleeve(const Model& model, std::uint8_t hand) noexcept;
+  struct Resolved {
+    Vec3 tip;
+    bool is_free = true;     ///< nothing was touched
+    bool is_wedged = false;  ///< could not be pushed out within the bound
+  };
+  [[nodiscard]] Resolved push_out(std::uint8_t hand, Vec3 tip, const Vec3& shaft) noexcept;
+  void look(std::uint8_t hand, const Vec3& tip, const Vec3& shaft) noexcept;
+  struct Touched {
+    std::uint8_t body = kNoBody;
+    double distance_mm = 0.0;
+    Vec3 normal_in_patient;
+  };
+  [[nodiscard]] Touched surface_at(const Vec3& point_in_patient) const noexcept;
+
+  // line_motion.cpp
+  void engage(const Model& model, std::uint8_t hand, const Touched& surface) noexcept;
+  void enter_target(const Model& model, detail::Item& item) noexcept;
+  void drive(const Model& model, std::uint8_t hand) noexcept;
+  void note_tip(const Model& model, std::uint8_t index) noexcept;
+  void cut(const Model& model, detail::Item& item) noexcept;
+  void steer(const Model& model, detail::Item& item, double advanced_mm) noexcept;
+  void come_out(const Model& model, std::uint8_t hand) noexcept;
+  void seat(const Model& model, std::uint8_t index) noexcept;
+  void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
+  [[nodiscard]] detail::BodyPose shifted_pose(std::uint8_t body,
+                                              const Vec3& shift) const noexcept;
+  [[nodiscard]] bool is_fragment_inside_another(const Model& model,
+                                                std::uint8_t body) const noexcept;
+  [[nodiscard]] double density_hu(const Model& model, const Vec3& point_in_patient) const noexcept;
+
+  // steps.cpp
+  void tick_off_steps(const Model& model) noexcept;
+  struct Facts {
+    std::array<procedure::LineFacts, kMaxItems> lines;
+    procedure::Situation situation;
+  };
+  void gather(const Model& model, Facts& facts) const noexcept;
+  [[nodiscard]] procedure::LineFacts facts_of(const Model& model,
+                                              const detail::Item& item) const noexcept;
+
+  // publishing.cpp
+  void publish(const Model& model) noexcept;
+  void publish_state(const Model& model) noexcept;
+  void publish_item(const Model& model, std::size_t index) noexcept;
+  void publish_hand(std::size_t hand) noexcept;
   void update_hash(const Model& model) noexcept;
 
-  [[nodiscard]] Vec3 entry() const noexcept {
-    return now.wire.origin + now.wire.direction * now.wire.entry_at_mm;
+  [[nodiscard]] detail::Item* in_hand(std::size_t hand) noexcept {
+    const std::uint8_t index = now.held[hand];
+    return index < kMaxItems ? &now.items[index] : nullptr;
   }
-  [[nodiscard]] Vec3 wire_tip() const noexcept {
-    return now.wire.origin + now.wire.direction * now.wire.travel_mm;
+  [[nodiscard]] const instruments::Instrument& kind_of(const Model& model,
+                                                       const detail::Item& item) const noexcept {
+    return model.catalogue[item.instrument];
   }
-  [[nodiscard]] double depth_mm() const noexcept {
-    return now.wire.travel_mm - (now.wire.in_scaphoid ? now.wire.entry_at_mm : 0.0);
+  /// Tail of a screw below the surface at its entry [mm].
+  [[nodiscard]] double buried_mm(const Model& model, const detail::Item& item) const noexcept {
+    return item.depth_mm() - kind_of(model, item).length_mm;
   }
-  [[nodiscard]] double buried_mm() const noexcept {
-    return now.screw.advance_mm - now.screw.length_mm;
+  [[nodiscard]] Vec3 entry_in_bone(const detail::Item& item) const noexcept {
+    return item.origin_in_bone + item.direction_in_bone * item.entry_at_mm;
   }
 };
 

@@ -1,0 +1,47 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bodies of one exercise: each bone or fragment of the case, its true surface as a field that
+// drilling changes, its density, its pose of now.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/vec3.hpp"
+#include "procedure/procedure.hpp"
+#include "simulation/snapshot.hpp"
+
+namespace carpus::simulation::detail {
+
+using BodyPose = Pose<frame::Patient, frame::Bone>;
+
+/// A bit for each body.
+using BodySet = std::uint32_t;
+
+[[nodiscard]] constexpr BodySet bit_of(std::uint8_t body) noexcept {
+  return body < kMaxBodies ? 1U << body : 0U;
+}
+
+/// What kind each body is to a procedure.
+struct BodyKinds {
+  BodySet target = 0;   ///< the bone that is operated on, all its fragments
+  BodySet allowed = 0;  ///< may be entered on the way
+  BodySet fragments = 0;  ///< parts of a broken bone, which move apart where pushed
+};
+
+/// @throws InvalidInput when there are more than kMaxBodies, none of the target, or a bone without
+///     a distance field.
+[[nodiscard]] BodyKinds kinds_of(const cases::CaseData& data,
+                                 const procedure::Procedure& procedure);
+
+[[nodiscard]] constexpr double absolute(double value) noexcept {
+  return value < 0 ? -value : value;
+}
+
+}  // namespace carpus::simulation::detail

@@ -1,0 +1,37 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Undo: instruments come back from copies of their plain state, bone by what changed. What was
+// spent, and the harm that was done, stays.
+#include "simulation/detail/world_state.hpp"
+
+namespace carpus::simulation {
+
+void World::State::save_checkpoint() noexcept {
+  if (checkpoint_count == checkpoints.size()) {  // the oldest is forgotten
+    for (std::size_t i = 1; i < checkpoints.size(); ++i) {
+      checkpoints[i - 1] = checkpoints[i];
+      passes_at_checkpoint[i - 1] = passes_at_checkpoint[i];
+    }
+    --checkpoint_count;
+  }
+  passes_at_checkpoint[checkpoint_count] = spent.pass_count;
+  checkpoints[checkpoint_count++] = now;
+  tissue.cuts().checkpoint();
+}
+
+void World::State::undo() noexcept {
+  --checkpoint_count;
+  now = checkpoints[checkpoint_count];
+  for (std::size_t i = passes_at_checkpoint[checkpoint_count];
+       i < spent.pass_count && i < detail::kMaxPasses; ++i) {
+    spent.passes[i].was_undone = true;
+  }
+  if (tissue.cuts().undo()) ++spent.tissue_revision;
+  ++spent.undos;
+  scene.forget();
+  carry_fixed_items();  // the wrist may have moved since
+  emit(EventKind::Undone, kNoItem, 0, 0.0);
+}
+
+}  // namespace carpus::simulation

@@ -1,0 +1,261 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An instrument whose line is fixed in bone: a wire that drills its way, what reams or screws over
+// it. Bone is removed along the way; what is left decides how hard it goes.
+#include <algorithm>
+#include <cstdint>
+
+#include "instruments/drilling_resistance.hpp"
+#include "simulation/detail/world_state.hpp"
+
+namespace carpus::simulation {
+
+using detail::absolute;
+using detail::bit_of;
+using detail::Item;
+using detail::kNoTrack;
+using instruments::Work;
+
+namespace {
+
+constexpr double kLookAheadMm = 0.3;   // a trocar's edges cut this far before its middle
+constexpr double kDeepestMm = 90.0;    // no wire goes further
+constexpr double kScratchMm = 0.3;     // deeper, a bone counts as entered
+constexpr double kFarExitMm = 0.3;     // beyond the far surface, past what is doubtful
+constexpr double kNearBoneMm = 1.5;    // as far as a CT blurs a bone's density around it
+constexpr double kSoftTissueHu = 40.0;
+constexpr double kCutStepMm = 0.05;    // removed at once: a fifth of a voxel
+constexpr double kGreatestSteer = 0.02;  // of its way a tip is drawn aside into an old track [E]
+
+}  // namespace
+
+/// Density at a point of what is left: of the body that it lies in, or in whose blur.
+double World::State::density_hu(const Model& model, const Vec3& point) const noexcept {
+  double nearest = kNearBoneMm;
+  std::uint8_t body = kNoBody;
+  Vec3 in_body;
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    const Vec3 local = (inverses[b] * Point<frame::Patient>{point}).v;
+    if (!tissue.is_near(b, local)) continue;
+    // Bone that was removed is still where that body's density is read.
+    const double distance_mm = tissue.untouched_distance_mm(b, local);
+    if (distance_mm >= nearest) continue;
+    nearest = distance_mm;
+    body = b;
+    in_body = local;
+  }
+  return body == kNoBody ? kSoftTissueHu : tissue.density_hu(model.data.ct.view(), body, in_body);
+}
+
+void World::State::engage(const Model& model, std::uint8_t hand, const Touched& surface) noexcept {
+  save_checkpoint();
+  Item& item = *in_hand(hand);
+  const std::uint8_t body = surface.body;
+  item.body = body;
+  item.origin_in_bone = (inverses[body] * Point<frame::Patient>{item.tip}).v;
+  item.direction_in_bone = (inverses[body] * Direction<frame::Patient>{-item.shaft}).v;
+  item.travel_mm = 0.0;
+  item.entry_at_mm = 0.0;
+  item.chord_mm = 0.0;
+  item.cut_to_mm = 0.0;
+  item.in_target = false;
+  item.has_left = false;
+  item.told_bodies = 0;
+  item.track = kNoTrack;
+  item.pass = spent.pass_count < detail::kMaxPasses ? static_cast<std::uint8_t>(spent.pass_count)
+                                                    : std::uint8_t{255};
+  if (item.pass != 255) {
+    spent.passes[item.pass] = {item.instrument, body, false, bit_of(body), 0, 0.0};
+  }
+  ++spent.pass_count;
+  emit(EventKind::EnteredBone, now.held[hand], body, 0.0);
+  if ((model.kinds.target & bit_of(body)) != 0) enter_target(model, item);
+}
+
+void World::State::enter_target(const Model& model, Item& item) noexcept {
+  item.in_target = true;
+  item.entry_at_mm = item.travel_mm;
+  item.chord_mm = model.target.front().way_inside_mm(entry_in_bone(item), item.direction_in_bone);
+}
+
+void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
+  Item& item = *in_hand(hand);
+  const std::uint8_t index = now.held[hand];
+  detail::HandState& held = spent.hands[hand];
+  const instruments::Instrument& kind = kind_of(model, item);
+  HandView& view = snapshot.hands[hand];
+  const detail::BodyPose& pose = poses[item.body];
+  if (kind.work != Work::None) {
+    const Vec3 ahead =
+        item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
+    const double hu = density_hu(model, (pose * Point<frame::Bone>{ahead}).v);
+    const double resistance =
+        kind.feed.bite_n + kind.feed.resistance_share * instruments::wire_resistance_n(hu);
+    const double thrust = held.wish.thrust_n;
+    if (held.wish.driver == Driver::Forward) {
+      if (kind.work != Work::Drill && item.depth_mm() <= 0.0 && !held.forward_is_held) {
+        save_checkpoint();
+      }
+      const double feed = std::clamp(kind.feed.mm_per_s_per_n * (thrust - resistance), 0.0,
+                                     kind.feed.fastest_mm_per_s);
+      const double before = item.travel_mm;
+      item.travel_mm = std::min(item.travel_mm + feed * kTickSeconds,
+                                item.entry_at_mm + kDeepestMm);
+      if (kind.work == Work::Drill) steer(model, item, item.travel_mm - before);
+      view.resistance_n = std::min(thrust, resistance);
+      if (model.kinds.fragments != 0) push_fragment(model, item, view.resistance_n);
+    } else if (held.wish.driver == Driver::Reverse && !held.reverse_is_held) {
+      item.travel_mm -= kind.feed.back_mm_per_s * kTickSeconds;
+      const double left = kind.work == Work::Drill ? item.travel_mm : item.depth_mm();
+      if (left <= 0.0) return come_out(model, hand);
+    } else {
+      view.resistance_n = std::min(thrust, resistance);
+    }
+    cut(model, item);
+    note_tip(model, index);
+    if (kind.work == Work::Thread) seat(model, index);
+    if (kind.work == Work::Ream && item.depth_mm() > now.reamed_mm) {
+      now.reamed_mm = item.depth_mm();
+    }
+  }
+  carry_fixed_items();
+}
+
+/// Removes bone from where it was last cut to where the tip is now.
+void World::State::cut(const Model& model, Item& item) noexcept {
+  const instruments::Instrument& kind = kind_of(model, item);
+  if (!(item.travel_mm > item.cut_to_mm) || !(kind.cut_tip_radius_mm > 0.0)) return;
+  if (item.track == kNoTrack) {
+    if (now.track_count == kMaxTracks) {
+      ++faults.lost_cuts;
+      return;
+    }
+    item.track = now.track_count++;
+    TrackView& track = now.tracks[item.track];
+    track.body = item.body;
+    track.from_in_bone = item.origin_in_bone + item.direction_in_bone * item.cut_to_mm;
+    track.from_radius_mm = kind.cut_tip_radius_mm;
+  }
+  // A tapered tool widens the way behind its tip as it follows.
+  const double taper =
+      kind.cut_length_mm > 0.0 ? (kind.cut_tail_radius_mm - kind.cut_tip_radius_mm) / kind.cut_length_mm
+                               : 0.0;
+  TrackView& track = now.tracks[item.track];
+  track.to_in_bone = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
+  track.to_radius_mm = kind.cut_tip_radius_mm;
+  track.from_radius_mm =
+      kind.cut_tip_radius_mm +
+      taper * std::clamp(distance(track.to_in_bone, track.from_in_bone), 0.0, kind.cut_length_mm);
+  if (item.travel_mm - item.cut_to_mm < kCutStepMm) return;
+  const double back = taper > 0.0 ? std::min(item.depth_mm(), kind.cut_length_mm) : 0.0;
+  const double from_mm = std::min(item.cut_to_mm, item.travel_mm - back);
+  const double from_radius = kind.cut_tip_radius_mm + taper * (item.travel_mm - from_mm);
+  const detail::BodyPose& pose = poses[item.body];
+  const Point<frame::Patient> from =
+      pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * from_mm};
+  const Point<frame::Patient> to = pose * Point<frame::Bone>{track.to_in_bone};
+  bool has_changed = false;
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    const fields::Removal removal =
+        tissue.remove(b, SweptTool::bar((inverses[b] * from).v, from_radius, (inverses[b] * to).v,
+                                        kind.cut_tip_radius_mm));
+    has_changed = has_changed || removal.outcome == fields::RemovalOutcome::Removed;
+    if (removal.outcome == fields::RemovalOutcome::ReserveUsedUp) ++faults.lost_cuts;
+  }
+  item.cut_to_mm = item.travel_mm;
+  if (has_changed) ++spent.tissue_revision;
+}
+
+/// The way of least resistance: a tip beside an older hole is drawn into it.
+void World::State::steer(const Model& model, Item& item, double advanced_mm) noexcept {
+  if (!(advanced_mm > 0.0)) return;
+  const instruments::Instrument& kind = kind_of(model, item);
+  const Vec3 ahead =
+      item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
+  const Vec3 pull =
+      tissue.pull_to_removed(item.body, ahead, item.direction_in_bone, kind.cut_tip_radius_mm);
+  if (!(squared_length(pull) > 0.0)) return;
+  // The tip goes aside by a share of its way; the line turns about its entry.
+  const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm +
+                   pull * (kGreatestSteer * advanced_mm);
+  item.direction_in_bone =
+      normalized_or(tip - item.origin_in_bone, item.direction_in_bone);
+}
+
+/// What the tip has come into or out of.
+void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
+  Item& item = now.items[index];
+  const detail::BodyPose& pose = poses[item.body];
+  const Vec3 tip =
+      (pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.travel_mm}).v;
+  detail::PassState unkept;
+  detail::PassState& pass = item.pass != 255 ? spent.passes[item.pass] : unkept;
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    const Vec3 local = (inverses[b] * Point<frame::Patient>{tip}).v;
+    if (!tissue.is_near(b, local)) continue;
+    const double depth = -tissue.untouched_distance_mm(b, local);
+    if (!(depth > 0.0)) continue;
+    const bool is_target = (model.kinds.target & bit_of(b)) != 0;
+    if (is_target && !item.in_target) enter_target(model, item);
+    if (depth > kScratchMm) pass.bodies_entered |= bit_of(b);
+    const bool is_wrong = !is_target && (model.kinds.allowed & bit_of(b)) == 0;
+    if (is_wrong && depth > kScratchMm && (item.told_bodies & bit_of(b)) == 0) {
+      item.told_bodies |= bit_of(b);
+      emit(EventKind::WrongBone, index, b, depth);
+    }
+  }
+  if (!item.in_target) return;
+  const double beyond = item.depth_mm() - item.chord_mm;
+  if (beyond > kFarExitMm && !item.has_left) {
+    item.has_left = true;
+    ++pass.far_exits;
+    emit(EventKind::LeftFarSide, index, item.body, beyond);
+  }
+  if (beyond <= 0.0) item.has_left = false;
+  if (beyond > pass.far_exit_mm) pass.far_exit_mm = beyond;
+}
+
+/// Drawn back to where it went in: a wire is free in the hand again; what rode comes off and the
+/// hand has the wire again.
+void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
+  Item& item = *in_hand(hand);
+  const std::uint8_t index = now.held[hand];
+  const std::uint8_t wire = item.wire;
+  spent.hands[hand].reverse_is_held = true;
+  emit(EventKind::Withdrawn, index, item.instrument, 0.0);
+  if (wire < kMaxItems) {
+    item = Item{};
+    const bool is_free = now.items[wire].hand == kNoHand;
+    now.held[hand] = is_free ? wire : kNoItem;
+    if (is_free) now.items[wire].hand = hand;
+    scene.clear_instrument(hand);
+    if (is_free) scene.set_instrument(hand, kind_of(model, now.items[wire]).shape);
+  } else {
+    item.travel_mm = 0.0;
+    carry_fixed_items();
+    item.body = kNoBody;
+    item.in_target = false;
+    item.has_left = false;
+    item.track = kNoTrack;
+    now.gauge_reading_mm = -1.0;  // of a line that is no more
+    scene.forget();
+  }
+  spent.hands[hand].touched_body = kNoBody;
+}
+
+/// A screw whose tail comes level with the surface, and how it holds there.
+void World::State::seat(const Model& model, std::uint8_t index) noexcept {
+  Item& item = now.items[index];
+  const double buried = buried_mm(model, item);
+  if (buried >= 0.0 && !item.told_seated) {
+    item.told_seated = true;
+    now.holding_share = tissue.holding_share(model.data.ct.view(), item.body, entry_in_bone(item),
+                                             item.direction_in_bone, item.depth_mm(),
+                                             kind_of(model, item));
+    emit(EventKind::Seated, index, item.instrument, buried);
+  }
+  if (buried < 0.0) item.told_seated = false;
+}
+
+}  // namespace carpus::simulation

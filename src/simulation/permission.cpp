@@ -1,0 +1,152 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulation/permission.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "simulation/world.hpp"
+
+namespace carpus::simulation {
+namespace {
+
+constexpr double kGreatestRotationDeg = 180.0;
+constexpr double kGreatestTiltDeg = 60.0;
+
+bool is_within(double value, double limit) noexcept { return value >= -limit && value <= limit; }
+
+bool rides(const instruments::Instrument& kind) noexcept {
+  return kind.bore_radius_mm > 0.0 && !kind.is_sleeve;
+}
+
+bool is_ridden(const Snapshot& now, std::size_t wire) noexcept {
+  return std::any_of(now.items.begin(), now.items.end(), [&](const ItemView& item) {
+    return item.instrument != kNoInstrument && item.wire == wire;
+  });
+}
+
+/// What a hand holds cannot be let go of: it is in bone and would not stay there.
+bool is_stuck(std::span<const instruments::Instrument> catalogue,
+              const Snapshot& now,
+              std::uint8_t hand) noexcept {
+  const std::uint8_t held = now.hands[hand].item;
+  if (held >= kMaxItems) return false;
+  const ItemView& item = now.items[held];
+  const instruments::Instrument& kind = catalogue[item.instrument];
+  return item.body != kNoBody && !kind.stays && kind.work != instruments::Work::None &&
+         item.depth_mm > 0.0;
+}
+
+bool has_room(const Snapshot& now) noexcept {
+  return std::any_of(now.items.begin(), now.items.end(),
+                     [](const ItemView& item) { return item.instrument == kNoInstrument; });
+}
+
+Refusal why_not_take(const procedure::Procedure& procedure,
+                     const Snapshot& now,
+                     const Command& command) noexcept {
+  const auto catalogue = instruments::catalogue();
+  const bool is_on_tray = std::find(procedure.tray.begin(), procedure.tray.end(), command.index) !=
+                          procedure.tray.end();
+  if (!is_on_tray || command.index >= catalogue.size()) return Refusal::NotOnTheTray;
+  if (is_stuck(catalogue, now, command.hand)) return Refusal::HandIsFull;
+  // What is held free makes room by going back to the tray.
+  const std::uint8_t held = now.hands[command.hand].item;
+  const bool makes_room = held < kMaxItems && now.items[held].body == kNoBody;
+  if (!makes_room && !has_room(now)) return Refusal::TooManyItems;
+  if (!rides(catalogue[command.index])) return Refusal::None;
+  if (wire_to_ride_on(catalogue, now, command.index) != kNoItem) return Refusal::None;
+  for (std::size_t i = 0; i < kMaxItems; ++i) {
+    const ItemView& item = now.items[i];
+    if (item.instrument != kNoInstrument && item.in_target && is_ridden(now, i)) {
+      return Refusal::WireIsTaken;
+    }
+  }
+  return Refusal::NoWireToRideOn;
+}
+
+Refusal why_not_put_down(const Snapshot& now, const Command& command) noexcept {
+  if (now.hands[command.hand].item >= kMaxItems) return Refusal::NothingInHand;
+  return is_stuck(instruments::catalogue(), now, command.hand) ? Refusal::HandIsFull
+                                                               : Refusal::None;
+}
+
+Refusal why_not_pick_up(const Snapshot& now, const Command& command) noexcept {
+  if (is_stuck(instruments::catalogue(), now, command.hand)) return Refusal::HandIsFull;
+  if (command.index >= kMaxItems) return Refusal::NothingThere;
+  const ItemView& item = now.items[command.index];
+  if (item.instrument == kNoInstrument || item.hand != kNoHand) return Refusal::NothingThere;
+  return is_ridden(now, command.index) ? Refusal::SomethingRidesOnIt : Refusal::None;
+}
+
+Refusal why_not_read(const Snapshot& now, const Command& command) noexcept {
+  const auto catalogue = instruments::catalogue();
+  const std::uint8_t held = now.hands[command.hand].item;
+  if (held >= kMaxItems) return Refusal::NoGaugeInHand;
+  const ItemView& item = now.items[held];
+  return catalogue[item.instrument].is_gauge && item.wire < kMaxItems ? Refusal::None
+                                                                      : Refusal::NoGaugeInHand;
+}
+
+}  // namespace
+
+std::uint8_t wire_to_ride_on(std::span<const instruments::Instrument> catalogue,
+                             const Snapshot& now,
+                             InstrumentIndex instrument) noexcept {
+  if (instrument >= catalogue.size()) return kNoItem;
+  const instruments::Instrument& kind = catalogue[instrument];
+  std::uint8_t best = kNoItem;
+  for (std::uint8_t i = 0; i < kMaxItems; ++i) {
+    const ItemView& item = now.items[i];
+    if (item.instrument == kNoInstrument || item.body == kNoBody || !item.in_target) continue;
+    const instruments::Instrument& wire = catalogue[item.instrument];
+    const bool fits = wire.work == instruments::Work::Drill &&
+                      wire.shape.greatest_radius_mm() <= kind.bore_radius_mm;
+    if (!fits || !(item.depth_mm > 0.0) || is_ridden(now, i)) continue;
+    // The one that was laid last: others were left as references.
+    best = i;
+  }
+  return best;
+}
+
+Refusal why_not(const procedure::Procedure& procedure,
+                const Snapshot& now,
+                const Command& command) noexcept {
+  if (now.finished) return Refusal::Finished;
+  if (command.hand >= kHands) return Refusal::NoSuchHand;
+  switch (command.kind) {
+    case CommandKind::None:
+      return Refusal::None;
+    case CommandKind::TakeShot:
+      if (!is_within(command.rotation_deg, kGreatestRotationDeg) ||
+          !is_within(command.tilt_deg, kGreatestTiltDeg)) {
+        return Refusal::ShotOutOfRange;
+      }
+      return now.shots < kMaxShots ? Refusal::None : Refusal::TooManyShots;
+    case CommandKind::Take:
+      return why_not_take(procedure, now, command);
+    case CommandKind::PickUp:
+      return why_not_pick_up(now, command);
+    case CommandKind::PutDown:
+      return why_not_put_down(now, command);
+    case CommandKind::ReadGauge:
+      return why_not_read(now, command);
+    case CommandKind::Undo:
+      return now.can_undo ? Refusal::None : Refusal::NothingToUndo;
+    case CommandKind::Finish:
+      return Refusal::None;
+  }
+  return Refusal::UnknownCommand;
+}
+
+std::string_view name_of(Refusal refusal) noexcept {
+  static constexpr std::array<std::string_view, 16> kNames{
+      "none",           "finished",          "unknown_command",       "no_such_hand",
+      "shot_out_of_range", "too_many_shots", "not_on_the_tray",       "hand_is_full",
+      "too_many_items", "no_wire_to_ride_on", "wire_is_taken",        "nothing_in_hand",
+      "nothing_there",  "something_rides_on_it", "no_gauge_in_hand",  "nothing_to_undo"};
+  const auto index = static_cast<std::size_t>(refusal);
+  return index < kNames.size() ? kNames[index] : kNames[2];
+}
+
+}  // namespace carpus::simulation
