@@ -40,42 +40,56 @@ ScoreItem ream_item(const Facts& facts, double points) {
   return item;
 }
 
-/// Cartilage of the trapezium that instruments took on their way: a round hole for every pass of a
-/// wire, one of the widest drill or screw that followed.
+double area_of(double radius_mm) { return kPi * radius_mm * radius_mm; }
+
+bool is_through_trapezium(const Facts& facts, const procedure::Pass& pass) {
+  const auto& bones = facts.data.bones;
+  for (std::size_t body = 0; body < bones.size() && body < 32; ++body) {
+    const bool is_entered = (pass.bodies_entered >> body & 1U) != 0;
+    if (is_entered && bones[body].bone == BoneId::Trapezium) return true;
+  }
+  return false;
+}
+
+/// Radius of the widest thing that followed the wire: screw or drill; 0 when none did.
+double widest_follower_mm(const Facts& facts) {
+  const auto all = instruments::catalogue();
+  double widest = 0.0;
+  if (facts.screw) widest = all[facts.screw->instrument].tail_diameter_mm / 2;
+  if (!(facts.record.reamed_mm > 0.0)) return widest;
+  for (const instruments::InstrumentIndex index : facts.rules.procedure->tray) {
+    if (all[index].work == Work::Ream) widest = std::max(widest, all[index].cut_tail_radius_mm);
+  }
+  return widest;
+}
+
+/// Cartilage of the trapezium that was lost on the way: a round hole for every pass of a wire
+/// through it, and the last of them as wide as what followed.
 ScoreItem trapezium_item(const Facts& facts, double points) {
   constexpr double kGoodMm2 = 1.1;   // one guide wire
   constexpr double kFailMm2 = 17.0;  // two ways of a drill of 3.2 mm
   ScoreItem item = procedure::make_item(
-      "trapezium_cartilage_mm2", "Cartilage of the trapezium that was drilled away", "mm2", points);
-  item.target = "at most 1.1 mm² good (no way through it, or a wire's), over 17 mm² fail";
+      "trapezium_cartilage_mm2", "Cartilage of the trapezium that was lost", "mm2", points);
+  item.target = "at most 1.1 mm² good (the way of one wire), over 17 mm² fail";
   item.reason = "No wire lies in the scaphoid: there is nothing to measure.";
   if (facts.wire_passes == 0) return item;
-  const auto& bones = facts.data.bones;
-  double area = 0.0;
-  double widest = 0.0;
-  double thinnest = 0.0;
+  double lost = 0.0;
+  double last_wire = 0.0;
   for (const procedure::Pass& pass : facts.record.passes) {
-    bool is_through = false;
-    for (std::size_t body = 0; body < bones.size() && body < 32; ++body) {
-      is_through = is_through || ((pass.bodies_entered >> body & 1U) != 0 &&
-                                  bones[body].bone == BoneId::Trapezium);
-    }
-    if (!is_through || pass.instrument >= instruments::catalogue().size()) continue;
-    const instruments::Instrument& instrument = instruments::catalogue()[pass.instrument];
-    const double radius = std::max(instrument.cut_tip_radius_mm, instrument.cut_tail_radius_mm);
-    if (instrument.work == Work::Drill) {
-      area += kPi * radius * radius;
-      thinnest = radius;
-    } else {
-      widest = std::max(widest, radius);
-    }
+    if (pass.instrument >= instruments::catalogue().size()) continue;
+    last_wire = 0.0;
+    if (!is_through_trapezium(facts, pass)) continue;
+    last_wire = instruments::catalogue()[pass.instrument].cut_tail_radius_mm;
+    lost += area_of(last_wire);
   }
-  if (widest > thinnest) area += kPi * (widest * widest - thinnest * thinnest);
-  procedure::grade_falling(item, area, kGoodMm2, kFailMm2);
-  item.reason = area > 0 ? "Through the trapezium the line is easier to reach, but each way costs "
-                           "cartilage of its "
-                           "joint: a drill's takes about 11 percent."
-                         : "The trapezium was left whole.";
+  const double follower = widest_follower_mm(facts);
+  if (last_wire > 0.0 && follower > last_wire) lost += area_of(follower) - area_of(last_wire);
+  procedure::grade_falling(item, lost, kGoodMm2, kFailMm2);
+  item.reason =
+      lost > 0
+          ? "Through the trapezium the line is easier to reach, but each way costs cartilage of its "
+            "joint: a drill's takes about 11 percent."
+          : "The trapezium was left whole.";
   return item;
 }
 
