@@ -154,31 +154,52 @@ std::optional<double> intersect(const Vec3& point,
   return dot(c - a, q) / determinant;
 }
 
-/// The line's intervals inside one closed surface.
+/// The line's intervals inside one closed surface, appended; what finds no room is left out.
 void append_intervals(const TriangleMesh& mesh,
                       const Vec3& point,
                       const Vec3& direction,
-                      std::vector<LineInterval>& out) {
+                      LineIntervals& out) noexcept {
   struct Crossing {
     double t;
     bool enters;
   };
-  std::vector<Crossing> crossings;
+  constexpr std::size_t kMost = 2 * LineIntervals::kMost;
+  std::array<Crossing, kMost> crossings{};
+  std::size_t count = 0;
   for (const Triangle& f : mesh.facets) {
     const Vec3 &a = mesh.vertices[f[0]], &b = mesh.vertices[f[1]], &c = mesh.vertices[f[2]];
-    if (const auto t = intersect(point, direction, a, b, c)) {
-      crossings.push_back({*t, dot(cross(b - a, c - a), direction) < 0});
-    }
+    const auto t = intersect(point, direction, a, b, c);
+    if (!t || count == kMost) continue;
+    crossings[count++] = {*t, dot(cross(b - a, c - a), direction) < 0};
   }
-  std::sort(crossings.begin(), crossings.end(),
+  std::sort(crossings.begin(), crossings.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
   // An edge that is met twice gives a repeated enter or leave: only a change of side counts.
   bool inside = false;
-  for (const Crossing& crossing : crossings) {
-    if (crossing.enters && !inside) out.push_back({crossing.t, crossing.t});
-    if (!crossing.enters && inside) out.back().leave_mm = crossing.t;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Crossing& crossing = crossings[i];
+    if (crossing.enters && !inside) out.add({crossing.t, crossing.t});
+    if (!crossing.enters && inside && out.count > 0) {
+      out.intervals[out.count - 1].leave_mm = crossing.t;
+    }
     inside = crossing.enters;
   }
+}
+
+/// Of these the one that holds t = 0, or the nearest, the longer of equals; nullptr of none.
+const LineInterval* nearest_to_zero(std::span<const LineInterval> intervals) noexcept {
+  const LineInterval* best = nullptr;
+  double best_distance = 0;
+  for (const LineInterval& interval : intervals) {
+    const double away = std::max({interval.enter_mm, -interval.leave_mm, 0.0});
+    if (best == nullptr || away < best_distance ||
+        (away == best_distance &&
+         interval.leave_mm - interval.enter_mm > best->leave_mm - best->enter_mm)) {
+      best = &interval;
+      best_distance = away;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -224,42 +245,46 @@ BoneSolid::BoneSolid(std::span<const TriangleMesh* const> fragments) {
 
 bool BoneSolid::contains(const Vec3& point) const noexcept { return is_set(closed_, point); }
 
-std::vector<LineInterval> BoneSolid::intervals_along(const Vec3& point,
-                                                     const Vec3& direction) const {
-  std::vector<LineInterval> found;
+LineIntervals BoneSolid::merged_intervals(const Vec3& point,
+                                          const Vec3& direction) const noexcept {
+  LineIntervals found;
   for (const TriangleMesh& mesh : fragments_) append_intervals(mesh, point, direction, found);
-  std::sort(found.begin(), found.end(),
+  std::sort(found.intervals.begin(),
+            found.intervals.begin() + static_cast<std::ptrdiff_t>(found.count),
             [](const LineInterval& a, const LineInterval& b) { return a.enter_mm < b.enter_mm; });
-  std::vector<LineInterval> merged;
-  for (const LineInterval& next : found) {
+  LineIntervals merged;
+  for (const LineInterval& next : found.all()) {
+    const LineInterval* last = merged.count > 0 ? &merged.intervals[merged.count - 1] : nullptr;
     const bool bridged =
-        !merged.empty() &&
-        (next.enter_mm <= merged.back().leave_mm ||
-         (next.enter_mm - merged.back().leave_mm <= kBridgedGapMm &&
-          contains(point + direction * (0.5 * (next.enter_mm + merged.back().leave_mm)))));
+        last != nullptr &&
+        (next.enter_mm <= last->leave_mm ||
+         (next.enter_mm - last->leave_mm <= kBridgedGapMm &&
+          contains(point + direction * (0.5 * (next.enter_mm + last->leave_mm)))));
     if (bridged) {
-      merged.back().leave_mm = std::max(merged.back().leave_mm, next.leave_mm);
+      merged.intervals[merged.count - 1].leave_mm = std::max(last->leave_mm, next.leave_mm);
     } else {
-      merged.push_back(next);
+      merged.add(next);
     }
   }
   return merged;
 }
 
-std::optional<LineInterval> BoneSolid::chord_through(const Vec3& point,
+std::vector<LineInterval> BoneSolid::intervals_along(const Vec3& point,
                                                      const Vec3& direction) const {
-  std::optional<LineInterval> best;
-  double best_distance = 0;
-  for (const LineInterval& interval : intervals_along(point, direction)) {
-    const double away = std::max({interval.enter_mm, -interval.leave_mm, 0.0});
-    if (!best || away < best_distance ||
-        (away == best_distance &&
-         interval.leave_mm - interval.enter_mm > best->leave_mm - best->enter_mm)) {
-      best = interval;
-      best_distance = away;
-    }
-  }
-  return best;
+  const LineIntervals merged = merged_intervals(point, direction);
+  return {merged.all().begin(), merged.all().end()};
+}
+
+std::optional<LineInterval> BoneSolid::chord_through(const Vec3& point,
+                                                     const Vec3& direction) const noexcept {
+  const LineIntervals merged = merged_intervals(point, direction);
+  const LineInterval* nearest = nearest_to_zero(merged.all());
+  return nearest != nullptr ? std::optional(*nearest) : std::nullopt;
+}
+
+double BoneSolid::way_inside_mm(const Vec3& point, const Vec3& direction) const noexcept {
+  const auto chord = chord_through(point, direction);
+  return chord && chord->leave_mm > 0.0 ? chord->leave_mm : 0.0;
 }
 
 double BoneSolid::section_area_mm2(const Vec3& point, const Vec3& normal) const {

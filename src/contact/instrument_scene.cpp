@@ -62,6 +62,44 @@ InstrumentScene::InstrumentScene(std::span<const fields::ContactField> bones,
   contacts_.resize(pairs);
   alerts_.resize(pairs);
   bone_from_patient_.resize(bones_.size());
+  own_alert_count_.resize(instruments_.size());
+  is_empty_.resize(instruments_.size());
+}
+
+InstrumentScene::InstrumentScene(std::span<const fields::ContactField> bones,
+                                 std::size_t places,
+                                 const InstrumentSceneOptions& options)
+    : InstrumentScene(
+          bones, std::vector<InstrumentShape>(places, InstrumentShape(SphereShape{0.1})), options) {
+  for (std::size_t i = 0; i < places; ++i) is_empty_[i] = true;
+}
+
+void InstrumentScene::set_instrument(std::size_t instrument,
+                                     const InstrumentShape& shape) noexcept {
+  instruments_[instrument] = shape;
+  is_empty_[instrument] = false;
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    memory_[instrument * bones_.size() + b].slack_mm = -1;
+  }
+}
+
+void InstrumentScene::clear_instrument(std::size_t instrument) noexcept {
+  is_empty_[instrument] = true;
+  own_alert_count_[instrument] = 0;
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    contacts_[instrument * bones_.size() + b] = {};
+  }
+}
+
+void InstrumentScene::update_instrument(
+    std::size_t instrument,
+    const Pose<frame::Patient, frame::Tool>& patient_from_tool,
+    std::span<const Pose<frame::Bone, frame::Patient>> bone_from_patient) noexcept {
+  own_alert_count_[instrument] = 0;
+  if (is_empty_[instrument]) return;
+  counts_.pairs += bones_.size();
+  update_pairs(instrument, patient_from_tool, bone_from_patient,
+               alerts_.data() + instrument * bones_.size(), own_alert_count_[instrument]);
 }
 
 void InstrumentScene::forget() noexcept {
@@ -79,33 +117,42 @@ void InstrumentScene::update(
   alert_count_ = 0;
   counts_.pairs += contacts_.size();
   for (std::size_t i = 0; i < instruments_.size(); ++i) {
-    const InstrumentShape& shape = instruments_[i];
-    const Pose<frame::Patient, frame::Tool>& tool = patient_from_tool[i];
-    const Point<frame::Patient> front = tool * Point<frame::Tool>{{0, 0, shape.front_z_mm()}};
-    const Point<frame::Patient> back = tool * Point<frame::Tool>{{0, 0, shape.back_z_mm()}};
-    for (std::size_t b = 0; b < bones_.size(); ++b) {
-      const std::size_t pair = i * bones_.size() + b;
-      Memory& memory = memory_[pair];
-      const Vec3 front_in_bone = (bone_from_patient_[b] * front).v;
-      const Vec3 back_in_bone = (bone_from_patient_[b] * back).v;
-      const double moved = std::max(squared_length(front_in_bone - memory.front),
-                                    squared_length(back_in_bone - memory.back));
-      // False for NaN.
-      if (memory.slack_mm > 0 && moved < memory.slack_mm * memory.slack_mm) {
-        ++counts_.left_alone;
-        continue;
-      }
-      memory = {front_in_bone, back_in_bone, -1};
-      if (is_finite_pose(tool) && is_finite_pose(bone_from_patient_[b])) {
-        look_at(pair, bones_[b], shape, bone_from_patient_[b] * tool);
-      } else {
-        contacts_[pair] = {};
-        ++counts_.not_known;
-      }
-      const SurfaceContact& contact = contacts_[pair];
-      if (contact.has_contact() || contact.outcome == ContactOutcome::NotKnown) {
-        alerts_[alert_count_++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(b)};
-      }
+    if (is_empty_[i]) continue;
+    update_pairs(i, patient_from_tool[i], bone_from_patient_, alerts_.data(), alert_count_);
+  }
+}
+
+void InstrumentScene::update_pairs(
+    std::size_t instrument,
+    const Pose<frame::Patient, frame::Tool>& tool,
+    std::span<const Pose<frame::Bone, frame::Patient>> bone_from_patient,
+    InstrumentBonePair* alerts,
+    std::size_t& count) noexcept {
+  const InstrumentShape& shape = instruments_[instrument];
+  const Point<frame::Patient> front = tool * Point<frame::Tool>{{0, 0, shape.front_z_mm()}};
+  const Point<frame::Patient> back = tool * Point<frame::Tool>{{0, 0, shape.back_z_mm()}};
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    const std::size_t pair = instrument * bones_.size() + b;
+    Memory& memory = memory_[pair];
+    const Vec3 front_in_bone = (bone_from_patient[b] * front).v;
+    const Vec3 back_in_bone = (bone_from_patient[b] * back).v;
+    const double moved = std::max(squared_length(front_in_bone - memory.front),
+                                  squared_length(back_in_bone - memory.back));
+    // False for NaN.
+    if (memory.slack_mm > 0 && moved < memory.slack_mm * memory.slack_mm) {
+      ++counts_.left_alone;
+      continue;
+    }
+    memory = {front_in_bone, back_in_bone, -1};
+    if (is_finite_pose(tool) && is_finite_pose(bone_from_patient[b])) {
+      look_at(pair, bones_[b], shape, bone_from_patient[b] * tool);
+    } else {
+      contacts_[pair] = {};
+      ++counts_.not_known;
+    }
+    const SurfaceContact& contact = contacts_[pair];
+    if (contact.has_contact() || contact.outcome == ContactOutcome::NotKnown) {
+      alerts[count++] = {static_cast<std::uint32_t>(instrument), static_cast<std::uint32_t>(b)};
     }
   }
 }

@@ -48,6 +48,11 @@ class InstrumentScene {
                   std::vector<InstrumentShape> instruments,
                   const InstrumentSceneOptions& options = {});
 
+  /// A scene of places that are empty until set_instrument.
+  InstrumentScene(std::span<const fields::ContactField> bones,
+                  std::size_t places,
+                  const InstrumentSceneOptions& options = {});
+
   [[nodiscard]] std::size_t bone_count() const noexcept { return bones_.size(); }
   [[nodiscard]] std::size_t instrument_count() const noexcept { return instruments_.size(); }
 
@@ -56,6 +61,17 @@ class InstrumentScene {
   /// allocation, only + - * / and sqrt.
   void update(std::span<const Pose<frame::Patient, frame::Bone>> patient_from_bone,
               std::span<const Pose<frame::Patient, frame::Tool>> patient_from_tool) noexcept;
+
+  /// Puts another shape in a place, or none. Real-time. A shape that is too thick for a field is
+  /// NotKnown to it.
+  void set_instrument(std::size_t instrument, const InstrumentShape& shape) noexcept;
+  void clear_instrument(std::size_t instrument) noexcept;
+
+  /// The same as update(), for one instrument alone, whose alerts() are told apart. Real-time.
+  void update_instrument(
+      std::size_t instrument,
+      const Pose<frame::Patient, frame::Tool>& patient_from_tool,
+      std::span<const Pose<frame::Bone, frame::Patient>> bone_from_patient) noexcept;
 
   /// Of the last update; NotKnown before the first. Points and normals are in the bone's frame.
   [[nodiscard]] const SurfaceContact& contact(std::size_t instrument,
@@ -66,6 +82,10 @@ class InstrumentScene {
   /// by bone.
   [[nodiscard]] std::span<const InstrumentBonePair> alerts() const noexcept {
     return {alerts_.data(), alert_count_};
+  }
+  /// The same of one instrument, after update_instrument.
+  [[nodiscard]] std::span<const InstrumentBonePair> alerts(std::size_t instrument) const noexcept {
+    return {alerts_.data() + instrument * bones_.size(), own_alert_count_[instrument]};
   }
 
   [[nodiscard]] const InstrumentSceneCounts& counts() const noexcept { return counts_; }
@@ -85,6 +105,12 @@ class InstrumentScene {
     Vec3 back;
   };
 
+  /// Appends to `alerts` what of this instrument must be acted on.
+  void update_pairs(std::size_t instrument,
+                    const Pose<frame::Patient, frame::Tool>& tool,
+                    std::span<const Pose<frame::Bone, frame::Patient>> bone_from_patient,
+                    InstrumentBonePair* alerts,
+                    std::size_t& count) noexcept;
   void look_at(std::size_t pair,
                const fields::ContactField& field,
                const InstrumentShape& shape,
@@ -104,6 +130,8 @@ class InstrumentScene {
   std::vector<Pose<frame::Bone, frame::Patient>> bone_from_patient_;
   std::vector<InstrumentBonePair> alerts_;
   std::size_t alert_count_ = 0;
+  std::vector<std::size_t> own_alert_count_;
+  std::vector<bool> is_empty_;
   InstrumentSceneCounts counts_;
 };
 

@@ -52,7 +52,7 @@ struct InputUnits {
 
 double from_units(std::int64_t units, double unit) { return static_cast<double>(units) * unit; }
 
-InputUnits units_of(const Input& input) {
+InputUnits in_units(const Input& input) {
   InputUnits units;
   for (std::size_t h = 0; h < kHands; ++h) {
     const HandInput& hand = input.hands[h];
@@ -132,7 +132,7 @@ void add_differences(Reader& in, std::array<std::int64_t, Count>& values) {
 }
 
 void put_run(Writer& out, const InputRun& run, const InputUnits& before, InputUnits& now) {
-  now = units_of(run.input);
+  now = in_units(run.input);
   const unsigned mask = changes(now, before);
   out.put(run.ticks, 4);
   out.put(mask, 2);
@@ -193,7 +193,7 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
 
 /// Reads the runs up to their end mark; the reason for refusing, or empty.
 std::string get_runs(Reader& in, std::vector<InputRun>& runs) {
-  InputUnits units = units_of(Input{});
+  InputUnits units = in_units(Input{});
   std::uint64_t ticks = 0;
   while (true) {
     const auto count = static_cast<std::uint32_t>(in.get(4));
@@ -265,7 +265,7 @@ Recorder::Recorder(std::string program_version,
 
 void Recorder::append(const Input& raw) {
   // What comes back from the file is what the world was given, to the bit.
-  const Input input = input_of(units_of(raw));
+  const Input input = input_of(in_units(raw));
   ++tick_;
   if (!recording_.runs.empty() && recording_.runs.back().input == input &&
       recording_.runs.back().ticks < UINT32_MAX) {
@@ -295,7 +295,7 @@ std::vector<std::byte> encode(const Recording& recording) {
   out.put(recording.seed, 8);
   out.put(recording.instruments.size(), 2);
   for (const std::string& id : recording.instruments) out.put(id);
-  InputUnits before = units_of(Input{});
+  InputUnits before = in_units(Input{});
   InputUnits now;
   for (const InputRun& run : recording.runs) {
     put_run(out, run, before, now);
@@ -318,18 +318,18 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   Reader in(bytes);
   for (const char c : kMagic) {
     if (in.get(1) != static_cast<std::uint64_t>(c) || in.is_spoilt()) {
-      return Refusal{"recording: this is no Carpus recording"};
+      return carpus::Refusal{"recording: this is no Carpus recording"};
     }
   }
   const auto format = in.get(2);
-  if (in.is_spoilt()) return Refusal{"recording: cut off in the header"};
+  if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
   if (format == 1) {
-    return Refusal{
+    return carpus::Refusal{
         "recording: format 1, of a wrist that did not move; it cannot be replayed, its stored score "
         "can be shown"};
   }
   if (format != kRecordingFormat) {
-    return Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
+    return carpus::Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
                    std::to_string(kRecordingFormat) + "; use the program that recorded it"};
   }
   Recording recording;
@@ -339,18 +339,18 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   recording.seed = in.get(8);
   std::string reason = get_instruments(in, recording.instruments);
   if (reason.empty()) reason = get_runs(in, recording.runs);
-  if (!reason.empty()) return Refusal{std::move(reason)};
+  if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   const auto ticks = in.get(8);
   recording.end_hash = in.get(8);
-  if (in.is_spoilt()) return Refusal{"recording: cut off at the end"};
+  if (in.is_spoilt()) return carpus::Refusal{"recording: cut off at the end"};
   reason = get_keyframes(in, recording.keyframes);
-  if (!reason.empty()) return Refusal{std::move(reason)};
+  if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   const std::size_t checked = in.at();
   const auto checksum = in.get(8);
-  if (in.is_spoilt()) return Refusal{"recording: cut off at the end"};
-  if (in.at() != bytes.size()) return Refusal{"recording: bytes after its end"};
+  if (in.is_spoilt()) return carpus::Refusal{"recording: cut off at the end"};
+  if (in.at() != bytes.size()) return carpus::Refusal{"recording: bytes after its end"};
   if (ticks != recording.tick_count() || checksum != checksum_of(bytes.first(checked))) {
-    return Refusal{"recording: damaged, its checksum does not match"};
+    return carpus::Refusal{"recording: damaged, its checksum does not match"};
   }
   return recording;
 }
@@ -387,7 +387,7 @@ Result<bool> seek(World& world, const Recording& recording, Tick tick) {
     if (!taken) return taken;
     at = nearest->tick;
     if (world.now().tick != at) {
-      return Refusal{"recording: a keyframe is not of the tick that it names"};
+      return carpus::Refusal{"recording: a keyframe is not of the tick that it names"};
     }
   } else {
     world = World(world.case_data(), world.procedure(), recording.seed);

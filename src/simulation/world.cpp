@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "cases/make_hand_motion.hpp"
 #include "core/error.hpp"
 #include "simulation/detail/world_state.hpp"
 
@@ -23,6 +22,15 @@ namespace {
 constexpr double kWorkspaceMm = 1000.0;    // beyond this from the CT's origin a tip makes no sense
 constexpr double kGreatestThrustN = 60.0;  // protocol/protocol.json
 constexpr double kGreatestShaft = 4.0;     // by component, before it is normalised
+
+std::vector<fields::ContactField> fields_of(const cases::CaseData& data) {
+  std::vector<fields::ContactField> fields;
+  fields.reserve(data.bones.size());
+  for (const cases::Bone& bone : data.bones) {
+    fields.emplace_back(bone.distance_field, bone.surface);
+  }
+  return fields;
+}
 
 std::vector<BoneSolid> target_of(const cases::CaseData& data, BoneId target) {
   std::vector<const TriangleMesh*> fragments;
@@ -44,9 +52,12 @@ World::Model::Model(const cases::CaseData& case_data,
       seed(first_seed),
       kinds(detail::kinds_of(case_data, declared)),
       catalogue(instruments::catalogue()),
-      motion(&case_data.hand_motion),
+      fields(fields_of(case_data)),
       target(target_of(case_data, declared.target)),
       opening(declared.opening(case_data)) {
+  for (std::size_t b = 0; b < case_data.bones.size(); ++b) {
+    groups[b] = anatomy::group_of(case_data.bones[b].bone);
+  }
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
     throw InvalidInput("simulation: the procedure " + declared.id +
@@ -55,26 +66,28 @@ World::Model::Model(const cases::CaseData& case_data,
 }
 
 World::State::State(const Model& model)
-    : tissue(model.data), scene(tissue.fields(), kHands) {
+    : tissue(model.fields), scene(model.fields, kHands) {
   snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
 }
 
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
 /// host that holds it there must not start with it across the bones.
 void World::State::open(const Model& model) noexcept {
-  spent.wrist = model.motion->limits.clamp(model.opening.wrist);
+  spent.wrist = model.data.hand_motion.limits.clamp(model.opening.wrist);
   pose_bodies(model);
   Item& first = now.items[0];
   first.instrument = model.procedure.tray.front();
   first.hand = 0;
-  first.tip = model.opening.tip_in_patient;
-  first.shaft = normalized_or(model.opening.shaft_in_patient, {0, 0, 1});
+  const detail::BodyPose& target = poses[detail::first_of(model.kinds.target)];
+  first.tip = (target * Point<frame::Bone>{model.opening.tip_in_target}).v;
+  first.shaft = normalized_or(
+      (target * Direction<frame::Bone>{model.opening.shaft_in_target}).v, {0, 0, 1});
   now.held[0] = 0;
   scene.set_instrument(0, kind_of(model, first).shape);
   for (detail::HandState& hand : spent.hands) {
     hand.wish.tip_in_patient = first.tip;
     hand.wish.shaft_in_patient = first.shaft;
-    hand.plan = HandPlan{first.tip, first.shaft};
+    hand.plan = resting_at(first.tip, first.shaft);
   }
   publish(model);
 }
@@ -143,7 +156,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     Item* item = in_hand(h);
     if (!hand.has_wish) {
       // It comes in from behind the hand, so that it starts in no bone.
-      hand.plan = HandPlan{hand.wish.tip_in_patient, hand.wish.shaft_in_patient};
+      hand.plan = resting_at(hand.wish.tip_in_patient, hand.wish.shaft_in_patient);
       if (item != nullptr && !item->is_fixed()) {
         item->shaft = hand.wish.shaft_in_patient;
         item->tip = hand.wish.tip_in_patient +
@@ -152,7 +165,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
       hand.has_wish = true;
     }
     if (hand.wish.driver != Driver::Reverse) hand.reverse_is_held = false;
-    advance(hand.plan, hand.wish);
+    advance(hand.plan, hand.wish, item == nullptr || !item->is_fixed());
   }
   obey(model, input.command);
   for (std::uint8_t h = 0; h < kHands; ++h) {

@@ -17,7 +17,7 @@ void World::State::save_checkpoint() noexcept {
   }
   passes_at_checkpoint[checkpoint_count] = spent.pass_count;
   checkpoints[checkpoint_count++] = now;
-  tissue.checkpoint();
+  tissue.cuts().checkpoint();
 }
 
 void World::State::undo() noexcept {
@@ -27,7 +27,7 @@ void World::State::undo() noexcept {
        i < spent.pass_count && i < detail::kMaxPasses; ++i) {
     spent.passes[i].was_undone = true;
   }
-  if (tissue.undo()) ++spent.tissue_revision;
+  if (tissue.cuts().undo()) ++spent.tissue_revision;
   ++spent.undos;
   scene.forget();
   carry_fixed_items();  // the wrist may have moved since

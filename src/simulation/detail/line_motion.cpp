@@ -139,16 +139,16 @@ void World::State::cut(const Model& model, Item& item) noexcept {
   }
   // A tapered tool widens the way behind its tip as it follows.
   const double taper =
-      kind.length_mm > 0.0 ? (kind.cut_tail_radius_mm - kind.cut_tip_radius_mm) / kind.length_mm
-                           : 0.0;
+      kind.cut_length_mm > 0.0 ? (kind.cut_tail_radius_mm - kind.cut_tip_radius_mm) / kind.cut_length_mm
+                               : 0.0;
   TrackView& track = now.tracks[item.track];
   track.to_in_bone = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
   track.to_radius_mm = kind.cut_tip_radius_mm;
   track.from_radius_mm =
       kind.cut_tip_radius_mm +
-      taper * std::clamp(distance(track.to_in_bone, track.from_in_bone), 0.0, kind.length_mm);
+      taper * std::clamp(distance(track.to_in_bone, track.from_in_bone), 0.0, kind.cut_length_mm);
   if (item.travel_mm - item.cut_to_mm < kCutStepMm) return;
-  const double back = taper > 0.0 ? std::min(item.depth_mm(), kind.length_mm) : 0.0;
+  const double back = taper > 0.0 ? std::min(item.depth_mm(), kind.cut_length_mm) : 0.0;
   const double from_mm = std::min(item.cut_to_mm, item.travel_mm - back);
   const double from_radius = kind.cut_tip_radius_mm + taper * (item.travel_mm - from_mm);
   const detail::BodyPose& pose = poses[item.body];
@@ -157,11 +157,11 @@ void World::State::cut(const Model& model, Item& item) noexcept {
   const Point<frame::Patient> to = pose * Point<frame::Bone>{track.to_in_bone};
   bool has_changed = false;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
-    const detail::Swept swept{(inverses[b] * from).v, (inverses[b] * to).v, from_radius,
-                              kind.cut_tip_radius_mm};
-    const detail::CutResult result = tissue.cut(b, swept);
-    has_changed = has_changed || result == detail::CutResult::Changed;
-    if (result == detail::CutResult::Full) ++faults.lost_cuts;
+    const fields::Removal removal =
+        tissue.remove(b, SweptTool::bar((inverses[b] * from).v, from_radius, (inverses[b] * to).v,
+                                        kind.cut_tip_radius_mm));
+    has_changed = has_changed || removal.outcome == fields::RemovalOutcome::Removed;
+    if (removal.outcome == fields::RemovalOutcome::ReserveUsedUp) ++faults.lost_cuts;
   }
   item.cut_to_mm = item.travel_mm;
   if (has_changed) ++spent.tissue_revision;

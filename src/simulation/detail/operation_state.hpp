@@ -24,6 +24,10 @@ inline constexpr std::uint8_t kNoTrack = 255;
 inline constexpr std::size_t kMaxPasses = 64;
 inline constexpr std::size_t kMaxCheckpoints = 16;
 
+/// T, const or not.
+template <typename Some, typename T>
+concept Is = std::is_same_v<std::remove_const_t<Some>, T>;
+
 /// An instrument that is out of the tray. While `body` is set its line is fixed in that body:
 /// origin + direction * travel, frame Bone; else it is free and lies at tip, shaft.
 struct Item {
@@ -51,7 +55,7 @@ struct Item {
   [[nodiscard]] double depth_mm() const noexcept { return travel_mm - entry_at_mm; }
 };
 
-template <typename SomeItem, typename Visitor>
+template <Is<Item> SomeItem, typename Visitor>
 void visit(SomeItem& item, Visitor&& v) noexcept {
   v(item.instrument);
   v(item.hand);
@@ -89,7 +93,7 @@ struct Operated {
 };
 static_assert(std::is_trivially_copyable_v<Operated>);
 
-template <typename SomeOperated, typename Visitor>
+template <Is<Operated> SomeOperated, typename Visitor>
 void visit(SomeOperated& now, Visitor&& v) noexcept {
   for (auto& item : now.items) {
     v(item.instrument);
@@ -136,7 +140,7 @@ struct HandState {
   haptics::VirtualCoupling coupling;
 };
 
-template <typename SomeHand, typename Visitor>
+template <Is<HandState> SomeHand, typename Visitor>
 void visit(SomeHand& hand, Visitor&& v) noexcept {
   v(hand.wish.tip_in_patient);
   v(hand.wish.shaft_in_patient);
@@ -169,7 +173,7 @@ struct Spent {
 };
 static_assert(std::is_trivially_copyable_v<Spent>);
 
-template <typename SomeSpent, typename Visitor>
+template <Is<Spent> SomeSpent, typename Visitor>
 void visit(SomeSpent& spent, Visitor&& v) noexcept {
   v(spent.tick);
   v(spent.undos);

@@ -54,7 +54,7 @@ void World::State::publish_item(const Model& model, std::size_t index) noexcept 
   view.tip_hu = density_hu(model, item.tip);
 }
 
-void World::State::publish_hand(const Model& model, std::size_t hand) noexcept {
+void World::State::publish_hand(std::size_t hand) noexcept {
   detail::HandState& held = spent.hands[hand];
   HandView& view = snapshot.hands[hand];
   view.item = now.held[hand];
@@ -63,23 +63,21 @@ void World::State::publish_hand(const Model& model, std::size_t hand) noexcept {
   view.touching = is_free && held.touched_body != kNoBody;
   view.touched_body = view.touching ? held.touched_body : kNoBody;
   view.contact_normal_in_patient = view.touching ? held.contact_normal : Vec3{};
-  const Vec3& wish = held.wish.tip_in_patient;
+  const Vec3& wish = held.plan.tip;
   view.contact_depth_mm = view.touching ? distance(wish, item->tip) : 0.0;
   view.force_in_patient = {};
   if (item == nullptr) {
     held.coupling.release(wish);
     return;
   }
-  // Free, the hand is tied to where the instrument could go; in bone to its line, along which it
-  // feels what the bone resists.
-  const Vec3 proxy = is_free ? item->tip : item->tip;
-  const double limit = is_free ? haptics::kForceLimitN : view.resistance_n;
-  view.force_in_patient = held.coupling.force_n(proxy, wish, limit);
+  // The hand is tied to where its instrument could go: free, to beside the bone; in bone to its line,
+  // along which it goes as far as the bone lets it.
+  view.force_in_patient = held.coupling.force_n(item->tip, wish, haptics::kForceLimitN);
   faults.forces_zeroed += held.coupling.take_faults();
-  (void)model;
 }
 
-void World::State::publish(const Model& model) noexcept {
+/// All but what the hands feel, which belongs to the tick that made it.
+void World::State::publish_state(const Model& model) noexcept {
   snapshot.tick = spent.tick;
   snapshot.completed_steps = now.completed_steps;
   const auto& steps = model.procedure.steps;
@@ -91,7 +89,6 @@ void World::State::publish(const Model& model) noexcept {
   while (current < steps.size() && (now.completed_steps >> current & 1U) != 0) ++current;
   snapshot.step = static_cast<std::uint8_t>(spent.finished ? steps.size() : current);
   for (std::size_t i = 0; i < kMaxItems; ++i) publish_item(model, i);
-  for (std::size_t h = 0; h < kHands; ++h) publish_hand(model, h);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) snapshot.patient_from_bone[b] = poses[b];
   snapshot.wrist = spent.wrist;
   if (snapshot.tissue_revision != spent.tissue_revision ||
@@ -109,6 +106,11 @@ void World::State::publish(const Model& model) noexcept {
   snapshot.finished = spent.finished;
 }
 
+void World::State::publish(const Model& model) noexcept {
+  for (std::size_t h = 0; h < kHands; ++h) publish_hand(h);
+  publish_state(model);
+}
+
 void World::State::update_hash(const Model& model) noexcept {
   StateHash hash;
   hash.add(model.seed);
@@ -116,7 +118,7 @@ void World::State::update_hash(const Model& model) noexcept {
   visit(now, fields);
   visit(spent, fields);
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
-  tissue.add_to(hash);
+  tissue.cuts().add_to(hash);
   for (const HandView& hand : snapshot.hands) fields(hand.force_in_patient);
   spent.hash = hash.value();
   snapshot.state_hash = spent.hash;

@@ -108,7 +108,7 @@ std::vector<std::byte> World::write_state() const {
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
   }
-  state.tissue.write_to(out.bytes());
+  state.tissue.cuts().write_to(out.bytes());
   StateHash hash;
   hash.add_bytes(out.bytes());
   out.put(hash.value(), 8);
@@ -117,12 +117,12 @@ std::vector<std::byte> World::write_state() const {
 
 Result<bool> World::read_state(std::span<const std::byte> bytes) {
   constexpr std::size_t kChecksum = 8;
-  if (bytes.size() < kChecksum) return Refusal{"keyframe: cut off"};
+  if (bytes.size() < kChecksum) return carpus::Refusal{"keyframe: cut off"};
   const std::span<const std::byte> body = bytes.first(bytes.size() - kChecksum);
   StateHash hash;
   hash.add_bytes(body);
   detail::Reader end(bytes.last(kChecksum));
-  if (end.get(8) != hash.value()) return Refusal{"keyframe: damaged, its checksum does not match"};
+  if (end.get(8) != hash.value()) return carpus::Refusal{"keyframe: damaged, its checksum does not match"};
 
   auto next = std::make_unique<State>(*model_);
   detail::Reader in(body);
@@ -133,13 +133,13 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   is_sound = is_sound && !in.is_spoilt() &&
              are_indices_sound(next->now, next->spent, model_->data.bones.size(),
                                model_->catalogue.size());
-  if (!is_sound) return Refusal{"keyframe: its state is not one that a tick could leave"};
+  if (!is_sound) return carpus::Refusal{"keyframe: its state is not one that a tick could leave"};
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);
   }
-  if (!is_sound || in.is_spoilt()) return Refusal{"keyframe: cut off among the shots"};
-  const Result<bool> tissue = next->tissue.read_from(body.subspan(in.at()));
-  if (!tissue) return Refusal{"keyframe: " + tissue.error()};
+  if (!is_sound || in.is_spoilt()) return carpus::Refusal{"keyframe: cut off among the shots"};
+  const Result<std::size_t> tissue = next->tissue.cuts().read_from(body.subspan(in.at()));
+  if (!tissue) return carpus::Refusal{"keyframe: " + tissue.error()};
   next->pose_bodies(*model_);
   next->carry_fixed_items();
   for (std::uint8_t h = 0; h < kHands; ++h) {
@@ -148,7 +148,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
     }
   }
   next->snapshot.state_hash = next->spent.hash;
-  next->publish_without_force(*model_);
+  next->publish_state(*model_);
   state_ = std::move(next);
   return true;
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "anatomy/bone_solid.hpp"
-#include "cases/hand_motion.hpp"
+#include "anatomy/carpal_kinematics.hpp"
 #include "contact/instrument_scene.hpp"
 #include "fields/contact_field.hpp"
 #include "haptics/virtual_coupling.hpp"
@@ -33,8 +33,8 @@ struct World::Model {
   std::uint64_t seed;
   detail::BodyKinds kinds;
   std::span<const instruments::Instrument> catalogue;
-  const cases::HandMotion* motion;  ///< of the case, or made_motion
-  cases::HandMotion made_motion;    ///< where the case has none
+  std::vector<fields::ContactField> fields;  ///< by body
+  std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
   std::vector<BoneSolid> target;    ///< one: the target's fragments as scanned, gap bridged
   procedure::Opening opening;
 };
@@ -49,6 +49,7 @@ struct World::State {
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
   std::array<detail::BodyPose, kMaxBodies> poses{};         ///< follow from wrist and shifts
   std::array<Pose<frame::Bone, frame::Patient>, kMaxBodies> inverses{};
+  std::array<Vec3, kMaxBodies> applied_shift{};  ///< that is in `poses`
   Snapshot snapshot;
   TickFaults faults;
   std::array<procedure::Shot, kMaxShots> shots{};
@@ -113,6 +114,10 @@ struct World::State {
   void come_out(const Model& model, std::uint8_t hand) noexcept;
   void seat(const Model& model, std::uint8_t index) noexcept;
   void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
+  [[nodiscard]] detail::BodyPose shifted_pose(std::uint8_t body,
+                                              const Vec3& shift) const noexcept;
+  [[nodiscard]] bool is_fragment_inside_another(const Model& model,
+                                                std::uint8_t body) const noexcept;
   [[nodiscard]] double density_hu(const Model& model, const Vec3& point_in_patient) const noexcept;
 
   // steps.cpp
@@ -127,8 +132,9 @@ struct World::State {
 
   // publishing.cpp
   void publish(const Model& model) noexcept;
+  void publish_state(const Model& model) noexcept;
   void publish_item(const Model& model, std::size_t index) noexcept;
-  void publish_hand(const Model& model, std::size_t hand) noexcept;
+  void publish_hand(std::size_t hand) noexcept;
   void update_hash(const Model& model) noexcept;
 
   [[nodiscard]] detail::Item* in_hand(std::size_t hand) noexcept {

@@ -11,6 +11,7 @@ namespace carpus::simulation {
 
 using detail::absolute;
 using detail::bit_of;
+using detail::BodyPose;
 using detail::Item;
 
 namespace {
@@ -55,7 +56,7 @@ void World::State::move_wrist(const Model& model, const WristPose& raw) noexcept
     ++faults.bad_inputs;
     return;
   }
-  const WristPose wanted = model.motion->limits.clamp(raw);
+  const WristPose wanted = model.data.hand_motion.limits.clamp(raw);
   const WristPose before = spent.wrist;
   if (wanted == before) {
     if (raw == wanted) spent.wrist_is_told = false;
@@ -76,12 +77,20 @@ void World::State::move_wrist(const Model& model, const WristPose& raw) noexcept
   carry_fixed_items();
 }
 
+/// Where a fragment is with this shift, hand and forearm as they are held.
+BodyPose World::State::shifted_pose(std::uint8_t body, const Vec3& shift) const noexcept {
+  BodyPose pose = poses[body];
+  pose.translation += pose.rotation * (shift - applied_shift[body]);
+  return pose;
+}
+
 /// The bodies' poses from wrist and shifts.
 void World::State::pose_bodies(const Model& model) noexcept {
-  model.motion->poses_at(spent.wrist,
-                         std::span<detail::BodyPose>(poses.data(), snapshot.body_count));
+  const auto by_group = model.data.hand_motion.poses_at(spent.wrist);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) {
+    poses[b] = by_group[static_cast<std::size_t>(model.groups[b])];
     poses[b].translation += poses[b].rotation * now.shifted[b];
+    applied_shift[b] = now.shifted[b];
     inverses[b] = poses[b].inverse();
   }
 }
@@ -99,6 +108,24 @@ void World::State::carry_fixed_items() noexcept {
                    .v;
     item.shaft = -(pose * Direction<frame::Bone>{item.direction_in_bone}).v;
   }
+}
+
+/// Whether the fragment lies deeper in another than it did as scanned, told at the corners of its
+/// hull.
+bool World::State::is_fragment_inside_another(const Model& model,
+                                              std::uint8_t body) const noexcept {
+  const BodyPose moved = shifted_pose(body, now.shifted[body]);
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    if (b == body || (model.kinds.fragments & bit_of(b)) == 0) continue;
+    for (const Vec3& corner : model.data.bones[body].hull.vertices) {
+      const Vec3 local = (inverses[b] * (moved * Point<frame::Bone>{corner})).v;
+      if (!tissue.is_near(b, local)) continue;
+      const double depth = -tissue.untouched_distance_mm(b, local);
+      const double as_scanned = -tissue.untouched_distance_mm(b, corner);
+      if (depth > 0.0 && depth > as_scanned) return true;
+    }
+  }
+  return false;
 }
 
 /// A fragment of a nonunion gives way along a push, against its gap tissue.
