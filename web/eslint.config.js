@@ -16,6 +16,7 @@ const pure = [
   "src/tool_placement/**",
   "src/operation/**",
   "src/bone_shading/**",
+  "src/theatre/instrument_set.ts",
   "src/**/*_model.ts",
 ];
 

@@ -9,12 +9,12 @@ import { faceNames, makeFrameMap, towards, type AnatomicalSide, type FrameMap } 
 import type { CaseDescription, Vec3 } from "../protocol";
 import {
   alignShaft,
+  drawInstrument,
   glassBoneMaterial,
   loadCaseScene,
-  metalMaterial,
-  screwGeometry,
+  screwParts,
   studioLight,
-  wireGeometry,
+  wireParts,
 } from "../theatre";
 import { normalized, subtract } from "../tool_placement";
 import type { Placement } from "./score_model";
@@ -113,22 +113,16 @@ function hardware(placement: Placement): THREE.Object3D[] {
     const shaft = normalized(subtract(wire.entryMm, wire.tipMm));
     // With 12 mm of what stands out, to show where it came in.
     const lengthMm = Math.hypot(...subtract(wire.entryMm, wire.tipMm)) + 12;
-    const mesh = new THREE.Mesh(wireGeometry(lengthMm), metalMaterial());
-    alignShaft(mesh, wire.tipMm, shaft);
-    objects.push(mesh);
+    const drawn = drawInstrument(wireParts(lengthMm));
+    alignShaft(drawn, wire.tipMm, shaft);
+    objects.push(drawn);
   }
   if (screw !== undefined) {
     const lengthMm = Math.hypot(...subtract(screw.tailMm, screw.tipMm));
-    const mesh = new THREE.Mesh(
-      screwGeometry({
-        lengthMm,
-        tipDiameterMm: screw.tipDiameterMm,
-        tailDiameterMm: screw.tailDiameterMm,
-      }),
-      metalMaterial("#9fb3c4", 0.3),
-    );
-    alignShaft(mesh, screw.tipMm, normalized(subtract(screw.tailMm, screw.tipMm)));
-    objects.push(mesh);
+    const { tipDiameterMm, tailDiameterMm } = screw;
+    const drawn = drawInstrument(screwParts({ lengthMm, tipDiameterMm, tailDiameterMm }));
+    alignShaft(drawn, screw.tipMm, normalized(subtract(screw.tailMm, screw.tipMm)));
+    objects.push(drawn);
   }
   return objects;
 }
