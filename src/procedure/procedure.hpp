@@ -1,8 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a procedure is: declared data and the few functions that need code. Nothing above this module
-// names one; src/procedures/ holds each in a folder of its own (docs/how_to_add_a_procedure.md).
+// What a procedure is: declared data and the few functions that need code. Nothing above this
+// module names one; src/procedures/ holds each in a folder of its own
+// (docs/how_to_add_a_procedure.md).
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "anatomy/bone_id.hpp"
@@ -26,10 +28,12 @@ using Predicate = bool (*)(const Situation&) noexcept;
 
 /// One step. Steps guide, they never forbid; what was skipped shows in the score.
 struct Step {
-  std::string id;           ///< snake_case, stable: "survey"
-  std::string title;        ///< "Survey"
-  std::string instruction;  ///< one sentence: what to do next
+  std::string id;                    ///< snake_case, stable: "survey"
+  std::string title;                 ///< "Survey"
+  std::string instruction;           ///< one sentence: what to do next
   std::vector<std::string> actions;  ///< ids of the actions whose keys the page names with it
+  /// What it is done with: shown on the tray, taken by scripts; kNoInstrument: nothing new.
+  instruments::InstrumentIndex instrument = instruments::kNoInstrument;
   Predicate is_done = nullptr;
   /// Once done it stays done until this holds; nullptr: for good.
   Predicate is_lost = nullptr;
@@ -45,11 +49,13 @@ struct NamedView {
   double tilt_deg = 0.0;
 };
 
-/// How the operation begins on a case: computed before it, may use trigonometry.
+/// How the operation begins on a case: computed before it, may use trigonometry. The hand waits in
+/// frame Bone of the target (as scanned; its first part), so that nothing here needs to know where
+/// the wrist's pose takes that bone.
 struct Opening {
   WristPose wrist;
-  Vec3 tip_in_patient;    ///< where the first hand waits, outside all tissue [mm]
-  Vec3 shaft_in_patient;  ///< unit, towards the hand
+  Vec3 tip_in_target;             ///< where the first hand waits, outside all tissue [mm]
+  Vec3 shaft_in_target{0, 0, 1};  ///< unit, towards the hand
 };
 
 struct Procedure {
@@ -57,10 +63,10 @@ struct Procedure {
   std::string title;    ///< "Dorsal percutaneous scaphoid fixation"
   std::string summary;  ///< two sentences for the start dialog
   BoneId target = BoneId::Scaphoid;
-  std::vector<BoneId> allowed;  ///< bones besides the target that may be entered
+  std::vector<BoneId> allowed;                     ///< bones besides the target that may be entered
   std::vector<instruments::InstrumentIndex> tray;  ///< what may be taken, in order; the first is in
                                                    ///< the first hand at the beginning
-  std::vector<Step> steps;  ///< at most kMaxSteps
+  std::vector<Step> steps;                         ///< at most kMaxSteps
   std::vector<NamedView> views;
   /// @throws InvalidInput when it cannot be done on this case, saying why.
   Opening (*opening)(const cases::CaseData& data) = nullptr;
@@ -86,7 +92,8 @@ struct NamedPredicate {
   Predicate predicate;
 };
 
-/// Reads steps, views, tray, texts from a procedure.json; functions are set by the caller.
+/// Reads steps, views, tray, texts from a procedure.json (docs/how_to_add_a_procedure.md); the
+/// predicates of steps are found by name, `opening` and `score` are set by the caller.
 /// @param file  names it in errors.
 /// @throws InvalidInput "dorsal.json: steps[3].done: no predicate 'driven'".
 [[nodiscard]] Procedure read_procedure(std::string_view json,

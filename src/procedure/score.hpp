@@ -1,17 +1,16 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The truth about an operation, from geometry. Every item, limit and weight is defined and argued
-// in docs/scoring.md.
+// The truth about an operation, from geometry, as every procedure tells it. Items, limits and
+// weights are the procedures' own, defined and argued in docs/scoring.md.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "cases/case_data.hpp"
 #include "geometry/vec3.hpp"
-#include "procedure/operation_record.hpp"
 
 namespace carpus::procedure {
 
@@ -40,7 +39,7 @@ struct MustHave {
   bool fulfilled = false;
 };
 
-/// A straight line in the Patient frame, where the scaphoid lies [mm].
+/// A straight line in frame Bone of the target, which is Patient as scanned [mm].
 struct PlacedLine {
   Vec3 from;
   Vec3 to;
@@ -69,17 +68,12 @@ struct ScoreReport {
   std::optional<double> angle_to_longest_line_deg;
   std::optional<double> true_length_mm;    ///< along the wire between the cortices
   std::optional<double> gauge_reading_mm;  ///< what the trainee measured
-  int ideal_screw_index = -1;              ///< for the true length; -1 when there is none
+  int ideal_screw_index = -1;              ///< among the screws on the tray; -1: there is none
   std::string ideal_screw;                 ///< its name, empty when there is none
   int chosen_screw_index = -1;
   std::string chosen_screw;
   std::string penetration_at;  ///< "proximal", "distal", "side" or empty; with the bone reached
   PlacementPicture placement;
 };
-
-/// Scores an operation against the case that it was done on. Deterministic; about 0.5 s.
-/// @param data  the case, as scanned or in its operative posture; needs `scaphoid` and `bones`.
-[[nodiscard]] ScoreReport score_operation(const cases::CaseData& data,
-                                          const OperationRecord& record);
 
 }  // namespace carpus::procedure

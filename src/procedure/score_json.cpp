@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "procedure/screw_catalogue.hpp"
-
 namespace carpus::procedure {
 namespace {
 
@@ -73,22 +71,6 @@ std::string score_json(const ScoreReport& report, int indent) {
   json["chosen_screw"] = report.chosen_screw;
   json["penetration_at"] = report.penetration_at;
   json["placement"] = placement_json(report.placement);
-  return json.dump(indent);
-}
-
-std::string screw_catalogue_json(int indent) {
-  Json json = Json::array();
-  int index = 0;
-  for (const Screw& screw : screw_catalogue()) {
-    json.push_back({{"index", index++},
-                    {"name", screw.name},
-                    {"family", screw.family},
-                    {"length_mm", screw.length_mm},
-                    {"tip_diameter_mm", screw.tip_diameter_mm},
-                    {"tail_diameter_mm", screw.tail_diameter_mm},
-                    {"wire_diameter_mm", kWireDiameterMm},
-                    {"confirmed", screw.confirmed}});
-  }
   return json.dump(indent);
 }
 

@@ -42,12 +42,12 @@ struct LineFacts {
   instruments::InstrumentIndex instrument = instruments::kNoInstrument;
   std::uint8_t body = kNoBody;  ///< index in CaseData::bones: the frame in which the line is fixed
   bool in_hand = false;
-  bool in_target = false;   ///< it entered the target on this line
-  Vec3 entry_in_bone{};     ///< where it entered the target, else bone at all [mm]
+  bool in_target = false;    ///< it entered the target on this line
+  Vec3 entry_in_bone{};      ///< where it entered the target, else bone at all [mm]
   Vec3 direction_in_bone{};  ///< unit, from the entry towards the tip
-  double depth_mm = 0.0;    ///< tip beyond the entry; of what rides, its own tip
-  double chord_mm = 0.0;    ///< of the line inside the target, gap included; 0 outside it
-  double buried_mm = 0.0;   ///< a screw's tail below the surface; negative while it stands out
+  double depth_mm = 0.0;     ///< tip beyond the entry; of what rides, its own tip
+  double chord_mm = 0.0;     ///< of the line inside the target, gap included; 0 outside it
+  double buried_mm = 0.0;    ///< a screw's tail below the surface; negative while it stands out
   bool operator==(const LineFacts&) const = default;
 };
 
@@ -69,8 +69,9 @@ struct Situation {
   std::uint32_t completed_steps = 0;
   /// Number of shots when step i was last completed.
   std::array<std::uint16_t, kMaxSteps> shots_at_completion{};
-  double gauge_reading_mm = -1.0;  ///< last one, -1 before any
-  double reamed_mm = 0.0;          ///< greatest depth of a reamer along its wire, from the entry
+  /// Last one; -1 before any, and again once no wire lies in the target: what was read is gone.
+  double gauge_reading_mm = -1.0;
+  double reamed_mm = 0.0;  ///< greatest depth of a reamer along its wire, from the entry
   WristPose wrist;
   bool is_finishing = false;  ///< this is the tick of Finish
 };

@@ -77,8 +77,10 @@ void World::State::open(const Model& model) noexcept {
   Item& first = now.items[0];
   first.instrument = model.procedure.tray.front();
   first.hand = 0;
-  first.tip = model.opening.tip_in_patient;
-  first.shaft = normalized_or(model.opening.shaft_in_patient, {0, 0, 1});
+  const detail::BodyPose& target = poses[detail::first_of(model.kinds.target)];
+  first.tip = (target * Point<frame::Bone>{model.opening.tip_in_target}).v;
+  first.shaft = normalized_or(
+      (target * Direction<frame::Bone>{model.opening.shaft_in_target}).v, {0, 0, 1});
   now.held[0] = 0;
   scene.set_instrument(0, kind_of(model, first).shape);
   for (detail::HandState& hand : spent.hands) {

@@ -7,26 +7,28 @@
 
 namespace carpus::trainee {
 
-Attempt operate(const cases::CaseData& posed_case,
+Attempt operate(const cases::CaseData& data,
+                const procedure::Procedure& procedure,
                 Skill skill,
                 std::uint64_t seed,
                 const std::string& program_version) {
-  constexpr auto kProcedure = procedure::ProcedureId::DorsalScaphoidFixation;
-  simulation::World world(posed_case, kProcedure, seed);
-  simulation::Recorder recorder(program_version, simulation::fingerprint_of(posed_case), kProcedure,
-                                seed);
-  ScriptedTrainee trainee(posed_case, skill, seed);
+  simulation::World world(data, procedure, seed);
+  simulation::Recorder recorder(program_version, simulation::fingerprint_of(data), procedure, seed);
+  ScriptedTrainee trainee(data, procedure, skill, seed);
   Attempt attempt;
   while (!world.now().finished) {
     const simulation::Input input = trainee.next(world.now());
     recorder.append(input);
     const simulation::Snapshot& now = world.step(input);
     for (std::size_t i = 0; i < now.event_count; ++i) attempt.events.push_back(now.events[i]);
+    if (recorder.tick() % simulation::kKeyframeTicks == 0) {
+      recorder.append_keyframe({recorder.tick(), world.write_state()});
+    }
   }
   attempt.last = world.now();
   attempt.recording = recorder.finished(attempt.last.state_hash);
   attempt.record = world.operation_record();
-  attempt.score = procedure::score_operation(posed_case, attempt.record);
+  attempt.score = procedure.score(data, attempt.record);
   return attempt;
 }
 

@@ -4,10 +4,12 @@
 // One whole operation by a scripted trainee.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
 #include "procedure/score.hpp"
 #include "simulation/recording.hpp"
 #include "simulation/snapshot.hpp"
@@ -24,9 +26,13 @@ struct Attempt {
 };
 
 /// Operates from the first tick to Finish, as fast as it can, and scores it.
-/// @param posed_case  in its operative posture.
+/// @param data  as scanned; it and the procedure must outlive the call only.
 /// @param program_version  written into the recording.
-[[nodiscard]] Attempt operate(const cases::CaseData& posed_case,
+/// @throws InvalidInput  when the scripts do not know how to do this procedure, or it cannot be
+/// done
+///     on this case.
+[[nodiscard]] Attempt operate(const cases::CaseData& data,
+                              const procedure::Procedure& procedure,
                               Skill skill,
                               std::uint64_t seed,
                               const std::string& program_version);

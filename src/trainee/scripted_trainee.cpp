@@ -4,14 +4,20 @@
 
 #include <algorithm>
 
-#include "procedure/screw_catalogue.hpp"
+#include "core/error.hpp"
 
 namespace carpus::trainee {
 namespace {
 
+using instruments::Instrument;
+using instruments::InstrumentIndex;
+using instruments::Work;
+using simulation::Command;
 using simulation::CommandKind;
 using simulation::Driver;
+using simulation::HandInput;
 using simulation::Input;
+using simulation::ItemView;
 using simulation::Snapshot;
 
 constexpr double kStandoffMm = 18.0;       // from where the last straight approach starts
@@ -25,33 +31,89 @@ constexpr double kGreatestPushN = 58.0;
 
 Tick ticks_of(double seconds) { return static_cast<Tick>(seconds / kTickSeconds); }
 
+const Instrument& kind_of(InstrumentIndex index) { return instruments::catalogue()[index]; }
+
 BoneSolid solid_of(const cases::CaseData& data) {
   std::vector<const TriangleMesh*> fragments;
   for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
   return BoneSolid(fragments);
 }
 
-Vec3 axis_direction(const cases::CaseData& data) {
-  const auto& axis = data.scaphoid.central_axis;
-  return normalized_or(axis.distal - axis.proximal, {0, 0, 1});
+std::size_t body_of(const cases::CaseData& data, BoneId bone) {
+  std::size_t body = 0;
+  while (body < data.bones.size() && data.bones[body].bone != bone) ++body;
+  return body;
+}
+
+Command take(std::uint8_t hand, InstrumentIndex instrument) {
+  Command command;
+  command.kind = CommandKind::Take;
+  command.hand = hand;
+  command.index = instrument;
+  return command;
+}
+
+Command of_hand(CommandKind kind, std::uint8_t hand) {
+  Command command;
+  command.kind = kind;
+  command.hand = hand;
+  return command;
 }
 
 }  // namespace
 
-ScriptedTrainee::ScriptedTrainee(const cases::CaseData& posed_case, Skill skill, std::uint64_t seed)
-    : case_(posed_case),
+ScriptedTrainee::ScriptedTrainee(const cases::CaseData& data,
+                                 const procedure::Procedure& procedure,
+                                 Skill skill,
+                                 std::uint64_t seed)
+    : case_(data),
+      procedure_(procedure),
+      opening_(procedure.opening(data)),
+      target_(body_of(data, procedure.target)),
       profile_(profile_of(skill)),
-      rng_(seed * 2 + static_cast<std::uint64_t>(skill)),
+      rng_(seed * kSkillCount + static_cast<std::uint64_t>(skill)),
       tremor_(profile_.tremor_mm, Rng(seed ^ 0x7265746Du)),
-      scaphoid_(solid_of(posed_case)) {
-  plan_line();
-  hand_ = {planned_entry_ - planned_direction_ * kFirstStandoffMm, -planned_direction_};
-  enter(Phase::Survey);
+      scaphoid_(solid_of(data)) {
+  bool has_screw = false;
+  for (const InstrumentIndex index : procedure.tray) {
+    if (kind_of(index).is_gauge) gauge_ = index;
+    has_screw = has_screw || kind_of(index).work == Work::Thread;
+  }
+  for (const procedure::Step& step : procedure.steps) {
+    const bool is_known = step.instrument < instruments::catalogue().size();
+    if (is_known && kind_of(step.instrument).work == Work::Ream) drill_ = step.instrument;
+  }
+  const bool is_fixation = procedure.target == BoneId::Scaphoid && has_screw &&
+                           gauge_ != instruments::kNoInstrument &&
+                           kind_of(procedure.tray.front()).work == Work::Drill;
+  if (!is_fixation) {
+    throw InvalidInput("scripted trainees fix the scaphoid by a wire and a screw; " + procedure.id +
+                       " is another operation");
+  }
+  // The hand waits on the side from which the bone is reached.
+  const cases::AxisSegment& axis = data.scaphoid.central_axis;
+  const bool from_proximal = distance(opening_.tip_in_target, axis.proximal) <=
+                             distance(opening_.tip_in_target, axis.distal);
+  near_end_ = from_proximal ? axis.proximal : axis.distal;
+  far_end_ = from_proximal ? axis.distal : axis.proximal;
+}
+
+ItemView ScriptedTrainee::held(const Snapshot& now) {
+  const std::uint8_t item = now.hands[0].item;
+  return item < simulation::kMaxItems ? now.items[item] : ItemView{};
+}
+
+Vec3 ScriptedTrainee::to_patient(const Snapshot& now, const Vec3& in_target) const {
+  return (now.patient_from_bone[target_] * Point<frame::Bone>{in_target}).v;
+}
+
+Vec3 ScriptedTrainee::turned(const Snapshot& now, const Vec3& in_target) const {
+  return (now.patient_from_bone[target_] * Direction<frame::Bone>{in_target}).v;
 }
 
 /// A unit vector across the axis, any way round: the larger of random tries is as even as needed.
 Vec3 ScriptedTrainee::random_across() {
-  const Vec3 axis = axis_direction(case_);
+  const Vec3 axis = normalized_or(far_end_ - near_end_, {0, 0, 1});
   Vec3 across;
   do {
     const Vec3 any{rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)};
@@ -61,16 +123,16 @@ Vec3 ScriptedTrainee::random_across() {
 }
 
 /// Where the trainee believes that the axis runs, for this try.
-void ScriptedTrainee::plan_line() {
-  const auto& axis = case_.scaphoid.central_axis;
-  planned_entry_ = axis.proximal + random_across() * (draw(profile_.entry_error_mm) * error_scale_);
-  const Vec3 aim = axis.distal + random_across() * (draw(profile_.aim_error_mm) * error_scale_);
-  planned_direction_ = normalized_or(aim - planned_entry_, axis_direction(case_));
+void ScriptedTrainee::plan_line(const Snapshot& now) {
+  const Vec3 entry = near_end_ + random_across() * (draw(profile_.entry_error_mm) * error_scale_);
+  const Vec3 aim = far_end_ + random_across() * (draw(profile_.aim_error_mm) * error_scale_);
+  planned_entry_ = to_patient(now, entry);
+  planned_direction_ = turned(now, normalized_or(aim - entry, {0, 0, 1}));
   thrust_n_ = draw(profile_.drive_thrust_n);
   stop_depth_mm_ = -1.0;
 }
 
-void ScriptedTrainee::enter(Phase phase) {
+void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
   phase_ = phase;
   in_phase_ = 0;
   wait_ = ticks_of(draw(profile_.reaction_s));
@@ -82,6 +144,8 @@ void ScriptedTrainee::enter(Phase phase) {
     start_move({planned_entry_ - planned_direction_ * kStandoffMm, -planned_direction_});
   } else if (phase == Phase::Approach) {
     start_move({planned_entry_ + planned_direction_ * (kPressMm + 1.0), -planned_direction_});
+  } else if (phase == Phase::Ream) {
+    ream_depth_mm_ = true_chord(now, held(now)) - draw(profile_.ream_before_far_mm);
   } else if (phase == Phase::Insert) {
     bury_mm_ = draw(profile_.bury_mm);
   }
@@ -112,29 +176,42 @@ bool ScriptedTrainee::shoot(Input& input) {
   if (next_shot_ >= shots_.size()) return true;
   if (in_phase_ % kBetweenShots == kBetweenShots - 1) {
     const PlannedShot& shot = shots_[next_shot_++];
-    input.command = {CommandKind::TakeShot, 0, shot.rotation_deg, shot.tilt_deg};
+    input.command.kind = CommandKind::TakeShot;
+    input.command.rotation_deg = shot.rotation_deg;
+    input.command.tilt_deg = shot.tilt_deg;
   }
   return false;
 }
 
 /// Greatest distance of the line from the axis at its two ends, as the pictures show it [mm].
 double ScriptedTrainee::offset_of_line(const Snapshot& now) const {
-  const auto& axis = case_.scaphoid.central_axis;
+  const ItemView wire = held(now);
   double greatest = 0;
-  for (const Vec3& p : {axis.proximal, axis.distal}) {
-    const Vec3 w = p - now.wire.entry_in_patient;
-    greatest = std::max(greatest, length(cross(w, now.wire.direction_in_patient)));
+  for (const Vec3& end : {near_end_, far_end_}) {
+    const Vec3 w = to_patient(now, end) - wire.entry_in_patient;
+    greatest = std::max(greatest, length(cross(w, wire.shaft_in_patient)));
   }
   return greatest;
 }
 
+/// Length of the wire's line in the bone from its entry, as it could be read off perfect pictures.
+double ScriptedTrainee::true_chord(const Snapshot& now, const ItemView& wire) const {
+  const auto bone_from_patient = now.patient_from_bone[target_].inverse();
+  const Vec3 entry = (bone_from_patient * Point<frame::Patient>{wire.entry_in_patient}).v;
+  const Vec3 along = (bone_from_patient * Direction<frame::Patient>{-wire.shaft_in_patient}).v;
+  const auto chord = scaphoid_.chord_through(entry + along, along);
+  return chord ? chord->leave_mm + 1.0 : 20.0;
+}
+
 void ScriptedTrainee::judge_line(const Snapshot& now) {
-  if (offset_of_line(now) > profile_.noticed_error_mm && tries_ + 1 < profile_.most_passes) {
+  const bool is_in = held(now).in_target;
+  if ((!is_in || offset_of_line(now) > profile_.noticed_error_mm) &&
+      tries_ + 1 < profile_.most_passes) {
     ++tries_;
     error_scale_ *= profile_.learning;
-    enter(Phase::Withdraw);
+    enter(Phase::Withdraw, now);
   } else {
-    enter(Phase::Measure);
+    enter(is_in ? Phase::Measure : Phase::Finish, now);
   }
 }
 
@@ -142,37 +219,63 @@ void ScriptedTrainee::judge_line(const Snapshot& now) {
 void ScriptedTrainee::think(const Snapshot& now) {
   switch (phase_) {
     case Phase::GoToStandoff:
-      if (move_.is_over(in_move_)) enter(Phase::Approach);
+      if (move_.is_over(in_move_)) enter(Phase::Approach, now);
       return;
     case Phase::Approach:
-      if (move_.is_over(in_move_) || (now.contact.touching && now.contact.depth_mm > kPressMm)) {
-        enter(Phase::Engage);
+      if (move_.is_over(in_move_) ||
+          (now.hands[0].touching && now.hands[0].contact_depth_mm > kPressMm)) {
+        enter(Phase::Engage, now);
       }
       return;
     case Phase::Engage:
-      if (now.wire.engaged) {
-        enter(Phase::Drive);
+    case Phase::Drive:
+    case Phase::Judge:
+    case Phase::Withdraw:
+      return think_of_line(now);
+    case Phase::Ream:
+      if (held(now).depth_mm >= ream_depth_mm_ || in_phase_ > kPhaseTicks) {
+        enter(Phase::DrillOut, now);
+      }
+      return;
+    case Phase::DrillOut:  // the hand has the wire again when the drill is off
+      if (held(now).wire == simulation::kNoItem) enter(Phase::Choose, now);
+      return;
+    case Phase::Insert:
+      if (held(now).buried_mm >= bury_mm_ || in_phase_ > kPhaseTicks) enter(Phase::LetGo, now);
+      return;
+    default:
+      return;
+  }
+}
+
+void ScriptedTrainee::think_of_line(const Snapshot& now) {
+  const ItemView wire = held(now);
+  const bool is_fixed = wire.body != simulation::kNoBody;
+  switch (phase_) {
+    case Phase::Engage:
+      if (is_fixed) {
+        enter(Phase::Drive, now);
       } else if (in_phase_ > kEngageTicks) {  // skated or missed: look again, closer
         error_scale_ *= 0.7;
-        plan_line();
-        enter(++tries_ < kMostTries ? Phase::GoToStandoff : Phase::Finish);
+        plan_line(now);
+        enter(++tries_ < kMostTries ? Phase::GoToStandoff : Phase::Finish, now);
       }
       return;
     case Phase::Drive:
-      if (stop_depth_mm_ >= 0 && now.wire.depth_mm >= stop_depth_mm_) enter(Phase::Check);
-      if (in_phase_ > kPhaseTicks) enter(Phase::Check);
+      if (stop_depth_mm_ >= 0 && wire.depth_mm >= stop_depth_mm_) {
+        enter(Phase::Check, now);
+      } else if (in_phase_ > kPhaseTicks) {
+        enter(Phase::Check, now);
+      }
       return;
     case Phase::Judge:
       return judge_line(now);
     case Phase::Withdraw:
-      if (!now.wire.engaged) {
-        hand_ = {now.tip_in_patient, now.shaft_in_patient};
-        plan_line();
-        enter(Phase::GoToStandoff);
+      if (!is_fixed) {
+        hand_ = {wire.tip_in_patient, wire.shaft_in_patient};
+        plan_line(now);
+        enter(Phase::GoToStandoff, now);
       }
-      return;
-    case Phase::Insert:
-      if (now.screw.buried_mm >= bury_mm_ || in_phase_ > kPhaseTicks) enter(Phase::Verify);
       return;
     default:
       return;
@@ -180,19 +283,18 @@ void ScriptedTrainee::think(const Snapshot& now) {
 }
 
 void ScriptedTrainee::drill(const Snapshot& now, Input& input) {
-  input.driver = Driver::Forward;
-  lean(now.wire.depth_mm);
-  input.thrust_n = std::min(kGreatestPushN, thrust_n_ + lean_n_);
-  if (phase_ != Phase::Drive || now.wire.depth_mm <= 0.5) return;
+  HandInput& hand = input.hands[0];
+  const ItemView wire = held(now);
+  hand.driver = Driver::Forward;
+  lean(wire.depth_mm);
+  hand.thrust_n = std::min(kGreatestPushN, thrust_n_ + lean_n_);
+  if (phase_ != Phase::Drive || !wire.in_target || wire.depth_mm <= 0.5) return;
   if (stop_depth_mm_ < 0) {  // how far to go on this line, as read off the pictures
-    const auto chord = scaphoid_.chord_through(
-        now.wire.entry_in_patient + now.wire.direction_in_patient, now.wire.direction_in_patient);
-    const double length_mm = chord ? chord->leave_mm + 1.0 : 20.0;
-    stop_depth_mm_ = std::max(8.0, length_mm - draw(profile_.stop_before_far_mm));
+    stop_depth_mm_ = std::max(8.0, true_chord(now, wire) - draw(profile_.stop_before_far_mm));
   }
   // Slower near the end, and just enough push to go on.
-  if (stop_depth_mm_ - now.wire.depth_mm < 2.0) {
-    input.thrust_n = std::min(input.thrust_n, now.resistance_n + 4.0 + lean_n_);
+  if (stop_depth_mm_ - wire.depth_mm < 2.0) {
+    hand.thrust_n = std::min(hand.thrust_n, now.hands[0].resistance_n + 4.0 + lean_n_);
   }
 }
 
@@ -210,21 +312,70 @@ void ScriptedTrainee::lean(double depth_mm) {
   last_depth_mm_ = depth_mm;
 }
 
+/// The second hand takes the gauge, reads it on the wire and puts it down again.
+void ScriptedTrainee::measure(const Snapshot& now, Input& input) {
+  constexpr Tick kTakeAt = 100;
+  constexpr Tick kReadAt = 900;
+  constexpr Tick kPutDownAt = 1500;
+  constexpr Tick kDoneAt = 1800;
+  if (in_phase_ == kTakeAt) input.command = take(1, gauge_);
+  if (in_phase_ == kReadAt) input.command = of_hand(CommandKind::ReadGauge, 1);
+  if (in_phase_ == kPutDownAt) input.command = of_hand(CommandKind::PutDown, 1);
+  if (in_phase_ < kDoneAt) return;
+  enter(drill_ != instruments::kNoInstrument ? Phase::Ream : Phase::Choose, now);
+}
+
+void ScriptedTrainee::ream(const Snapshot& now, Input& input) {
+  constexpr double kThrustN = 24.0;
+  constexpr Tick kTakeAt = 1;
+  if (in_phase_ == kTakeAt) {
+    input.command = take(0, drill_);
+    return;
+  }
+  HandInput& hand = input.hands[0];
+  if (held(now).instrument != drill_) {  // it did not go over the wire
+    enter(Phase::Choose, now);
+    return;
+  }
+  hand.driver = Driver::Forward;
+  lean(held(now).depth_mm);
+  hand.thrust_n = std::min(kGreatestPushN, kThrustN + lean_n_);
+}
+
+/// The longest screw that is shorter than measured by what this trainee takes off, the first of
+/// equals; the shortest where none is.
 void ScriptedTrainee::choose_screw(const Snapshot& now, Input& input) {
-  const double measured = now.measured_mm > 0 ? now.measured_mm : now.wire.depth_mm;
-  // The catalogue's rule deducts 4 mm; who deducts less chooses as if the bone were longer.
-  const double read = measured + (procedure::kMeasuredMinusScrewMm - profile_.screw_deduction_mm);
-  const int index = std::max(0, procedure::ideal_screw_index(procedure::screw_catalogue(), read));
-  input.command = {CommandKind::SelectScrew, index, 0, 0};
+  const double measured = now.gauge_reading_mm > 0 ? now.gauge_reading_mm : held(now).depth_mm;
+  InstrumentIndex best = instruments::kNoInstrument;
+  InstrumentIndex shortest = instruments::kNoInstrument;
+  for (const InstrumentIndex index : procedure_.tray) {
+    if (kind_of(index).work != Work::Thread) continue;
+    const double length = kind_of(index).length_mm;
+    if (shortest == instruments::kNoInstrument || length < kind_of(shortest).length_mm) {
+      shortest = index;
+    }
+    if (length <= measured - profile_.screw_deduction_mm &&
+        (best == instruments::kNoInstrument || length > kind_of(best).length_mm)) {
+      best = index;
+    }
+  }
+  input.command = take(0, best != instruments::kNoInstrument ? best : shortest);
 }
 
 void ScriptedTrainee::insert(const Snapshot& now, Input& input) {
   constexpr double kThrustN = 22.0;
-  input.driver = Driver::Forward;
-  lean(now.screw.advance_mm);
-  input.thrust_n = std::min(kGreatestPushN, kThrustN + lean_n_);
-  if (bury_mm_ - now.screw.buried_mm < 1.5) {
-    input.thrust_n = std::min(input.thrust_n, now.resistance_n + 4.0 + lean_n_);
+  const ItemView screw = held(now);
+  if (screw.instrument >= instruments::catalogue().size() ||
+      kind_of(screw.instrument).work != Work::Thread) {
+    enter(Phase::Finish, now);
+    return;
+  }
+  HandInput& hand = input.hands[0];
+  hand.driver = Driver::Forward;
+  lean(screw.depth_mm);
+  hand.thrust_n = std::min(kGreatestPushN, kThrustN + lean_n_);
+  if (bury_mm_ - screw.buried_mm < 1.5) {
+    hand.thrust_n = std::min(hand.thrust_n, now.hands[0].resistance_n + 4.0 + lean_n_);
   }
 }
 
@@ -232,38 +383,40 @@ void ScriptedTrainee::insert(const Snapshot& now, Input& input) {
 void ScriptedTrainee::act(const Snapshot& now, Input& input) {
   switch (phase_) {
     case Phase::Survey:
-      if (shoot(input)) enter(Phase::GoToStandoff);
+      if (shoot(input)) {
+        plan_line(now);
+        enter(Phase::GoToStandoff, now);
+      }
       return;
     case Phase::Engage:
     case Phase::Drive:
       return drill(now, input);
     case Phase::Check:
-      if (shoot(input)) enter(Phase::Judge);
+      if (shoot(input)) enter(Phase::Judge, now);
       return;
     case Phase::Withdraw:
-      input.driver = Driver::Reverse;
+    case Phase::DrillOut:
+      input.hands[0].driver = Driver::Reverse;
       return;
     case Phase::Measure:
-      // A gauge beside a wire that is through the far cortex reads nothing: pull back a little.
-      if (now.measured_mm >= 0 || in_phase_ > 4000) {
-        enter(Phase::Choose);
-      } else if (in_phase_ % 200 == 199) {
-        input.command = {CommandKind::Measure, 0, 0, 0};
-      } else if (in_phase_ > 600) {
-        input.driver = Driver::Reverse;
-      }
-      return;
+      return measure(now, input);
+    case Phase::Ream:
+      return ream(now, input);
     case Phase::Choose:
       choose_screw(now, input);
-      enter(Phase::Insert);
+      enter(Phase::Insert, now);
       return;
     case Phase::Insert:
       return insert(now, input);
+    case Phase::LetGo:
+      input.command = of_hand(CommandKind::PutDown, 0);
+      enter(Phase::Verify, now);
+      return;
     case Phase::Verify:
-      if (shoot(input)) enter(Phase::Finish);
+      if (shoot(input)) enter(Phase::Finish, now);
       return;
     case Phase::Finish:
-      input.command = {CommandKind::Finish, 0, 0, 0};
+      input.command = of_hand(CommandKind::Finish, 0);
       phase_ = Phase::Done;
       return;
     default:
@@ -273,9 +426,16 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
 
 Input ScriptedTrainee::next(const Snapshot& now) {
   Input input;
+  input.wrist = opening_.wrist;
+  if (!has_begun_) {
+    has_begun_ = true;
+    const Vec3 away = normalized_or(turned(now, near_end_ - far_end_), {0, 0, 1});
+    hand_ = {to_patient(now, near_end_) + away * kFirstStandoffMm, away};
+    enter(Phase::Survey, now);
+  }
   if (phase_ != Phase::Done) {
     ++total_;
-    if (total_ > kMostTicks && phase_ != Phase::Finish) enter(Phase::Finish);
+    if (total_ > kMostTicks && phase_ != Phase::Finish) enter(Phase::Finish, now);
     think(now);
     if (wait_ > 0) {
       --wait_;
@@ -287,10 +447,15 @@ Input ScriptedTrainee::next(const Snapshot& now) {
       act(now, input);
     }
   }
-  // Once the wire is in bone the hand rests on it; its tremor is held by the driver's guide.
-  const bool is_held = now.wire.engaged;
-  input.tip_in_patient = is_held ? now.tip_in_patient : hand_.tip + tremor_.next();
-  input.shaft_in_patient = is_held ? now.shaft_in_patient : hand_.shaft;
+  // Once an instrument is in bone the hand rests on it; its tremor is held by the driver's guide.
+  const ItemView item = held(now);
+  const bool is_held = item.body != simulation::kNoBody;
+  input.hands[0].tip_in_patient = is_held ? item.tip_in_patient : hand_.tip + tremor_.next();
+  input.hands[0].shaft_in_patient = is_held ? item.shaft_in_patient : hand_.shaft;
+  // The second hand keeps beside the first.
+  constexpr double kBesideMm = 60.0;
+  input.hands[1].tip_in_patient = hand_.tip + hand_.shaft * kBesideMm;
+  input.hands[1].shaft_in_patient = hand_.shaft;
   return input;
 }
 

@@ -1,15 +1,19 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scripted operator: sees snapshots, gives inputs, one each tick, and goes through the whole
-// operation.
+// A scripted operator: sees snapshots, gives inputs, one each tick, and goes through a whole
+// fixation of a bone by a wire and a screw, from whichever pole and with whatever steps the
+// procedure declares.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "anatomy/bone_solid.hpp"
 #include "cases/case_data.hpp"
 #include "core/rng.hpp"
+#include "procedure/procedure.hpp"
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
 #include "trainee/hand_motion.hpp"
@@ -19,9 +23,14 @@ namespace carpus::trainee {
 
 class ScriptedTrainee {
  public:
-  /// @param posed_case  what is operated on; its landmarks, plus errors, are what the trainee reads
-  ///                    off the pictures. Must outlive the trainee.
-  ScriptedTrainee(const cases::CaseData& posed_case, Skill skill, std::uint64_t seed);
+  /// @param data  what is operated on; its landmarks, plus errors, are what the trainee reads off
+  /// the
+  ///              pictures. It and the procedure must outlive the trainee.
+  /// @throws InvalidInput  when the procedure is no fixation of the scaphoid by a wire and a screw.
+  ScriptedTrainee(const cases::CaseData& data,
+                  const procedure::Procedure& procedure,
+                  Skill skill,
+                  std::uint64_t seed);
 
   /// The input for the next tick, from the state that the last one left. Nothing but an idle input
   /// after is_done().
@@ -41,8 +50,11 @@ class ScriptedTrainee {
     Judge,
     Withdraw,
     Measure,
+    Ream,
+    DrillOut,
     Choose,
     Insert,
+    LetGo,
     Verify,
     Finish,
     Done
@@ -52,12 +64,15 @@ class ScriptedTrainee {
     double tilt_deg;
   };
 
-  void plan_line();
-  void enter(Phase phase);
+  void plan_line(const simulation::Snapshot& now);
+  void enter(Phase phase, const simulation::Snapshot& now);
   void start_move(const HandPose& target);
   void think(const simulation::Snapshot& now);
+  void think_of_line(const simulation::Snapshot& now);
   void act(const simulation::Snapshot& now, simulation::Input& input);
   void drill(const simulation::Snapshot& now, simulation::Input& input);
+  void ream(const simulation::Snapshot& now, simulation::Input& input);
+  void measure(const simulation::Snapshot& now, simulation::Input& input);
   void judge_line(const simulation::Snapshot& now);
   void choose_screw(const simulation::Snapshot& now, simulation::Input& input);
   void lean(double depth_mm);
@@ -67,14 +82,29 @@ class ScriptedTrainee {
   [[nodiscard]] double draw(const Range& range) { return rng_.uniform(range.low, range.high); }
   [[nodiscard]] Vec3 random_across();
   [[nodiscard]] double offset_of_line(const simulation::Snapshot& now) const;
+  /// What the first hand holds.
+  [[nodiscard]] static simulation::ItemView held(const simulation::Snapshot& now);
+  /// From frame Bone of the target to Patient and back, as it lies now.
+  [[nodiscard]] Vec3 to_patient(const simulation::Snapshot& now, const Vec3& in_target) const;
+  [[nodiscard]] Vec3 turned(const simulation::Snapshot& now, const Vec3& in_target) const;
+  [[nodiscard]] double true_chord(const simulation::Snapshot& now,
+                                  const simulation::ItemView& wire) const;
 
   const cases::CaseData& case_;
+  const procedure::Procedure& procedure_;
+  procedure::Opening opening_;
+  Vec3 near_end_;  ///< of the central axis, where the wire goes in
+  Vec3 far_end_;
+  std::size_t target_ = 0;  ///< body
+  instruments::InstrumentIndex gauge_ = instruments::kNoInstrument;
+  instruments::InstrumentIndex drill_ = instruments::kNoInstrument;  ///< where a step asks for it
   SkillProfile profile_;
   Rng rng_;
   Tremor tremor_;
   BoneSolid scaphoid_;
 
   Phase phase_ = Phase::Survey;
+  bool has_begun_ = false;
   Tick in_phase_ = 0;  ///< ticks since the phase began
   Tick wait_ = 0;      ///< reaction time left
   Tick total_ = 0;
@@ -82,11 +112,12 @@ class ScriptedTrainee {
   MinimumJerkMove move_;
   Tick in_move_ = 0;
 
-  Vec3 planned_entry_;
-  Vec3 planned_direction_;
+  Vec3 planned_entry_;      ///< Patient
+  Vec3 planned_direction_;  ///< Patient, into the bone
   double error_scale_ = 1.0;
   int tries_ = 0;
   double stop_depth_mm_ = -1.0;
+  double ream_depth_mm_ = 0.0;
   double thrust_n_ = 30.0;
   double lean_n_ = 0.0;          ///< pushed on top of the usual thrust, because nothing moved
   double last_depth_mm_ = -1e9;  ///< when that was last looked at

@@ -6,21 +6,26 @@
 // C4]), not measured on people.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
 namespace carpus::trainee {
 
-enum class Skill : std::uint8_t { Expert = 0, Novice = 1 };
+enum class Skill : std::uint8_t { Expert = 0, Novice = 1, Middle = 2 };
+inline constexpr int kSkillCount = 3;
 
-/// "expert", "novice".
+/// "expert", "novice", "middle".
 [[nodiscard]] constexpr std::string_view name_of(Skill skill) noexcept {
-  return skill == Skill::Expert ? "expert" : "novice";
+  constexpr std::array<std::string_view, kSkillCount> kNames{"expert", "novice", "middle"};
+  return kNames[static_cast<std::size_t>(skill) % kSkillCount];
 }
 [[nodiscard]] constexpr std::optional<Skill> skill_of(std::string_view name) noexcept {
-  if (name == "expert") return Skill::Expert;
-  if (name == "novice") return Skill::Novice;
+  for (int i = 0; i < kSkillCount; ++i) {
+    if (name_of(static_cast<Skill>(i)) == name) return static_cast<Skill>(i);
+  }
   return std::nullopt;
 }
 
@@ -37,6 +42,7 @@ struct SkillProfile {
   int most_passes = 1;          ///< then it is accepted
   double learning = 1.0;        ///< errors shrink by this with each new pass
   Range stop_before_far_mm;     ///< wire left this short of the far cortex; negative: through it
+  Range ream_before_far_mm;     ///< where a drill is stopped, as seen on the pictures
   double screw_deduction_mm = 4.0;  ///< taken off the gauge's reading for the screw
   Range bury_mm;                    ///< how deep the screw's tail is driven
   double tremor_mm = 0.0;           ///< root mean square of the hand's tremor

@@ -40,6 +40,13 @@ struct BodyKinds {
 [[nodiscard]] BodyKinds kinds_of(const cases::CaseData& data,
                                  const procedure::Procedure& procedure);
 
+/// The first of a set, which must not be empty.
+[[nodiscard]] constexpr std::uint8_t first_of(BodySet bodies) noexcept {
+  std::uint8_t body = 0;
+  while (body + 1U < kMaxBodies && (bodies & bit_of(body)) == 0) ++body;
+  return body;
+}
+
 [[nodiscard]] constexpr double absolute(double value) noexcept {
   return value < 0 ? -value : value;
 }

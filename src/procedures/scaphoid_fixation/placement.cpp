@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "procedure/detail/placement.hpp"
+#include "procedures/scaphoid_fixation/placement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "anatomy/bone_words.hpp"
 #include "core/units.hpp"
 
-namespace carpus::procedure::detail {
+namespace carpus::procedures::scaphoid_fixation {
 namespace {
 
 double angle_between_deg(const Vec3& a, const Vec3& b) {
@@ -69,12 +69,14 @@ std::string_view neighbour_at(const cases::CaseData& data, const Vec3& p) {
 
 std::string place_in_words(const cases::CaseData& data,
                            const LineInterval& chord,
+                           Approach approach,
                            double t,
                            const Vec3& p) {
   constexpr double kEndMm = 3.0;
   std::string words = "side";
-  if (t < chord.enter_mm + kEndMm) words = "proximal";
-  if (t > chord.leave_mm - kEndMm) words = "distal";
+  const bool is_proximal_first = approach == Approach::FromProximal;
+  if (t < chord.enter_mm + kEndMm) words = is_proximal_first ? "proximal" : "distal";
+  if (t > chord.leave_mm - kEndMm) words = is_proximal_first ? "distal" : "proximal";
   if (const std::string_view bone = neighbour_at(data, p); !bone.empty()) {
     words += ", towards the ";
     words += bone;
@@ -86,15 +88,16 @@ std::string place_in_words(const cases::CaseData& data,
 void find_penetration(const BoneSolid& scaphoid,
                       const cases::CaseData& data,
                       const LineInterval& chord,
-                      const OperationRecord& record,
-                      const Screw& screw,
+                      Approach approach,
+                      const procedure::LineFacts& lain,
                       ScrewPlacement& placement) {
+  const instruments::Instrument& screw = instruments::catalogue()[lain.instrument];
   constexpr double kStepMm = 0.5;
   constexpr int kAround = 16;
   constexpr double kResolutionMm = 0.3;  // of the voxelised solid: less is not told from contact
-  const Vec3 a = any_perpendicular(record.direction_in_patient);
-  const Vec3 b = cross(record.direction_in_patient, a);
-  const double tip = record.screw_advance_mm;
+  const Vec3 a = any_perpendicular(lain.direction_in_bone);
+  const Vec3 b = cross(lain.direction_in_bone, a);
+  const double tip = lain.depth_mm;
   const double tail = tip - screw.length_mm;
   Vec3 worst;
   double worst_t = 0;
@@ -109,7 +112,7 @@ void find_penetration(const BoneSolid& scaphoid,
   const int steps = static_cast<int>(std::ceil(screw.length_mm / kStepMm));
   for (int i = 0; i <= steps; ++i) {
     const double t = tail + screw.length_mm * i / steps;
-    const Vec3 centre = record.entry_in_patient + record.direction_in_patient * t;
+    const Vec3 centre = lain.entry_in_bone + lain.direction_in_bone * t;
     consider(t, centre);
     // The ends are rounded: their rim is not counted, only their middle.
     if (i == 0 || i == steps) continue;
@@ -122,7 +125,7 @@ void find_penetration(const BoneSolid& scaphoid,
     }
   }
   if (placement.penetration_mm > 0) {
-    placement.penetration_at = place_in_words(data, chord, worst_t, worst);
+    placement.penetration_at = place_in_words(data, chord, approach, worst_t, worst);
   }
 }
 
@@ -130,19 +133,22 @@ void find_penetration(const BoneSolid& scaphoid,
 
 std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
                                         const cases::ScaphoidLandmarks& landmarks,
+                                        Approach approach,
                                         const Vec3& entry,
                                         const Vec3& direction) {
   const cases::AxisSegment& axis = landmarks.central_axis;
   const Vec3 along = axis.distal - axis.proximal;
-  const Vec3 axis_direction = normalized_or(along, {0, 0, 1});
+  const double sign =
+      approach == Approach::FromProximal ? 1.0 : -1.0;  // the way that the wire goes
+  const Vec3 axis_direction = normalized_or(along, {0, 0, 1}) * sign;
   constexpr double kInsideMm = 1.0;  // the entry itself may lie a hair outside
   const auto chord = scaphoid.chord_through(entry + direction * kInsideMm, direction);
   if (!chord) return std::nullopt;
   LinePlacement line;
   line.chord = {chord->enter_mm + kInsideMm, chord->leave_mm + kInsideMm};
   line.angle_deg = angle_between_deg(direction, axis_direction);
-  line.angle_to_longest_deg =
-      angle_between_deg(direction, landmarks.longest_line.distal - landmarks.longest_line.proximal);
+  line.angle_to_longest_deg = angle_between_deg(
+      direction, (landmarks.longest_line.distal - landmarks.longest_line.proximal) * sign);
   const auto level = [&](const Vec3& p) {
     return offset_at(scaphoid, p, axis_direction, entry, direction);
   };
@@ -155,13 +161,14 @@ std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
 ScrewPlacement place_screw(const BoneSolid& scaphoid,
                            const cases::CaseData& data,
                            const LinePlacement& line,
-                           const OperationRecord& record,
-                           const Screw& screw) {
+                           Approach approach,
+                           const procedure::LineFacts& lain) {
   ScrewPlacement placement;
-  placement.proximal_cover_mm = record.screw_advance_mm - screw.length_mm - line.chord.enter_mm;
-  placement.distal_cover_mm = line.chord.leave_mm - record.screw_advance_mm;
-  find_penetration(scaphoid, data, line.chord, record, screw, placement);
+  const double length_mm = instruments::catalogue()[lain.instrument].length_mm;
+  placement.tail_cover_mm = lain.depth_mm - length_mm - line.chord.enter_mm;
+  placement.tip_cover_mm = line.chord.leave_mm - lain.depth_mm;
+  find_penetration(scaphoid, data, line.chord, approach, lain, placement);
   return placement;
 }
 
-}  // namespace carpus::procedure::detail
+}  // namespace carpus::procedures::scaphoid_fixation

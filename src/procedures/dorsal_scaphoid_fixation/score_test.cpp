@@ -1,7 +1,5 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "procedure/score.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,26 +8,61 @@
 #include "cases/synthetic_case_test_support.hpp"
 #include "core/units.hpp"
 #include "procedure/score_json.hpp"
-#include "procedure/screw_catalogue.hpp"
+#include "procedures/dorsal_scaphoid_fixation/declared.hpp"
 
-namespace carpus::procedure {
+namespace carpus::procedures::dorsal_scaphoid_fixation {
 namespace {
+
+using instruments::InstrumentIndex;
+using procedure::Grade;
+using procedure::LineFacts;
+using procedure::OperationRecord;
+using procedure::Pass;
+using procedure::ScoreItem;
+using procedure::ScoreReport;
+using procedure::Shot;
 
 const cases::CaseData& wrist() {
   static const cases::CaseData data = cases::test::synthetic_case();
   return data;
 }
 
-int screw_of(double length_mm) {
-  const auto catalogue = screw_catalogue();
-  for (std::size_t i = 0; i < catalogue.size(); ++i) {
-    if (catalogue[i].length_mm == length_mm) return static_cast<int>(i);
-  }
-  return -1;
+InstrumentIndex index_of(const char* id) {
+  const auto index = instruments::instrument_of(id);
+  EXPECT_TRUE(index.has_value()) << id;
+  return index.value_or(0);
 }
 
+/// Taken once wire and screw were in place.
 Shot shot_at(double rotation_deg, double tilt_deg) {
-  return {rotation_deg, tilt_deg, 0, true, true};
+  Shot shot;
+  shot.rotation_deg = rotation_deg;
+  shot.tilt_deg = tilt_deg;
+  shot.completed_steps = 1U << kDriveStep | 1U << kInsertStep;
+  return shot;
+}
+
+std::uint32_t bit_of(BoneId bone) {
+  for (std::size_t i = 0; i < wrist().bones.size(); ++i) {
+    if (wrist().bones[i].bone == bone) return 1U << i;
+  }
+  ADD_FAILURE() << "no such bone";
+  return 0;
+}
+
+Pass pass_into(std::uint32_t bodies, const char* instrument = "guide_wire") {
+  Pass pass;
+  pass.instrument = index_of(instrument);
+  pass.bodies_entered = bodies;
+  return pass;
+}
+
+LineFacts& wire_of(OperationRecord& record) { return record.lines.at(0); }
+LineFacts& screw_of(OperationRecord& record) { return record.lines.at(1); }
+
+/// Moves wire and screw.
+void shift(OperationRecord& record, const Vec3& by) {
+  for (LineFacts& line : record.lines) line.entry_in_bone += by;
 }
 
 /// A perfect operation on the synthetic wrist: axis of 27 mm, screw of 22.5 mm, 2.25 mm at each
@@ -37,14 +70,18 @@ Shot shot_at(double rotation_deg, double tilt_deg) {
 OperationRecord perfect() {
   const auto& axis = wrist().scaphoid.central_axis;
   OperationRecord record;
-  record.wire_in_scaphoid = true;
-  record.entry_in_patient = axis.proximal;
-  record.direction_in_patient = normalized_or(axis.distal - axis.proximal, {});
-  record.wire_depth_mm = 26.5;
-  record.measured_mm = 26.5;
-  record.screw_index = screw_of(22.5);
-  record.screw_advance_mm = 24.75;
-  record.passes = 1;
+  LineFacts line;
+  line.instrument = index_of("guide_wire");
+  line.in_target = true;
+  line.entry_in_bone = axis.proximal;
+  line.direction_in_bone = normalized_or(axis.distal - axis.proximal, {});
+  line.depth_mm = 26.5;
+  record.lines.push_back(line);
+  line.instrument = index_of("acutrak_standard_1994_22_5");
+  line.depth_mm = 24.75;
+  record.lines.push_back(line);
+  record.gauge_reading_mm = 26.5;
+  record.passes = {pass_into(bit_of(BoneId::Scaphoid))};
   record.shots = {shot_at(0, 0), shot_at(90, 0), shot_at(45, 0), shot_at(0, 30)};
   record.ticks = 300000;
   record.finished = true;
@@ -64,18 +101,21 @@ OperationRecord tilted(double angle_deg) {
   OperationRecord record = perfect();
   const Vec3 side = cases::test::synthetic_scaphoid().rotation.column(0);
   const double angle = radians_from_degrees(angle_deg);
-  const Vec3 direction = record.direction_in_patient * std::cos(angle) + side * std::sin(angle);
+  const Vec3 direction =
+      wire_of(record).direction_in_bone * std::cos(angle) + side * std::sin(angle);
   const auto body = cases::test::synthetic_scaphoid();
   // Where the line through the centre enters the ellipsoid.
   const Vec3 q = body.rotation.transposed() * direction;
   const Vec3 k{q.x / body.semi_axes.x, q.y / body.semi_axes.y, q.z / body.semi_axes.z};
-  record.entry_in_patient = body.centre - direction / length(k);
-  record.direction_in_patient = direction;
+  for (LineFacts& line : record.lines) {
+    line.entry_in_bone = body.centre - direction / length(k);
+    line.direction_in_bone = direction;
+  }
   return record;
 }
 
 TEST(Score, PointsOfAllItemsMakeAHundred) {
-  const ScoreReport report = score_operation(wrist(), perfect());
+  const ScoreReport report = score(wrist(), perfect());
   double possible = 0;
   for (const ScoreItem& item : report.items) {
     possible += item.points_possible;
@@ -89,10 +129,9 @@ TEST(Score, PointsOfAllItemsMakeAHundred) {
 TEST(Score, SpeaksInWordsAndUnits) {
   OperationRecord poor = perfect();
   poor.shots.clear();
-  poor.wrong_bones = (1U << static_cast<unsigned>(BoneId::Metacarpal1)) |
-                     (1U << static_cast<unsigned>(BoneId::Capitate));
+  poor.passes = {pass_into(bit_of(BoneId::Trapezium) | bit_of(BoneId::Capitate))};
   for (const OperationRecord& record : {perfect(), poor, OperationRecord{}}) {
-    for (const ScoreItem& item : score_operation(wrist(), record).items) {
+    for (const ScoreItem& item : score(wrist(), record).items) {
       for (const std::string& text : {item.label, item.target, item.reason}) {
         EXPECT_EQ(text.find_first_of("_<>="), std::string::npos) << text;
         for (const char* raw : {"+-", "deg ", "cm2", "metacarpal1", " pa ", ": pa", ".."}) {
@@ -107,7 +146,7 @@ TEST(Score, SpeaksInWordsAndUnits) {
 }
 
 TEST(Score, APerfectOperationEarnsEverything) {
-  const ScoreReport report = score_operation(wrist(), perfect());
+  const ScoreReport report = score(wrist(), perfect());
   for (const ScoreItem& item : report.items) {
     EXPECT_EQ(item.grade, Grade::Good) << item.id << " " << item.value.value_or(-1);
   }
@@ -115,19 +154,20 @@ TEST(Score, APerfectOperationEarnsEverything) {
   EXPECT_TRUE(report.is_fixation_acceptable);
   EXPECT_NEAR(*report.true_length_mm, 27.0, 0.1);
   EXPECT_NEAR(report.longest_line_mm, 27.0, 0.1);
-  EXPECT_EQ(report.ideal_screw_index, screw_of(22.5)) << "27 - 4 = 23 mm: 22.5 is the longest";
+  EXPECT_EQ(report.ideal_screw, "Acutrak Standard (1994 type) 22.5 mm")
+      << "27 - 4 = 23 mm: 22.5 is the longest";
+  EXPECT_EQ(report.chosen_screw_index, report.ideal_screw_index);
 }
 
 TEST(Score, MeasuresTheAngle) {
   for (const double angle : {3.0, 8.0, 20.0}) {
-    const ScoreReport report = score_operation(wrist(), tilted(angle));
+    const ScoreReport report = score(wrist(), tilted(angle));
     EXPECT_NEAR(*item_of(report, "angle_to_central_axis_deg").value, angle, 1e-6);
   }
-  EXPECT_EQ(item_of(score_operation(wrist(), tilted(3)), "angle_to_central_axis_deg").grade,
-            Grade::Good);
-  EXPECT_EQ(item_of(score_operation(wrist(), tilted(8)), "angle_to_central_axis_deg").grade,
+  EXPECT_EQ(item_of(score(wrist(), tilted(3)), "angle_to_central_axis_deg").grade, Grade::Good);
+  EXPECT_EQ(item_of(score(wrist(), tilted(8)), "angle_to_central_axis_deg").grade,
             Grade::Acceptable);
-  const ScoreReport flat = score_operation(wrist(), tilted(20));
+  const ScoreReport flat = score(wrist(), tilted(20));
   EXPECT_EQ(item_of(flat, "angle_to_central_axis_deg").grade, Grade::Fail);
   EXPECT_FALSE(flat.is_fixation_acceptable);
 }
@@ -135,22 +175,22 @@ TEST(Score, MeasuresTheAngle) {
 TEST(Score, MeasuresTheOffsetAtWaistAndPoles) {
   OperationRecord record = perfect();
   const Vec3 side = cases::test::synthetic_scaphoid().rotation.column(0);
-  record.entry_in_patient += side * 1.2;
-  const ScoreReport report = score_operation(wrist(), record);
+  shift(record, side * 1.2);
+  const ScoreReport report = score(wrist(), record);
   const ScoreItem& waist = item_of(report, "waist_offset_mm");
   EXPECT_NEAR(*waist.value, 1.2, 1e-6);
   EXPECT_EQ(waist.grade, Grade::Good) << "the waist is 10.4 mm wide, a sixth of it 1.7";
   EXPECT_NEAR(*item_of(report, "proximal_offset_mm").value, 1.2, 1e-6);
-  record.entry_in_patient += side * 3.0;
-  const ScoreReport outer = score_operation(wrist(), record);
+  shift(record, side * 3.0);
+  const ScoreReport outer = score(wrist(), record);
   EXPECT_EQ(item_of(outer, "waist_offset_mm").grade, Grade::Fail);
   EXPECT_FALSE(outer.is_fixation_acceptable);
 }
 
 TEST(Score, MeasuresTheCoverAtBothEnds) {
   OperationRecord record = perfect();
-  record.screw_advance_mm = 22.5 + 0.2;  // the tail 0.2 mm under the surface
-  ScoreReport report = score_operation(wrist(), record);
+  screw_of(record).depth_mm = 22.5 + 0.2;  // the tail 0.2 mm under the surface
+  ScoreReport report = score(wrist(), record);
   EXPECT_NEAR(*item_of(report, "proximal_cover_mm").value, 0.2, 0.05);
   EXPECT_EQ(item_of(report, "proximal_cover_mm").grade, Grade::Fail);
   EXPECT_NEAR(*item_of(report, "distal_cover_mm").value, 4.3, 0.1);
@@ -160,9 +200,9 @@ TEST(Score, MeasuresTheCoverAtBothEnds) {
 
 TEST(Score, FindsAScrewThatStandsOut) {
   OperationRecord record = perfect();
-  record.screw_index = screw_of(30.0);
-  record.screw_advance_mm = 32.0;
-  ScoreReport report = score_operation(wrist(), record);
+  screw_of(record).instrument = index_of("acutrak_standard_1994_30");
+  screw_of(record).depth_mm = 32.0;
+  ScoreReport report = score(wrist(), record);
   EXPECT_NEAR(*item_of(report, "penetration_mm").value, 5.0, 0.3);
   EXPECT_EQ(report.penetration_at.substr(0, 6), "distal");
   EXPECT_EQ(item_of(report, "penetration_mm").grade, Grade::Fail);
@@ -170,8 +210,8 @@ TEST(Score, FindsAScrewThatStandsOut) {
   EXPECT_NEAR(*item_of(report, "screw_length_minus_ideal_mm").value, 7.5, 1e-9);
 
   record = perfect();  // beside the axis the threads come through the side
-  record.entry_in_patient += cases::test::synthetic_scaphoid().rotation.column(1) * 4.0;
-  report = score_operation(wrist(), record);
+  shift(record, cases::test::synthetic_scaphoid().rotation.column(1) * 4.0);
+  report = score(wrist(), record);
   EXPECT_GT(*item_of(report, "penetration_mm").value, 0.5);
 }
 
@@ -179,7 +219,7 @@ TEST(Score, FewShotsAloneEarnNothing) {
   OperationRecord nothing;
   nothing.ticks = 1000;
   nothing.finished = true;
-  const ScoreReport report = score_operation(wrist(), nothing);
+  const ScoreReport report = score(wrist(), nothing);
   for (const char* id : {"shots", "dose_cgy_cm2", "time_s"}) {
     EXPECT_EQ(item_of(report, id).points, 0.0) << id;
   }
@@ -188,67 +228,62 @@ TEST(Score, FewShotsAloneEarnNothing) {
 
   OperationRecord fewer = perfect();
   fewer.shots.resize(2);
-  EXPECT_LT(score_operation(wrist(), fewer).overall, score_operation(wrist(), perfect()).overall);
+  EXPECT_LT(score(wrist(), fewer).overall, score(wrist(), perfect()).overall);
 }
 
 TEST(Score, RequiredViewsCountOnlyOnceTheWireIsIn) {
   OperationRecord record = perfect();
-  for (Shot& shot : record.shots) shot.wire_in_bone = shot.screw_in = false;
-  const ScoreReport report = score_operation(wrist(), record);
+  for (Shot& shot : record.shots) shot.completed_steps = 0b111;
+  const ScoreReport report = score(wrist(), record);
   EXPECT_EQ(*item_of(report, "required_views_seen").value, 0.0);
 }
 
 TEST(Score, CountsPassesWrongBonesAndUndos) {
   OperationRecord record = perfect();
-  record.passes = 5;
+  record.passes.assign(5, pass_into(bit_of(BoneId::Scaphoid)));
+  record.passes.front().was_undone = true;
+  record.passes.front().bodies_entered |= bit_of(BoneId::Trapezium);
+  record.passes.push_back(pass_into(bit_of(BoneId::Scaphoid), "cannulated_drill"));
   record.undos = 3;
-  record.wrong_bones = 1U << static_cast<unsigned>(BoneId::Trapezium);
-  const ScoreReport report = score_operation(wrist(), record);
+  const ScoreReport report = score(wrist(), record);
   EXPECT_EQ(item_of(report, "wire_passes").grade, Grade::Fail);
+  EXPECT_EQ(*item_of(report, "wire_passes").value, 5.0)
+      << "what is undone counts, a drill does not";
   EXPECT_EQ(item_of(report, "undos").grade, Grade::Fail);
   EXPECT_EQ(item_of(report, "wrong_bones_entered").grade, Grade::Fail);
   EXPECT_NE(item_of(report, "wrong_bones_entered").reason.find("trapezium"), std::string::npos);
 }
 
-TEST(ScrewCatalogue, HoldsOnlyScrewsForTheWireAndSaysWhatIsUnconfirmed) {
-  ASSERT_GE(screw_catalogue().size(), 10U);
-  const auto tray = nlohmann::json::parse(screw_catalogue_json());
-  for (const auto& screw : tray) EXPECT_EQ(screw.at("wire_diameter_mm"), kWireDiameterMm);
-  for (const Screw& screw : screw_catalogue()) EXPECT_FALSE(screw.confirmed);
+TEST(Score, TheWireMayBeOutWhenTheScrewIsIn) {
+  OperationRecord record = perfect();
+  record.lines.erase(record.lines.begin());
+  const ScoreReport report = score(wrist(), record);
+  EXPECT_TRUE(report.is_fixation_acceptable);
+  EXPECT_FALSE(report.placement.wire.has_value());
 }
 
-TEST(ScrewCatalogue, IdealIsTheLongestThatLeavesFourMillimetres) {
-  const auto catalogue = screw_catalogue();
-  const auto ideal = [&](double measured) {
-    const int index = ideal_screw_index(catalogue, measured);
-    return index < 0 ? -1.0 : catalogue[static_cast<std::size_t>(index)].length_mm;
-  };
-  EXPECT_EQ(ideal(28.0), 24.0);
-  EXPECT_EQ(ideal(27.99), 22.5);
-  EXPECT_EQ(ideal(16.0), -1.0);
-  EXPECT_EQ(ideal(60.0), 30.0);
+TEST(Score, WiresThatTakeNoScrewAndLinesBesideTheBoneDoNotCount) {
+  OperationRecord record = perfect();
+  LineFacts joystick = wire_of(record);
+  joystick.instrument = index_of("joystick_wire");
+  joystick.direction_in_bone = cases::test::synthetic_scaphoid().rotation.column(0);
+  LineFacts beside = wire_of(record);
+  beside.in_target = false;
+  record.lines.erase(record.lines.begin() + 1);
+  record.lines.push_back(joystick);
+  record.lines.push_back(beside);
+  EXPECT_NEAR(*item_of(score(wrist(), record), "angle_to_central_axis_deg").value, 0.0, 1e-6);
 }
 
 TEST(ScoreJson, SaysTheSameAsTheReport) {
-  const ScoreReport report = score_operation(wrist(), perfect());
+  const ScoreReport report = score(wrist(), perfect());
   const auto json = nlohmann::json::parse(score_json(report));
   EXPECT_EQ(json.at("overall").get<double>(), report.overall);
   EXPECT_EQ(json.at("items").size(), report.items.size());
   EXPECT_EQ(json.at("items").at(0).at("grade"), "good");
-  const auto empty = nlohmann::json::parse(score_json(score_operation(wrist(), {})));
+  const auto empty = nlohmann::json::parse(score_json(score(wrist(), {})));
   EXPECT_TRUE(empty.at("items").at(0).at("value").is_null());
 }
 
-TEST(Views, AreRangesOfTheTwoAngles) {
-  EXPECT_TRUE(shows(View::Pa, 0, 0));
-  EXPECT_TRUE(shows(View::Pa, 180, 0)) << "the same contours from the other side";
-  EXPECT_TRUE(shows(View::Lateral, -90, 0));
-  EXPECT_TRUE(shows(View::PronatedOblique, 45, 0));
-  EXPECT_FALSE(shows(View::PronatedOblique, -45, 0)) << "supinated";
-  EXPECT_TRUE(shows(View::ProximalPole, 0, 30));
-  EXPECT_FALSE(shows(View::ProximalPole, 90, 30));
-  EXPECT_FALSE(shows(View::Pa, std::nan(""), 0));
-}
-
 }  // namespace
-}  // namespace carpus::procedure
+}  // namespace carpus::procedures::dorsal_scaphoid_fixation

@@ -1,19 +1,23 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where wire and screw lie in the scaphoid: the geometry under the score.
+// Where wire and screw lie in the scaphoid: the geometry under the score. Frame Bone of the
+// scaphoid, which is Patient as scanned.
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "anatomy/bone_solid.hpp"
 #include "cases/case_data.hpp"
-#include "procedure/operation_record.hpp"
-#include "procedure/screw_catalogue.hpp"
+#include "instruments/instrument.hpp"
+#include "procedure/situation.hpp"
 
-namespace carpus::procedure::detail {
+namespace carpus::procedures::scaphoid_fixation {
+
+/// The pole through which wire and screw go in.
+enum class Approach : std::uint8_t { FromProximal = 0, FromDistal = 1 };
 
 /// How far the wire runs beside the central axis at one level of it.
 struct Offset {
@@ -33,22 +37,24 @@ struct LinePlacement {
 
 /// A screw on that line.
 struct ScrewPlacement {
-  double proximal_cover_mm = 0.0;  ///< bone over its tail along the line, negative: stands out
-  double distal_cover_mm = 0.0;    ///< bone before its tip
-  double penetration_mm = 0.0;     ///< how far any part of it stands out of the bone
-  std::string penetration_at;      ///< where, in words; empty when nowhere
+  double tail_cover_mm = 0.0;   ///< bone over its tail along the line, negative: stands out
+  double tip_cover_mm = 0.0;    ///< bone before its tip
+  double penetration_mm = 0.0;  ///< how far any part of it stands out of the bone
+  std::string penetration_at;   ///< where, in words; empty when nowhere
 };
 
 /// Nothing when the line misses the scaphoid.
 [[nodiscard]] std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
                                                       const cases::ScaphoidLandmarks& landmarks,
+                                                      Approach approach,
                                                       const Vec3& entry,
                                                       const Vec3& direction);
 
+/// @param lain  the screw's line.
 [[nodiscard]] ScrewPlacement place_screw(const BoneSolid& scaphoid,
                                          const cases::CaseData& data,
                                          const LinePlacement& line,
-                                         const OperationRecord& record,
-                                         const Screw& screw);
+                                         Approach approach,
+                                         const procedure::LineFacts& lain);
 
-}  // namespace carpus::procedure::detail
+}  // namespace carpus::procedures::scaphoid_fixation

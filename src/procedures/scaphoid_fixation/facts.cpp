@@ -1,0 +1,156 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "procedures/scaphoid_fixation/facts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "procedures/scaphoid_fixation/screws.hpp"
+
+namespace carpus::procedures::scaphoid_fixation {
+namespace {
+
+using instruments::Instrument;
+using instruments::Work;
+using procedure::LineFacts;
+using procedure::MustHave;
+using procedure::ScoreReport;
+
+const Instrument& instrument_of(const LineFacts& line) {
+  return instruments::catalogue()[line.instrument];
+}
+
+bool fits_a_screw(const Instrument& wire, const std::vector<instruments::InstrumentIndex>& screws) {
+  return std::any_of(screws.begin(), screws.end(), [&](instruments::InstrumentIndex screw) {
+    return wire.cut_tip_radius_mm <= instruments::catalogue()[screw].bore_radius_mm;
+  });
+}
+
+void find_lines(Facts& facts) {
+  for (const LineFacts& line : facts.record.lines) {
+    if (!line.in_target || line.instrument >= instruments::catalogue().size()) continue;
+    const Instrument& instrument = instrument_of(line);
+    if (instrument.work == Work::Drill && fits_a_screw(instrument, facts.screws)) facts.wire = line;
+    if (instrument.work == Work::Thread && line.depth_mm > 0) facts.screw = line;
+  }
+}
+
+void find_passes(Facts& facts) {
+  const auto& bones = facts.data.bones;
+  std::vector<bool> is_entered(256, false);
+  for (const procedure::Pass& pass : facts.record.passes) {
+    if (pass.instrument >= instruments::catalogue().size()) continue;
+    if (instruments::catalogue()[pass.instrument].work == Work::Drill) ++facts.wire_passes;
+    for (std::size_t body = 0; body < bones.size() && body < 32; ++body) {
+      if ((pass.bodies_entered >> body & 1U) == 0) continue;
+      is_entered[static_cast<std::size_t>(bones[body].bone)] = true;
+    }
+  }
+  for (const BoneId bone : kAllBones) {
+    if (bone != facts.rules.procedure->target && is_entered[static_cast<std::size_t>(bone)]) {
+      facts.entered.push_back(bone);
+    }
+  }
+}
+
+std::vector<MustHave> check_must_haves(const Facts& facts) {
+  const auto& line = facts.line;
+  const auto& placed = facts.placed;
+  const double tail = placed ? placed->tail_cover_mm : -1.0;
+  const double tip = placed ? placed->tip_cover_mm : -1.0;
+  return {
+      {"screw_placed", "A screw lies in the scaphoid", placed.has_value()},
+      {"angle", "Within 15° of the central axis", line && line->angle_deg <= 15.0},
+      {"waist", "Through the middle two thirds of the waist",
+       line && line->at_waist.distance_mm <= line->at_waist.local_width_mm / 3.0},
+      {"cover", "At least 0.5 mm of bone over both ends", tail >= 0.5 && tip >= 0.5},
+      {"penetration", "No part more than 0.5 mm outside the bone",
+       placed && placed->penetration_mm <= 0.5},
+  };
+}
+
+void fill_references(ScoreReport& report, const Facts& facts) {
+  const cases::ScaphoidLandmarks& marks = facts.data.scaphoid;
+  report.central_axis_length_mm = distance(marks.central_axis.proximal, marks.central_axis.distal);
+  report.central_cylinder_radius_mm = marks.central_radius_mm;
+  report.longest_line_mm = distance(marks.longest_line.proximal, marks.longest_line.distal);
+  if (facts.record.gauge_reading_mm >= 0) report.gauge_reading_mm = facts.record.gauge_reading_mm;
+  if (facts.line) {
+    report.angle_to_longest_line_deg = facts.line->angle_to_longest_deg;
+    report.true_length_mm = facts.line->chord.leave_mm - facts.line->chord.enter_mm;
+    report.ideal_screw_index = ideal_screw(facts.screws, *report.true_length_mm);
+  }
+  const auto catalogue = instruments::catalogue();
+  if (report.ideal_screw_index >= 0) {
+    report.ideal_screw =
+        catalogue[facts.screws[static_cast<std::size_t>(report.ideal_screw_index)]].name;
+  }
+  if (facts.placed) {
+    const auto found = std::find(facts.screws.begin(), facts.screws.end(), facts.screw->instrument);
+    if (found != facts.screws.end()) {
+      report.chosen_screw_index = static_cast<int>(found - facts.screws.begin());
+    }
+    report.chosen_screw = instrument_of(*facts.screw).name;
+    report.penetration_at = facts.placed->penetration_at;
+  }
+}
+
+procedure::PlacementPicture picture_of(const Facts& facts) {
+  const cases::ScaphoidLandmarks& marks = facts.data.scaphoid;
+  procedure::PlacementPicture picture;
+  picture.central_axis = {marks.central_axis.proximal, marks.central_axis.distal};
+  picture.waist = marks.waist;
+  const auto at = [](const LineFacts& line, double depth_mm) {
+    return line.entry_in_bone + line.direction_in_bone * depth_mm;
+  };
+  if (facts.wire) {
+    picture.wire =
+        procedure::PlacedLine{facts.wire->entry_in_bone, at(*facts.wire, facts.wire->depth_mm)};
+  }
+  if (!facts.placed) return picture;
+  const LineFacts& lain = *facts.screw;
+  const Instrument& screw = instrument_of(lain);
+  picture.screw =
+      procedure::PlacedLine{at(lain, lain.depth_mm - screw.length_mm), at(lain, lain.depth_mm)};
+  picture.screw_tip_diameter_mm = screw.tip_diameter_mm;
+  picture.screw_tail_diameter_mm = screw.tail_diameter_mm;
+  return picture;
+}
+
+}  // namespace
+
+const std::optional<LineFacts>& fixed_line(const Facts& facts) noexcept {
+  return facts.screw ? facts.screw : facts.wire;
+}
+
+Facts facts_of(const cases::CaseData& data,
+               const procedure::OperationRecord& record,
+               const Rules& rules) {
+  Facts facts{data, record, rules, screws_on(rules.procedure->tray), {}, {}, {}, {}, 0, {}, false};
+  find_lines(facts);
+  find_passes(facts);
+  if (const auto& lain = fixed_line(facts)) {
+    std::vector<const TriangleMesh*> fragments;
+    for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
+    const BoneSolid scaphoid(fragments);
+    facts.line = place_line(scaphoid, data.scaphoid, rules.approach, lain->entry_in_bone,
+                            lain->direction_in_bone);
+    if (facts.line && facts.screw) {
+      facts.placed = place_screw(scaphoid, data, *facts.line, rules.approach, *facts.screw);
+    }
+  }
+  return facts;
+}
+
+ScoreReport report_of(Facts& facts) {
+  ScoreReport report;
+  report.must_haves = check_must_haves(facts);
+  report.is_fixation_acceptable = std::all_of(report.must_haves.begin(), report.must_haves.end(),
+                                              [](const MustHave& must) { return must.fulfilled; });
+  facts.is_acceptable = report.is_fixation_acceptable;
+  fill_references(report, facts);
+  report.placement = picture_of(facts);
+  return report;
+}
+
+}  // namespace carpus::procedures::scaphoid_fixation

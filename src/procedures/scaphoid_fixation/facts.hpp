@@ -1,0 +1,55 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is known of a scaphoid fixation before any item of its score is graded.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "procedure/operation_record.hpp"
+#include "procedure/procedure.hpp"
+#include "procedure/score.hpp"
+#include "procedures/scaphoid_fixation/placement.hpp"
+
+namespace carpus::procedures::scaphoid_fixation {
+
+/// What the score has to know of a procedure.
+struct Rules {
+  const procedure::Procedure* procedure = nullptr;
+  Approach approach = Approach::FromProximal;
+  std::size_t drive_step = 0;   ///< shots taken once this step was done …
+  std::size_t insert_step = 0;  ///< … or this one show wire or screw in place
+};
+
+struct Facts {
+  const cases::CaseData& data;
+  const procedure::OperationRecord& record;
+  const Rules& rules;
+  std::vector<instruments::InstrumentIndex> screws;  ///< on the tray
+  /// The wire for the screw: the last laid into the scaphoid that fits a screw's bore; the screw's
+  /// own line where the wire is out.
+  std::optional<procedure::LineFacts> wire;
+  std::optional<procedure::LineFacts> screw;  ///< the last that went into the scaphoid
+  std::optional<LinePlacement> line;
+  std::optional<ScrewPlacement> placed;
+  unsigned wire_passes = 0;     ///< of wires into bone
+  std::vector<BoneId> entered;  ///< other bones, allowed or not, without repetition
+  bool is_acceptable = false;
+};
+
+/// Intersects lines with the scaphoid; about 0.5 s.
+/// @param data  as scanned; needs `scaphoid` and `bones`.
+[[nodiscard]] Facts facts_of(const cases::CaseData& data,
+                             const procedure::OperationRecord& record,
+                             const Rules& rules);
+
+/// The line along which the fixation lies: the screw's, else the wire's.
+[[nodiscard]] const std::optional<procedure::LineFacts>& fixed_line(const Facts& facts) noexcept;
+
+/// Must-haves, lengths, names and the picture; `items` are the procedure's own. Sets
+/// `facts.is_acceptable`.
+[[nodiscard]] procedure::ScoreReport report_of(Facts& facts);
+
+}  // namespace carpus::procedures::scaphoid_fixation
