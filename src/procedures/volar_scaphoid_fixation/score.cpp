@@ -68,8 +68,8 @@ double widest_follower_mm(const Facts& facts) {
 ScoreItem trapezium_item(const Facts& facts, double points) {
   constexpr double kGoodMm2 = 1.1;   // one guide wire
   constexpr double kFailMm2 = 17.0;  // two ways of a drill of 3.2 mm
-  ScoreItem item = procedure::make_item(
-      "trapezium_cartilage_mm2", "Cartilage of the trapezium that was lost", "mm2", points);
+  ScoreItem item = procedure::make_item("trapezium_cartilage_mm2",
+                                        "Cartilage of the trapezium that was lost", "mm2", points);
   item.target = "at most 1.1 mm² good (the way of one wire), over 17 mm² fail";
   item.reason = "No wire lies in the scaphoid: there is nothing to measure.";
   if (facts.wire_passes == 0) return item;
@@ -85,11 +85,10 @@ ScoreItem trapezium_item(const Facts& facts, double points) {
   const double follower = widest_follower_mm(facts);
   if (last_wire > 0.0 && follower > last_wire) lost += area_of(follower) - area_of(last_wire);
   procedure::grade_falling(item, lost, kGoodMm2, kFailMm2);
-  item.reason =
-      lost > 0
-          ? "Through the trapezium the line is easier to reach, but each way costs cartilage of its "
-            "joint: a drill's takes about 11 percent."
-          : "The trapezium was left whole.";
+  item.reason = lost > 0 ? "Through the trapezium the line is easier to reach, but each way costs "
+                           "cartilage of its "
+                           "joint: a drill's takes about 11 percent."
+                         : "The trapezium was left whole.";
   return item;
 }
 

@@ -1,12 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
+//
+// printf into a string: figures for people, where to_string has no digits to choose.
 #pragma once
 
 #include <cstddef>
 #include <cstdio>
 #include <string>
 
-namespace carpus::bench {
+namespace carpus {
 
 /// As printf, into a string of any length.
 template <typename... Values>
@@ -18,4 +20,4 @@ template <typename... Values>
   return text;
 }
 
-}  // namespace carpus::bench
+}  // namespace carpus

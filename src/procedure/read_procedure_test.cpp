@@ -1,0 +1,106 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "procedure/procedure.hpp"
+
+namespace carpus::procedure {
+namespace {
+
+using Json = nlohmann::json;
+
+bool always(const Situation& /*now*/) noexcept { return true; }
+bool never(const Situation& /*now*/) noexcept { return false; }
+constexpr std::array kPredicates{NamedPredicate{"always", always}, NamedPredicate{"never", never}};
+
+/// A file that is right, to be spoilt.
+Json good() {
+  return Json::parse(R"({
+    "id": "lunate_wire", "title": "Wire into the lunate", "summary": "One wire. No screw.",
+    "target": "lunate", "allowed": ["triquetrum"],
+    "tray": ["guide_wire", "probe", "family:acutrak_2_mini"],
+    "steps": [
+      {"id": "look", "title": "Look", "instruction": "Look at it.", "actions": ["shot"],
+       "done": "always"},
+      {"id": "drill", "title": "Drill", "instruction": "Drill it.", "instrument": "guide_wire",
+       "done": "never", "lost": "always", "passes_over_earlier": true}],
+    "views": [{"id": "pa", "label": "PA", "rotation_deg": 0, "tilt_deg": 0}]
+  })");
+}
+
+std::string problem_of(const Json& file) {
+  try {
+    (void)read_procedure(file.dump(), "lunate.json", kPredicates);
+  } catch (const InvalidInput& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+std::string spoilt(const char* pointer, const Json& value) {
+  Json file = good();
+  file[Json::json_pointer(pointer)] = value;
+  return problem_of(file);
+}
+
+TEST(ReadProcedure, ReadsWhatIsDeclared) {
+  const Procedure read = read_procedure(good().dump(), "lunate.json", kPredicates);
+  EXPECT_EQ(read.id, "lunate_wire");
+  EXPECT_EQ(read.target, BoneId::Lunate);
+  EXPECT_EQ(read.allowed, std::vector{BoneId::Triquetrum});
+  ASSERT_EQ(read.tray.size(), 10U) << "wire, probe and eight screws";
+  EXPECT_EQ(instruments::catalogue()[read.tray[2]].id, "acutrak_2_mini_16");
+  ASSERT_EQ(read.steps.size(), 2U);
+  EXPECT_EQ(read.steps[0].actions, std::vector<std::string>{"shot"});
+  EXPECT_EQ(read.steps[0].is_done, always);
+  EXPECT_EQ(read.steps[0].is_lost, nullptr);
+  EXPECT_EQ(read.steps[0].instrument, instruments::kNoInstrument);
+  EXPECT_EQ(read.steps[1].is_lost, always);
+  EXPECT_TRUE(read.steps[1].passes_over_earlier);
+  EXPECT_EQ(instruments::catalogue()[read.steps[1].instrument].id, "guide_wire");
+  EXPECT_EQ(read.views.front().label, "PA");
+}
+
+TEST(ReadProcedure, TellsFilePlaceAndFieldOfEveryMistake) {
+  EXPECT_EQ(problem_of(good()), "");
+  EXPECT_EQ(spoilt("/steps/1/done", "driven"),
+            "lunate.json: steps[1]: done: no predicate 'driven'");
+  EXPECT_EQ(spoilt("/steps/1/lost", "driven"),
+            "lunate.json: steps[1]: lost: no predicate 'driven'");
+  EXPECT_EQ(spoilt("/steps/0/titel", "x"), "lunate.json: steps[0]: there is no field 'titel'");
+  EXPECT_EQ(spoilt("/steps/0/id", "look at"),
+            "lunate.json: steps[0]: id 'look at' must be of a to z, 0 to 9 and _");
+  EXPECT_EQ(spoilt("/steps/1/instrument", "depth_gauge"),
+            "lunate.json: steps[1]: instrument: 'depth_gauge' is not on the tray");
+  EXPECT_EQ(spoilt("/steps/1/id", "look"), "lunate.json: steps: there are two 'look'");
+  EXPECT_EQ(spoilt("/steps", Json::array()), "lunate.json: steps: there are 0, must be 1 to 32");
+  EXPECT_EQ(spoilt("/target", "knee"), "lunate.json: target: no bone 'knee'");
+  EXPECT_EQ(spoilt("/target", "scaphoid_distal"), "lunate.json: target: no bone 'scaphoid_distal'");
+  EXPECT_EQ(spoilt("/allowed", Json::array({"hip"})), "lunate.json: allowed: no bone 'hip'");
+  EXPECT_EQ(spoilt("/tray/0", "chisel"), "lunate.json: tray: no instrument 'chisel'");
+  EXPECT_EQ(spoilt("/tray/0", "family:none"), "lunate.json: tray: no instrument 'family:none'");
+  EXPECT_EQ(spoilt("/tray/0", "probe"), "lunate.json: tray: 'probe' is on it twice");
+  EXPECT_EQ(spoilt("/tray", Json::array()),
+            "lunate.json: tray is empty: there is nothing to operate with");
+  EXPECT_EQ(spoilt("/views/0/tilt_deg", 70),
+            "lunate.json: views[0]: tilt_deg is 70, must be -60 to 60");
+  Json file = good();
+  file.erase("title");
+  EXPECT_EQ(problem_of(file), "lunate.json: title is missing");
+}
+
+TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
+  Json file = good();
+  for (int i = 0; i < 31; ++i) {
+    file["steps"].push_back(file["steps"][0]);
+    file["steps"].back()["id"] = "more_" + std::to_string(i);
+  }
+  EXPECT_EQ(problem_of(file), "lunate.json: steps: there are 33, must be 1 to 32");
+}
+
+}  // namespace
+}  // namespace carpus::procedure

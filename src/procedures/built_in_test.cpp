@@ -1,0 +1,93 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "procedures/built_in.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases/synthetic_case_test_support.hpp"
+#include "core/error.hpp"
+#include "procedures/dorsal_scaphoid_fixation/declared.hpp"
+#include "procedures/volar_scaphoid_fixation/declared.hpp"
+
+namespace carpus::procedures {
+namespace {
+
+TEST(BuiltIn, OffersEveryFolder) {
+  ASSERT_EQ(built_in().all().size(), 2U);
+  EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
+  EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);
+  EXPECT_EQ(built_in().find("four_corner_fusion"), nullptr);
+}
+
+TEST(BuiltIn, EachCanBeDoneAndScored) {
+  const cases::CaseData data = cases::test::synthetic_case();
+  for (const procedure::Procedure* each : built_in().all()) {
+    ASSERT_NE(each->opening, nullptr) << each->id;
+    ASSERT_NE(each->score, nullptr) << each->id;
+    EXPECT_EQ(instruments::catalogue()[each->tray.front()].work, instruments::Work::Drill);
+    const procedure::Opening opening = each->opening(data);
+    EXPECT_NEAR(length(opening.shaft_in_target), 1.0, 1e-9);
+    EXPECT_GT(distance(opening.tip_in_target, data.scaphoid.waist), 50.0) << "outside all tissue";
+    double possible = 0;
+    for (const procedure::ScoreItem& item : each->score(data, {}).items) {
+      possible += item.points_possible;
+    }
+    EXPECT_DOUBLE_EQ(possible, 100.0) << each->id;
+    for (const procedure::Step& step : each->steps) {
+      EXPECT_EQ(step.instruction.back(), '.') << each->id << " " << step.id;
+    }
+  }
+}
+
+TEST(BuiltIn, StepsThatCodeNamesByPlaceAreThere) {
+  const auto& dorsal = dorsal_scaphoid_fixation::declared().steps;
+  EXPECT_EQ(dorsal[dorsal_scaphoid_fixation::kDriveStep].id, "drive");
+  EXPECT_EQ(dorsal[dorsal_scaphoid_fixation::kInsertStep].id, "insert");
+  EXPECT_TRUE(dorsal[dorsal_scaphoid_fixation::kInsertStep].passes_over_earlier);
+  const auto& volar = volar_scaphoid_fixation::declared().steps;
+  EXPECT_EQ(volar[volar_scaphoid_fixation::kDriveStep].id, "drive");
+  EXPECT_EQ(volar[volar_scaphoid_fixation::kInsertStep].id, "insert");
+}
+
+TEST(BuiltIn, TheHandWaitsWhereTheBoneIsReached) {
+  const cases::CaseData data = cases::test::synthetic_case();
+  const auto& axis = data.scaphoid.central_axis;
+  const procedure::Opening dorsal = dorsal_scaphoid_fixation::declared().opening(data);
+  EXPECT_LT(distance(dorsal.tip_in_target, axis.proximal),
+            distance(dorsal.tip_in_target, axis.distal));
+  EXPECT_GT(dorsal.wrist.flexion_rad, 0.0) << "flexed, out of the radius' way";
+  const procedure::Opening volar = volar_scaphoid_fixation::declared().opening(data);
+  EXPECT_LT(distance(volar.tip_in_target, axis.distal),
+            distance(volar.tip_in_target, axis.proximal));
+  EXPECT_LT(volar.wrist.flexion_rad, 0.0) << "extended over a roll";
+  EXPECT_LT(volar.wrist.radial_deviation_rad, 0.0) << "in ulnar deviation";
+}
+
+/// The wire that starts blind goes 45 degrees dorsal and 45 degrees ulnar, on either side.
+TEST(BuiltIn, TheVolarHandWaitsAtTheBlindAim) {
+  for (const Side side : {Side::Left, Side::Right}) {
+    cases::CaseData data = cases::test::synthetic_case();
+    data.side = side;
+    const Vec3 into = -(data.wrist_from_patient *
+                        Direction<frame::Patient>{
+                            volar_scaphoid_fixation::declared().opening(data).shaft_in_target})
+                           .v;
+    const double ulnar = side == Side::Left ? into.y : -into.y;
+    EXPECT_NEAR(ulnar / into.x, 1.0, 1e-9);
+    EXPECT_NEAR(-into.z / into.x, 1.0, 1e-9) << "dorsal";
+    EXPECT_GT(into.x, 0.0) << "proximal";
+  }
+}
+
+TEST(BuiltIn, ACaseWithoutAScaphoidIsRefusedWithTheReason) {
+  cases::CaseData data = cases::test::synthetic_case();
+  std::erase_if(data.bones, [](const cases::Bone& bone) { return bone.bone == BoneId::Scaphoid; });
+  for (const procedure::Procedure* each : built_in().all()) {
+    EXPECT_THROW((void)each->opening(data), InvalidInput) << each->id;
+  }
+}
+
+}  // namespace
+}  // namespace carpus::procedures
