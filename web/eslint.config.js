@@ -16,11 +16,19 @@ const pure = [
   "src/tool_placement/**",
   "src/operation/**",
   "src/bone_shading/**",
+  "src/theatre/instrument_set.ts",
   "src/**/*_model.ts",
 ];
 
 export default tseslint.config(
-  { ignores: ["dist", "node_modules", "src/protocol/generated.ts"] },
+  {
+    ignores: [
+      "dist",
+      "node_modules",
+      "src/protocol/generated.ts",
+      "src/protocol/generated_rules.ts",
+    ],
+  },
   js.configs.recommended,
   ...tseslint.configs.strict,
   {

@@ -9,7 +9,7 @@
 #include "bench/chart/ink.hpp"
 #include "bench/chart/log_scale.hpp"
 #include "bench/chart/spread_labels.hpp"
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

@@ -2,65 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/chart/ink.hpp"
 
-#include <algorithm>
-
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {
 
 constexpr double kTitleSize = 18;
-constexpr double kBoldLetter = 0.6;  ///< mean width of one, of the size
-
-/// Names of folders may hold what SVG means otherwise.
-std::string escaped(const std::string& text) {
-  std::string svg;
-  for (const char c : text) {
-    if (c == '&') {
-      svg += "&amp;";
-    } else if (c == '<') {
-      svg += "&lt;";
-    } else {
-      svg += c;
-    }
-  }
-  return svg;
-}
 
 }  // namespace
 
 std::string sheet(double width, double height, const std::string& title, const std::string& body) {
-  const double fitting =
-      (width - 40) / (kBoldLetter * static_cast<double>(std::max<std::size_t>(title.size(), 1)));
-  return format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
-             "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" "
-             "fill=\"white\"/>\n",
-             width, height) +
-         text_at(20, 30, title, {.size = std::min(kTitleSize, fitting), .is_bold = true}) + body +
-         "</svg>\n";
-}
-
-std::string text_at(double x, double y, const std::string& text, TextStyle style) {
-  const char* anchor = style.anchor == Anchor::Start    ? "start"
-                       : style.anchor == Anchor::Middle ? "middle"
-                                                        : "end";
-  return format(
-      "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" fill=\"%s\" font-size=\"%.4g\"%s>%s</text>\n",
-      x, y, anchor, style.colour, style.size, style.is_bold ? " font-weight=\"bold\"" : "",
-      escaped(text).c_str());
-}
-
-std::string line_from(double x1,
-                      double y1,
-                      double x2,
-                      double y2,
-                      const char* colour,
-                      double width) {
-  return format(
-      "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" "
-      "stroke-width=\"%.1f\"/>\n",
-      x1, y1, x2, y2, colour, width);
+  const double size = drawing::fitting_size(title, kTitleSize, width - 40);
+  return drawing::page(width, height,
+                       text_at(20, 30, title, {.size = size, .is_bold = true}) + body);
 }
 
 std::string notes_at(double x, double top, const std::vector<std::string>& notes) {

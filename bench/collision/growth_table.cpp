@@ -6,7 +6,7 @@
 #include <map>
 
 #include "bench/collision/tables.hpp"
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "bench/output_file.hpp"
 #include "bench/provenance.hpp"
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

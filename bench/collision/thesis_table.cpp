@@ -12,8 +12,8 @@
 #include "bench/collision/tables.hpp"
 #include "bench/hull/bone_points.hpp"
 #include "bench/hull/thesis_tables.hpp"
-#include "bench/text_format.hpp"
 #include "core/error.hpp"
+#include "core/text_format.hpp"
 #include "survey/ivri/ivri_cd.hpp"
 
 namespace carpus::bench {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

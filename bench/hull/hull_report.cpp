@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

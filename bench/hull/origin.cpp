@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bench/text_format.hpp"
+#include "core/text_format.hpp"
 
 namespace carpus::bench {
 namespace {

@@ -245,8 +245,7 @@ BoneSolid::BoneSolid(std::span<const TriangleMesh* const> fragments) {
 
 bool BoneSolid::contains(const Vec3& point) const noexcept { return is_set(closed_, point); }
 
-LineIntervals BoneSolid::merged_intervals(const Vec3& point,
-                                          const Vec3& direction) const noexcept {
+LineIntervals BoneSolid::merged_intervals(const Vec3& point, const Vec3& direction) const noexcept {
   LineIntervals found;
   for (const TriangleMesh& mesh : fragments_) append_intervals(mesh, point, direction, found);
   std::sort(found.intervals.begin(),
@@ -255,11 +254,10 @@ LineIntervals BoneSolid::merged_intervals(const Vec3& point,
   LineIntervals merged;
   for (const LineInterval& next : found.all()) {
     const LineInterval* last = merged.count > 0 ? &merged.intervals[merged.count - 1] : nullptr;
-    const bool bridged =
-        last != nullptr &&
-        (next.enter_mm <= last->leave_mm ||
-         (next.enter_mm - last->leave_mm <= kBridgedGapMm &&
-          contains(point + direction * (0.5 * (next.enter_mm + last->leave_mm)))));
+    const bool bridged = last != nullptr &&
+                         (next.enter_mm <= last->leave_mm ||
+                          (next.enter_mm - last->leave_mm <= kBridgedGapMm &&
+                           contains(point + direction * (0.5 * (next.enter_mm + last->leave_mm)))));
     if (bridged) {
       merged.intervals[merged.count - 1].leave_mm = std::max(last->leave_mm, next.leave_mm);
     } else {

@@ -75,8 +75,8 @@ class BoneSolid {
                                                           const Vec3& direction) const noexcept;
 
   /// How far the line from `point` along `direction` (unit vector) runs before it leaves the bone,
-  /// gaps bridged [mm]: the end of chord_through, 0 where there is none. No allocation; one pass over
-  /// the surface. A line that crosses it more than 64 times is followed that far.
+  /// gaps bridged [mm]: the end of chord_through, 0 where there is none. No allocation; one pass
+  /// over the surface. A line that crosses it more than 64 times is followed that far.
   [[nodiscard]] double way_inside_mm(const Vec3& point, const Vec3& direction) const noexcept;
 
   /// Area [mm^2] of the connected part, around `point`, of the section with the plane through

@@ -13,7 +13,6 @@
 #include "anatomy/assignment.hpp"
 #include "anatomy/region_shape.hpp"
 #include "anatomy/similarity_fit.hpp"
-#include "anatomy/symmetric_eigen.hpp"
 #include "core/rng.hpp"
 #include "core/units.hpp"
 
@@ -26,28 +25,6 @@ Vec3 random_point(Rng& rng, double reach) {
 
 Mat3 random_rotation(Rng& rng) {
   return rotation_from_quaternion(rng.normal(), rng.normal(), rng.normal(), rng.normal());
-}
-
-RC_GTEST_PROP(SymmetricEigen, GivesOrthonormalVectorsThatTheMatrixScales, ()) {
-  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
-  SquareMatrix<4> a{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = i; j < 4; ++j) a[i][j] = a[j][i] = rng.uniform(-10, 10);
-  }
-  const auto e = eigen_of_symmetric<4>(a);
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (k > 0) RC_ASSERT(e.values[k - 1] >= e.values[k]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      double product = 0;
-      for (std::size_t j = 0; j < 4; ++j) product += a[i][j] * e.vectors[k][j];
-      RC_ASSERT(std::abs(product - e.values[k] * e.vectors[k][i]) < 1e-10);
-    }
-    for (std::size_t l = 0; l < 4; ++l) {
-      double inner = 0;
-      for (std::size_t j = 0; j < 4; ++j) inner += e.vectors[k][j] * e.vectors[l][j];
-      RC_ASSERT(std::abs(inner - (k == l ? 1 : 0)) < 1e-12);
-    }
-  }
 }
 
 RC_GTEST_PROP(SimilarityFit, FindsTheMotionThatWasApplied, ()) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
+#include "fields/distance_field.hpp"
 
 namespace carpus::cases::test {
 
@@ -93,31 +94,6 @@ struct Ellipsoid {
   return polytope;
 }
 
-[[nodiscard]] inline Grid<float> field_of(const Ellipsoid& body, const TriangleMesh& surface) {
-  constexpr double kBandMm = 4.0;
-  constexpr double kSpacingMm = 0.8;
-  Vec3 low = surface.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& v : surface.vertices) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  GridGeometry geometry;
-  geometry.spacing = {kSpacingMm, kSpacingMm, kSpacingMm};
-  geometry.origin = low - Vec3{kBandMm, kBandMm, kBandMm};
-  for (std::size_t i = 0; i < 3; ++i) {
-    geometry.size[i] = static_cast<int>((high[i] - low[i] + 2 * kBandMm) / kSpacingMm) + 2;
-  }
-  Grid<float> field(geometry);
-  for (std::size_t i = 0; i < field.values().size(); ++i) {
-    const VoxelIndex v = geometry.index_of(i);
-    const Vec3 p = geometry.patient_from_voxel(
-        {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
-    field[i] = static_cast<float>(std::clamp(body.signed_distance(p), -kBandMm, kBandMm));
-  }
-  return field;
-}
-
 /// The scaphoid of the synthetic wrist: long axis 27 mm, waist 11.2 x 9.6 mm [clinical: B13].
 [[nodiscard]] inline Ellipsoid synthetic_scaphoid() {
   // Its long axis points from proximal to distal, volar and radial, as in a wrist.
@@ -148,7 +124,7 @@ struct Ellipsoid {
     bone.label = static_cast<std::uint8_t>(id);
     bone.surface = surface_of(body, 4);
     bone.hull = polytope_of_convex(bone.surface);
-    bone.distance_field = field_of(body, bone.surface);
+    bone.distance_field = fields::build_distance_field(bone.surface);
     data.bones.push_back(std::move(bone));
   }
   const Vec3 along = scaphoid.rotation.column(2);

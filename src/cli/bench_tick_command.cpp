@@ -1,16 +1,11 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Operations by scripted trainees, expert and novice in turn, until enough seconds of simulated
-// time are done; each World::step is timed by itself, the trainee's own work is not. One operation
-// runs first and is not counted.
 #include "cli/bench_tick_command.hpp"
 
 #include <sys/utsname.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -19,45 +14,20 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/tick_scenes.hpp"
 #include "core/error.hpp"
+#include "procedures/built_in.hpp"
 #include "records/atomic_file.hpp"
-#include "simulation/world.hpp"
-#include "trainee/scripted_trainee.hpp"
 
 namespace carpus::cli {
 namespace {
 
 struct BenchTickArguments {
   std::string case_folder = kDefaultCase;
-  double seconds = 120.0;
+  std::string procedure;
+  double seconds = 20.0;
   std::string json;
 };
-
-struct TickTimes {
-  std::vector<float> microseconds;  ///< one a tick
-  std::size_t operations = 0;
-  std::uint64_t unresolved_contacts = 0;
-};
-
-/// One operation; its ticks are appended to `times`, up to `wanted` of them.
-void operate(const cases::CaseData& posed_case,
-             trainee::Skill skill,
-             std::uint64_t seed,
-             std::size_t wanted,
-             TickTimes& times) {
-  using Clock = std::chrono::steady_clock;
-  simulation::World world(posed_case, procedure::ProcedureId::DorsalScaphoidFixation, seed);
-  trainee::ScriptedTrainee hand(posed_case, skill, seed);
-  while (!world.now().finished && times.microseconds.size() < wanted) {
-    const simulation::Input input = hand.next(world.now());
-    const auto start = Clock::now();
-    world.step(input);
-    const auto end = Clock::now();
-    times.microseconds.push_back(std::chrono::duration<float, std::micro>(end - start).count());
-  }
-  ++times.operations;
-  times.unresolved_contacts += world.faults().unresolved_contacts;
-}
 
 /// First line of /proc/cpuinfo that names the processor, or the machine's architecture.
 std::string machine_name() {
@@ -98,38 +68,62 @@ constexpr const char* kCompiler = __VERSION__;  // names itself
 constexpr const char* kCompiler = "g++ " __VERSION__;
 #endif
 
-nlohmann::ordered_json figures_of(const cases::CaseData& posed_case, TickTimes times) {
-  std::sort(times.microseconds.begin(), times.microseconds.end());
-  const auto& sorted = times.microseconds;
-  const auto over = [&](float limit) {
-    return sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), limit);
-  };
-  constexpr float kTickMicroseconds = 1000.0F;
-  return {{"case", posed_case.pseudonym},
-          {"case_simulated", posed_case.provenance.simulated},
-          {"bones", posed_case.bones.size()},
+constexpr float kTickMicroseconds = 1000.0F;
+
+nlohmann::ordered_json row_of(const std::string& name, SceneTimes times) {
+  auto& sorted = times.microseconds;
+  std::sort(sorted.begin(), sorted.end());
+  const auto over =
+      sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), kTickMicroseconds);
+  return {{"case", name},
+          {"scene", times.scene},
           {"ticks", sorted.size()},
-          {"operations", times.operations},
           {"p50_us", percentile(sorted, 0.5)},
           {"p99_us", percentile(sorted, 0.99)},
           {"p999_us", percentile(sorted, 0.999)},
           {"worst_us", static_cast<double>(sorted.back())},
-          {"ticks_over_1ms", over(kTickMicroseconds)},
-          {"unresolved_contacts", times.unresolved_contacts},
+          {"ticks_over_1ms", over}};
+}
+
+nlohmann::ordered_json figures_of(const cases::CaseData& data,
+                                  const procedure::Procedure& procedure,
+                                  TickBench bench) {
+  auto rows = nlohmann::ordered_json::array();
+  for (SceneTimes& times : bench.scenes) rows.push_back(row_of(data.pseudonym, std::move(times)));
+  return {{"case", data.pseudonym},
+          {"case_simulated", data.provenance.simulated},
+          {"bones", data.bones.size()},
+          {"procedure", procedure.id},
+          {"rows", std::move(rows)},
+          {"set_up_ms", bench.costs.set_up_ms},
+          {"undo_us", bench.costs.undo_us},
+          {"memory_mib", bench.costs.memory_mib},
+          {"replay_speed", bench.costs.replay_speed},
+          {"recording_bytes_per_s", bench.costs.recording_bytes_per_s},
+          {"unresolved_contacts", bench.unresolved_contacts},
           {"machine", machine_name()},
           {"compiler", kCompiler},
           {"flags", build_flags()}};
 }
 
-void print(const cases::CaseData& posed_case, const nlohmann::ordered_json& f) {
-  std::printf("one simulation tick on %s (%d bones), %zu ticks of %d scripted operations\n",
-              in_words(posed_case).c_str(), f["bones"].get<int>(), f["ticks"].get<std::size_t>(),
-              f["operations"].get<int>());
-  std::printf("%12s %12s %12s %12s %16s\n", "p50 us", "p99 us", "p99.9 us", "worst us",
-              "ticks over 1 ms");
-  std::printf("%12.2f %12.2f %12.2f %12.2f %16lld\n", f["p50_us"].get<double>(),
-              f["p99_us"].get<double>(), f["p999_us"].get<double>(), f["worst_us"].get<double>(),
-              f["ticks_over_1ms"].get<long long>());
+void print(const cases::CaseData& data, const nlohmann::ordered_json& f) {
+  std::printf("processor time of one simulation tick on %s (%d bones), %s\n",
+              in_words(data).c_str(), f["bones"].get<int>(),
+              f["procedure"].get<std::string>().c_str());
+  std::printf("%-22s %9s %10s %10s %10s %10s %9s\n", "scene", "ticks", "p50 us", "p99 us",
+              "p99.9 us", "worst us", "over 1 ms");
+  for (const auto& row : f["rows"]) {
+    std::printf("%-22s %9zu %10.2f %10.2f %10.2f %10.2f %9lld\n",
+                row["scene"].get<std::string>().c_str(), row["ticks"].get<std::size_t>(),
+                row["p50_us"].get<double>(), row["p99_us"].get<double>(),
+                row["p999_us"].get<double>(), row["worst_us"].get<double>(),
+                row["ticks_over_1ms"].get<long long>());
+  }
+  std::printf("set-up %.0f ms, undo %.0f us (worst), %.1f MiB an exercise beyond the case\n",
+              f["set_up_ms"].get<double>(), f["undo_us"].get<double>(),
+              f["memory_mib"].get<double>());
+  std::printf("replay %.0f times real time, recording %.0f bytes a second\n",
+              f["replay_speed"].get<double>(), f["recording_bytes_per_s"].get<double>());
   std::printf("machine: %s\ncompiler: %s\nflags: %s\n", f["machine"].get<std::string>().c_str(),
               f["compiler"].get<std::string>().c_str(), f["flags"].get<std::string>().c_str());
 }
@@ -139,18 +133,14 @@ void run(const BenchTickArguments& arguments) {
     throw UsageError("bench tick: --seconds is " + std::to_string(arguments.seconds) +
                      "; give 1 to 3600 seconds of simulated time");
   }
-  const cases::CaseData posed_case = load_posed_case(arguments.case_folder);
-  TickTimes warm_up;
-  operate(posed_case, trainee::Skill::Expert, 1, SIZE_MAX, warm_up);
-  const auto wanted = static_cast<std::size_t>(arguments.seconds * 1000.0);
-  TickTimes times;
-  times.microseconds.reserve(wanted);
-  for (std::uint64_t seed = 1; times.microseconds.size() < wanted; ++seed) {
-    operate(posed_case, seed % 2 == 1 ? trainee::Skill::Expert : trainee::Skill::Novice, seed,
-            wanted, times);
-  }
-  const nlohmann::ordered_json figures = figures_of(posed_case, std::move(times));
-  print(posed_case, figures);
+  const cases::CaseData data = load_case(arguments.case_folder);
+  const procedure::Procedure& procedure = arguments.procedure.empty()
+                                              ? *procedures::built_in().all().front()
+                                              : find_procedure(arguments.procedure);
+  const auto ticks = static_cast<std::size_t>(arguments.seconds * 1000.0);
+  const nlohmann::ordered_json figures =
+      figures_of(data, procedure, time_ticks(data, procedure, ticks));
+  print(data, figures);
   if (!arguments.json.empty()) {
     records::write_file_atomically(arguments.json, figures.dump(2) + "\n");
   }
@@ -160,10 +150,12 @@ void run(const BenchTickArguments& arguments) {
 
 void add_bench_tick_command(CLI::App& bench) {
   auto arguments = std::make_shared<BenchTickArguments>();
-  CLI::App* command =
-      bench.add_subcommand("tick", "Time one simulation tick of a scripted operation");
+  CLI::App* command = bench.add_subcommand("tick", "Time one simulation tick in several scenes");
   command->add_option("--case", arguments->case_folder, "Case folder")->capture_default_str();
-  command->add_option("--seconds", arguments->seconds, "Simulated time to measure [s]")
+  command->add_option("--procedure", arguments->procedure,
+                      "What is operated; the first when empty");
+  command
+      ->add_option("--seconds", arguments->seconds, "Simulated time to measure in each scene [s]")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the figures to this file");
   command->callback([arguments] { run(*arguments); });

@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `carpus bench tick`: how long one simulation tick takes while a scripted trainee operates.
+// `carpus bench tick`: how long one simulation tick takes, scene by scene, and what an exercise
+// costs beside it.
 #pragma once
 
 namespace CLI {

@@ -19,7 +19,6 @@
 #include "cli/collide_arguments.hpp"
 #include "cli/collide_picture.hpp"
 #include "cli/collide_report.hpp"
-#include "cli/png_file.hpp"
 #include "core/error.hpp"
 #include "hull/fast_hull.hpp"
 #include "records/atomic_file.hpp"
@@ -42,7 +41,7 @@ struct Arguments {
   std::string second_pose;
   std::string sweep;
   fs::path json_file;
-  fs::path png;
+  fs::path svg;
 };
 
 void list_methods() {
@@ -248,7 +247,7 @@ void run(const Arguments& a) {
   const CollideBody first = read_body(a, a.first, first_place);
   const CollideBody second = read_body(a, a.second, second_place);
   const CollideReport report = collide(first, second, method, velocity);
-  if (!a.png.empty()) write_png(a.png, draw_collision(first, second, report));
+  if (!a.svg.empty()) records::write_file_atomically(a.svg, draw_collision(first, second, report));
   const json figures = figures_of(first, second, report);
   print(figures, "");
   print_what_is_missing(report);
@@ -278,7 +277,7 @@ void add_collide_command(CLI::App& app) {
       "--sweep", arguments->sweep,
       "Velocity vx,vy,vz of the second against the first, mm/s: when do they touch?");
   command->add_option("--json", arguments->json_file, "Write the printed figures to this file");
-  command->add_option("--png", arguments->png, "Draw both hulls and what was found");
+  command->add_option("--svg", arguments->svg, "Draw both hulls and what was found");
   command->callback([arguments] { run(*arguments); });
 }
 

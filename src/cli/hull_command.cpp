@@ -17,7 +17,6 @@
 
 #include "case_io/surface_file.hpp"
 #include "cli/hull_picture.hpp"
-#include "cli/png_file.hpp"
 #include "core/error.hpp"
 #include "hull/brute_force_hull.hpp"
 #include "hull/chan_hull.hpp"
@@ -43,7 +42,7 @@ struct Arguments {
   fs::path input;
   fs::path out;
   fs::path json_file;
-  fs::path png;
+  fs::path svg;
   std::string algorithm = "fast";
   bool merge = false;
 };
@@ -152,7 +151,7 @@ void run_in_space(const Arguments& a) {
       case_io::write_surface(file, result.polytope.surface());
     });
   }
-  if (!a.png.empty()) write_png(a.png, draw_hull(object, result.polytope));
+  if (!a.svg.empty()) records::write_file_atomically(a.svg, draw_hull(object, result.polytope));
   const hull::PolytopeMeasures measures = hull::measures_of(result.polytope);
   report(a, {{"algorithm", a.algorithm},
              {"points", object.vertices.size()},
@@ -189,7 +188,8 @@ void run_in_plane(const Arguments& a) {
   const double seconds = seconds_since(start);
   require_hull(result.status, a.input, points.size());
   if (!a.out.empty()) write_corners(a.out, points, result.corners);
-  if (!a.png.empty()) write_png(a.png, draw_planar_hull(points, result.corners));
+  if (!a.svg.empty())
+    records::write_file_atomically(a.svg, draw_planar_hull(points, result.corners));
   report(a, {{"algorithm", a.algorithm},
              {"points", points.size()},
              {"corners", result.corners},
@@ -219,7 +219,7 @@ void add_hull_command(CLI::App& app) {
   command->add_flag("--merge", arguments->merge,
                     "Write coplanar facets as one face (--out .obj or .off)");
   command->add_option("--json", arguments->json_file, "Write the printed figures to this file");
-  command->add_option("--png", arguments->png, "Draw the object and its hull");
+  command->add_option("--svg", arguments->svg, "Draw the object and its hull");
   command->callback([arguments] {
     is_planar(arguments->input) ? run_in_plane(*arguments) : run_in_space(*arguments);
   });

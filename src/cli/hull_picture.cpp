@@ -3,71 +3,49 @@
 #include "cli/hull_picture.hpp"
 
 #include <algorithm>
-#include <cstddef>
+#include <vector>
 
-#include "cli/canvas.hpp"
+#include "drawing/facets.hpp"
+#include "drawing/svg.hpp"
 #include "hull/merged_faces.hpp"
 
 namespace carpus::cli {
 namespace {
 
-constexpr std::uint32_t kSize = 900;
-constexpr double kMargin = 40;  ///< pixels around the drawing
-constexpr PixelArea kArea{kMargin, kMargin, kSize - 2 * kMargin, kSize - 2 * kMargin};
+using drawing::Colour;
+
+constexpr double kSize = 900;
+constexpr double kMargin = 40;  ///< around the drawing
+constexpr drawing::PageArea kArea{kMargin, kMargin, kSize - 2 * kMargin, kSize - 2 * kMargin};
 constexpr Colour kBone{0.87, 0.80, 0.66};
 constexpr Colour kHull{0.35, 0.60, 1.00};
 constexpr Colour kEdge{0.08, 0.20, 0.50};
 constexpr double kHullOpacity = 0.22;
-constexpr double kEdgeOpacity = 0.5;
+constexpr double kEdgeOpacity = 0.35;
 
-void draw_object(Canvas& canvas, const View& view, const TriangleMesh& object) {
-  for (const Triangle& t : object.facets) {
-    const Vec3& a = object.vertices[t[0]];
-    const Vec3& b = object.vertices[t[1]];
-    const Vec3& c = object.vertices[t[2]];
-    Vec3 normal = normalized_or(cross(b - a, c - a), {0, 0, 1});
-    if (!view.faces_viewer(normal)) normal = -normal;  // open surfaces show their inside
-    const Colour colour = shaded(kBone, view.brightness(normal));
-    canvas.fill(view(a), view(b), view(c),
-                [&](int x, int y, double z) { canvas.plot(x, y, z, colour); });
-  }
-  if (!object.facets.empty()) return;
-  for (const Vec3& p : object.vertices) canvas.dot(view(p), shaded(kBone, 0.7));
+std::string draw_object(const drawing::View& view, const TriangleMesh& object) {
+  if (!object.facets.empty()) return draw_surface(view, object, kBone);
+  std::vector<Vec2> points;
+  points.reserve(object.vertices.size());
+  for (const Vec3& p : object.vertices) points.push_back(view(p));
+  return drawing::draw_points(points, drawing::shaded(kBone, 0.7));
 }
 
 }  // namespace
 
-Picture draw_hull(const TriangleMesh& object, const ConvexPolytope& hull) {
-  Canvas canvas(kSize, kSize);
-  const View view(hull.vertices, kArea);
-  draw_object(canvas, view, object);
-  for (std::size_t f = 0; f < hull.facets.size(); ++f) {
-    const Vec3& normal = hull.planes[f].normal;
-    if (!view.faces_viewer(normal)) continue;
-    const Triangle& t = hull.facets[f];
-    const Colour colour = shaded(kHull, view.brightness(normal));
-    canvas.fill(view(hull.vertices[t[0]]), view(hull.vertices[t[1]]), view(hull.vertices[t[2]]),
-                [&](int x, int y, double) { canvas.blend(x, y, colour, kHullOpacity); });
-  }
+std::string draw_hull(const TriangleMesh& object, const ConvexPolytope& hull) {
+  const drawing::View view(hull.vertices, kArea);
   const std::vector<hull::PolygonalFace> faces = hull::merged_faces(hull);
-  const auto is_seen = [&](std::uint32_t face) {
-    return view.faces_viewer(hull.planes[faces[face].facets[0]].normal);
-  };
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
-    const hull::PolygonalFace& face = faces[i];
-    for (std::size_t e = 0; e < face.corners.size(); ++e) {
-      const bool other_draws = face.neighbours[e] < i && is_seen(face.neighbours[e]);
-      if (!is_seen(i) || other_draws) continue;
-      const std::uint32_t next = face.corners[(e + 1) % face.corners.size()];
-      canvas.line(view(hull.vertices[face.corners[e]]), view(hull.vertices[next]), kEdge,
-                  kEdgeOpacity);
-    }
+  drawing::Solid solid{hull.vertices, {}};
+  for (const hull::PolygonalFace& face : faces) {
+    solid.faces.push_back({face.corners, face.neighbours, hull.planes[face.facets[0]].normal});
   }
-  return canvas.picture();
+  return drawing::page(kSize, kSize,
+                       draw_object(view, object) + draw_faces(view, solid, kHull, kHullOpacity) +
+                           draw_edges(view, solid, kEdge, kEdgeOpacity));
 }
 
-Picture draw_planar_hull(std::span<const Vec2> points, std::span<const std::uint32_t> corners) {
-  Canvas canvas(kSize, kSize);
+std::string draw_planar_hull(std::span<const Vec2> points, std::span<const std::uint32_t> corners) {
   Vec2 low = points[corners[0]];
   Vec2 high = low;
   for (const std::uint32_t c : corners) {
@@ -75,15 +53,18 @@ Picture draw_planar_hull(std::span<const Vec2> points, std::span<const std::uint
     high = {std::max(high.x, points[c].x), std::max(high.y, points[c].y)};
   }
   const double scale = (kSize - 2 * kMargin) / std::max(high.x - low.x, high.y - low.y);
-  const auto view = [&](std::uint32_t i) {
-    return Vec3{kSize / 2.0 + (points[i].x - low.x - (high.x - low.x) / 2) * scale,
-                kSize / 2.0 - (points[i].y - low.y - (high.y - low.y) / 2) * scale, 0};
-  };
-  for (std::uint32_t i = 0; i < points.size(); ++i) canvas.dot(view(i), shaded(kBone, 0.6));
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    canvas.line(view(corners[i]), view(corners[(i + 1) % corners.size()]), kHull, 1);
+  std::vector<Vec2> on_page;
+  on_page.reserve(points.size());
+  for (const Vec2& p : points) {
+    on_page.push_back({kSize / 2 + (p.x - low.x - (high.x - low.x) / 2) * scale,
+                       kSize / 2 - (p.y - low.y - (high.y - low.y) / 2) * scale});
   }
-  return canvas.picture();
+  std::vector<Vec2> outline;
+  for (const std::uint32_t c : corners) outline.push_back(on_page[c]);
+  return drawing::page(
+      kSize, kSize,
+      drawing::draw_points(on_page, drawing::shaded(kBone, 0.6)) +
+          drawing::strokes(drawing::polygon_path(outline), {drawing::hex(kHull), 2}));
 }
 
 }  // namespace carpus::cli

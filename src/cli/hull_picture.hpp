@@ -6,21 +6,20 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
+#include <string>
 
-#include "cli/png_file.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace carpus::cli {
 
-/// The object shaded (or its points, where it has no facets), over it the hull translucent with the
-/// edges of its faces; seen without perspective, aslant from the front, right and above. In a point
-/// cloud points are dots of 3 pixels.
-[[nodiscard]] Picture draw_hull(const TriangleMesh& object, const ConvexPolytope& hull);
+/// SVG: the object shaded (or its points, where it has no facets), over it the hull translucent
+/// with the edges of its faces; seen without perspective, aslant from the front, right and above.
+[[nodiscard]] std::string draw_hull(const TriangleMesh& object, const ConvexPolytope& hull);
 
-/// Points as dots, the hull as a closed line; y up.
-[[nodiscard]] Picture draw_planar_hull(std::span<const Vec2> points,
-                                       std::span<const std::uint32_t> corners);
+/// SVG: points as dots, the hull as a closed line; y up.
+[[nodiscard]] std::string draw_planar_hull(std::span<const Vec2> points,
+                                           std::span<const std::uint32_t> corners);
 
 }  // namespace carpus::cli

@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "case_io/case_folder.hpp"
-#include "cases/posture.hpp"
+#include "cases/make_hand_motion.hpp"
 #include "core/error.hpp"
-#include "procedure/score_json.hpp"
+#include "procedures/built_in.hpp"
+#include "protocol/bodies.hpp"
 #include "reconstruct/skin_surface.hpp"
 #include "records/atomic_file.hpp"
+#include "session/score_message.hpp"
 
 namespace carpus::cli {
 
@@ -36,11 +38,21 @@ std::string length_lines(const procedure::ScoreReport& report) {
 
 }  // namespace
 
-cases::CaseData load_posed_case(const std::filesystem::path& folder) {
+cases::CaseData load_case(const std::filesystem::path& folder) {
   cases::CaseData data = case_io::read_case(folder);
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
-  const cases::Posture posture = data.operative_posture;
-  return cases::apply_posture(std::move(data), posture);
+  cases::ensure_hand_motion(data);
+  return data;
+}
+
+const procedure::Procedure& find_procedure(const std::string& id) {
+  const procedure::ProcedureList& offered = procedures::built_in();
+  if (const procedure::Procedure* found = offered.find(id)) return *found;
+  std::string known;
+  for (const procedure::Procedure* each : offered.all()) {
+    known += (known.empty() ? "" : ", ") + each->id;
+  }
+  throw InvalidInput("there is no procedure '" + id + "'; there are: " + known);
 }
 
 simulation::Recording load_recording(const std::filesystem::path& file) {
@@ -52,11 +64,12 @@ simulation::Recording load_recording(const std::filesystem::path& file) {
   return std::move(*recording);
 }
 
-simulation::Replay replay_on_its_case(const cases::CaseData& posed_case,
+simulation::Replay replay_on_its_case(const cases::CaseData& data,
                                       const simulation::Recording& recording) {
-  simulation::Replay replay = simulation::replay(posed_case, recording);
+  simulation::Replay replay =
+      simulation::replay(data, find_procedure(recording.procedure), recording);
   if (!replay.case_matches) {
-    throw InvalidInput("the recording was made on another case than '" + posed_case.pseudonym +
+    throw InvalidInput("the recording was made on another case than '" + data.pseudonym +
                        "', or on another version of it; name the right one with --case");
   }
   return replay;
@@ -99,7 +112,8 @@ std::string score_table(const procedure::ScoreReport& report) {
 }
 
 std::string score_file(const cases::CaseData& data, const procedure::ScoreReport& report) {
-  auto json = nlohmann::ordered_json::parse(procedure::score_json(report));
+  auto json = nlohmann::ordered_json::parse(
+      protocol::serialize_stored_score(session::score_message(report)));
   json["case"] = data.pseudonym;
   json["case_simulated"] = data.provenance.simulated;
   return json.dump(2) + "\n";

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
 #include "procedure/score.hpp"
 #include "simulation/recording.hpp"
 
@@ -18,16 +19,21 @@ inline constexpr const char* kDefaultCase = "cases/demo";
 /// Where ./run keeps attempts.
 inline constexpr const char* kDefaultRecords = "recordings/attempts.sqlite";
 
-/// Reads a case folder, trims the skin's ends and puts the wrist in its operative posture.
+/// Reads a case folder as scanned, trims the skin's ends, and makes the table of hand motion where
+/// the case is of a program that had none.
 /// @throws IoError, SchemaError  as case_io::read_case.
-[[nodiscard]] cases::CaseData load_posed_case(const std::filesystem::path& folder);
+[[nodiscard]] cases::CaseData load_case(const std::filesystem::path& folder);
+
+/// The procedure of this program with this id. @throws InvalidInput naming those that there are.
+[[nodiscard]] const procedure::Procedure& find_procedure(const std::string& id);
 
 /// Reads a recording. @throws IoError  where it is missing, cut short or damaged.
 [[nodiscard]] simulation::Recording load_recording(const std::filesystem::path& file);
 
 /// Replays a recording on the case that it was made on.
-/// @throws InvalidInput  when it was made on another case, naming --case.
-[[nodiscard]] simulation::Replay replay_on_its_case(const cases::CaseData& posed_case,
+/// @throws InvalidInput  when it was made on another case, naming --case, or with a procedure that
+///     this program does not have.
+[[nodiscard]] simulation::Replay replay_on_its_case(const cases::CaseData& data,
                                                     const simulation::Recording& recording);
 
 /// " (simulated)" after the name of such a case, nothing after others.

@@ -11,9 +11,9 @@
 
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
+#include "core/hexadecimal.hpp"
 #include "core/version.hpp"
 #include "records/atomic_file.hpp"
-#include "server/exercise.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -26,22 +26,23 @@ struct ReplayArguments {
 
 void run(const ReplayArguments& arguments) {
   const simulation::Recording recording = load_recording(arguments.recording);
-  const cases::CaseData posed_case = load_posed_case(arguments.case_folder);
+  const cases::CaseData data = load_case(arguments.case_folder);
   const auto before = std::chrono::steady_clock::now();
-  const simulation::Replay replay = replay_on_its_case(posed_case, recording);
+  const simulation::Replay replay = replay_on_its_case(data, recording);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  const std::string recorded = server::hexadecimal(recording.end_hash);
-  const std::string replayed = server::hexadecimal(replay.last.state_hash);
+  const std::string recorded = hexadecimal(recording.end_hash);
+  const std::string replayed = hexadecimal(replay.last.state_hash);
   const double simulated_s = static_cast<double>(recording.tick_count()) / 1000.0;
-  std::printf("operation on %s\n", in_words(posed_case).c_str());
+  std::printf("operation on %s\n", in_words(data).c_str());
   std::printf("recorded  %s  by %s, %.3f s simulated\n", recorded.c_str(),
               recording.program_version.c_str(), simulated_s);
   std::printf("replayed  %s  in %.3f s\n", replayed.c_str(), seconds);
   std::printf("%s\n", replay.hash_matches ? "the hashes match" : "THE HASHES DIFFER");
   if (!arguments.json.empty()) {
-    const nlohmann::ordered_json json{{"case", posed_case.pseudonym},
-                                      {"case_simulated", posed_case.provenance.simulated},
+    const nlohmann::ordered_json json{{"case", data.pseudonym},
+                                      {"case_simulated", data.provenance.simulated},
+                                      {"procedure", recording.procedure},
                                       {"recorded_hash", recorded},
                                       {"replayed_hash", replayed},
                                       {"hash_matches", replay.hash_matches},

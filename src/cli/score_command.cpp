@@ -22,20 +22,21 @@ struct ScoreArguments {
 
 void run(const ScoreArguments& arguments) {
   const simulation::Recording recording = load_recording(arguments.recording);
-  const cases::CaseData posed_case = load_posed_case(arguments.case_folder);
-  const simulation::Replay replay = replay_on_its_case(posed_case, recording);
+  const cases::CaseData data = load_case(arguments.case_folder);
+  const simulation::Replay replay = replay_on_its_case(data, recording);
   if (!replay.hash_matches) {
     throw InvalidInput(
         "the recording does not reproduce its state hash, so its score would not be "
         "that of the operation; it was made by " +
         recording.program_version);
   }
-  const procedure::ScoreReport report = procedure::score_operation(posed_case, replay.record);
-  std::printf("operation on %s\n", in_words(posed_case).c_str());
+  const procedure::ScoreReport report =
+      find_procedure(recording.procedure).score(data, replay.record);
+  std::printf("operation on %s\n", in_words(data).c_str());
   if (!replay.last.finished) std::printf("The operation was not finished.\n");
   std::fputs(score_table(report).c_str(), stdout);
   if (!arguments.json.empty()) {
-    records::write_file_atomically(arguments.json, score_file(posed_case, report));
+    records::write_file_atomically(arguments.json, score_file(data, report));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "case_io/glb.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
+#include "procedures/built_in.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/network_server.hpp"
 #include "server/station.hpp"
@@ -59,9 +60,10 @@ void run(const ServeArguments& arguments) {
   const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
   make_parent_folder(arguments.records);
   records::AttemptKeeper records(arguments.records);
-  const cases::CaseData posed_case = load_posed_case(arguments.case_folder);
-  const server::StationHttp http(posed_case, case_io::make_case_glb(posed_case), records, web);
-  server::Station station(posed_case, records, log_line);
+  const cases::CaseData data = load_case(arguments.case_folder);
+  const procedure::ProcedureList& procedures = procedures::built_in();
+  const server::StationHttp http(data, procedures, case_io::make_case_glb(data), records, web);
+  server::Station station(data, procedures, records, log_line);
   server::NetworkOptions options;
   options.address = arguments.listen;
   options.port = arguments.port;
@@ -71,7 +73,7 @@ void run(const ServeArguments& arguments) {
   station.attach(network);
   network.stop_on_signals();
   std::printf("Carpus is ready: %s  (case '%s'%s; Ctrl+C stops)\n", network.url().c_str(),
-              posed_case.pseudonym.c_str(), posed_case.provenance.simulated ? ", simulated" : "");
+              data.pseudonym.c_str(), data.provenance.simulated ? ", simulated" : "");
   std::fflush(stdout);
   if (options.address != "127.0.0.1" && options.address != "::1") {
     log_line("every machine that reaches " + options.address +

@@ -69,8 +69,9 @@ InstrumentScene::InstrumentScene(std::span<const fields::ContactField> bones,
 InstrumentScene::InstrumentScene(std::span<const fields::ContactField> bones,
                                  std::size_t places,
                                  const InstrumentSceneOptions& options)
-    : InstrumentScene(
-          bones, std::vector<InstrumentShape>(places, InstrumentShape(SphereShape{0.1})), options) {
+    : InstrumentScene(bones,
+                      std::vector<InstrumentShape>(places, InstrumentShape(SphereShape{0.1})),
+                      options) {
   for (std::size_t i = 0; i < places; ++i) is_empty_[i] = true;
 }
 

@@ -38,6 +38,30 @@ inline constexpr double kFieldErrorPerSpacing = 0.86602540378443875;
 struct CellPolynomial {
   double one = 0, x = 0, y = 0, z = 0, xy = 0, yz = 0, xz = 0, xyz = 0;
 
+  /// Of a cell in a cube of Nodes x Nodes x Nodes whole numbers, x fastest, from its low corner.
+  template <int Nodes>
+  [[nodiscard]] static CellPolynomial of_nodes(const std::int16_t* node, double unit) noexcept {
+    constexpr std::size_t kUp = Nodes;
+    constexpr std::size_t kOver = std::size_t{Nodes} * Nodes;
+    // Sums of whole numbers: exact.
+    const int v000 = node[0];
+    const int v100 = node[1];
+    const int v010 = node[kUp];
+    const int v110 = node[kUp + 1];
+    const int v001 = node[kOver];
+    const int v101 = node[kOver + 1];
+    const int v011 = node[kOver + kUp];
+    const int v111 = node[kOver + kUp + 1];
+    return {unit * v000,
+            unit * (v100 - v000),
+            unit * (v010 - v000),
+            unit * (v001 - v000),
+            unit * (v110 - v100 - v010 + v000),
+            unit * (v011 - v010 - v001 + v000),
+            unit * (v101 - v100 - v001 + v000),
+            unit * (v111 - v110 - v101 - v011 + v100 + v010 + v001 - v000)};
+  }
+
   [[nodiscard]] double value(const Vec3& t) const noexcept {
     return one + x * t.x + y * t.y + z * t.z + xy * t.x * t.y + yz * t.y * t.z + xz * t.x * t.z +
            xyz * t.x * t.y * t.z;
@@ -88,6 +112,8 @@ class ContactField {
     return (point - origin_) * per_spacing_;
   }
   [[nodiscard]] double per_spacing() const noexcept { return per_spacing_; }
+  /// Node (0, 0, 0) [mm].
+  [[nodiscard]] const Vec3& origin() const noexcept { return origin_; }
   /// Number of cells by axis.
   [[nodiscard]] const std::array<int, 3>& cell_count() const noexcept { return cells_; }
 
@@ -143,25 +169,7 @@ inline bool ContactField::load(const VoxelIndex& cell, CellPolynomial& result) c
   const int first = ((cell.z - bz * kBrick) * kBrickNodes + (cell.y - by * kBrick)) * kBrickNodes +
                     (cell.x - bx * kBrick);
   const std::int16_t* node = bricks_[static_cast<std::size_t>(at)].node.data() + first;
-  constexpr std::size_t kUp = kBrickNodes;
-  constexpr std::size_t kOver = static_cast<std::size_t>(kBrickNodes) * kBrickNodes;
-  // Sums of whole numbers: exact.
-  const int v000 = node[0];
-  const int v100 = node[1];
-  const int v010 = node[kUp];
-  const int v110 = node[kUp + 1];
-  const int v001 = node[kOver];
-  const int v101 = node[kOver + 1];
-  const int v011 = node[kOver + kUp];
-  const int v111 = node[kOver + kUp + 1];
-  result.one = unit_ * v000;
-  result.x = unit_ * (v100 - v000);
-  result.y = unit_ * (v010 - v000);
-  result.z = unit_ * (v001 - v000);
-  result.xy = unit_ * (v110 - v100 - v010 + v000);
-  result.yz = unit_ * (v011 - v010 - v001 + v000);
-  result.xz = unit_ * (v101 - v100 - v001 + v000);
-  result.xyz = unit_ * (v111 - v110 - v101 - v011 + v100 + v010 + v001 - v000);
+  result = CellPolynomial::of_nodes<kBrickNodes>(node, unit_);
   return true;
 }
 

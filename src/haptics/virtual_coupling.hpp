@@ -3,15 +3,15 @@
 //
 // The force law: a virtual coupling [colgate1995coupling] between the hand and the place where its
 // instrument may be (the proxy [zilles1995godobject]), a spring and a damper, never stronger than
-// the limit, and passive by an energy account [hannaford2002passivity]: whatever the proxy does, the
-// hand never gets back more work than it put in and the account's first kFirstStoredNMm.
+// the limit, and passive by an energy account [hannaford2002passivity]: whatever the proxy does,
+// the hand never gets back more work than it put in and the account's first kFirstStoredNMm.
 //
 // The account E holds that first store and what the hand put in less what it got. In the next tick
-// the force f does at most |f| w of work on the hand, w = max(0, d.f/|f| + kMostSurpriseMm), where d
-// is the hand's last move and kMostSurpriseMm what an arm of flesh can add to it in a tick. The force
-// is scaled until |f| w <= E. So E stays >= 0 for every hand that accelerates no faster than that.
-// One that jumps is no hand: it feels nothing in that tick and has nothing in store but the first.
-// Without a first store no force could ever begin: a still hand might be about to leave.
+// the force f does at most |f| w of work on the hand, w = max(0, d.f/|f| + kMostSurpriseMm), where
+// d is the hand's last move and kMostSurpriseMm what an arm of flesh can add to it in a tick. The
+// force is scaled until |f| w <= E. So E stays >= 0 for every hand that accelerates no faster than
+// that. One that jumps is no hand: it feels nothing in that tick and has nothing in store but the
+// first. Without a first store no force could ever begin: a still hand might be about to leave.
 #pragma once
 
 #include <cstdint>

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/exercise.hpp"
 
-#include <array>
-#include <cstdio>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <utility>
 
+#include "core/hexadecimal.hpp"
 #include "core/version.hpp"
-#include "procedure/score_json.hpp"
+#include "protocol/bodies.hpp"
 #include "records/utc_time.hpp"
+#include "session/score_message.hpp"
 
 namespace carpus::server {
 
@@ -17,38 +17,39 @@ namespace {
 
 using simulation::EventKind;
 
-/// Exercises of ordinary length need no second allocation of the recording.
-constexpr std::size_t kReservedRuns = 10 * 60 * 1000;
-
-void add_news(const EventfulTick& tick, ExerciseNews& news) {
-  const simulation::Snapshot& snapshot = tick.snapshot;
-  for (std::size_t i = 0; i < snapshot.event_count; ++i) {
-    const simulation::Event& event = snapshot.events[i];
-    news.events.push_back(describe(event));
-    if (event.kind != EventKind::ShotTaken) continue;
-    news.shots.push_back({static_cast<std::uint32_t>(event.detail), 0, tick.command.rotation_deg,
-                          tick.command.tilt_deg, snapshot});
-  }
-}
+/// A hand that moves in every tick fills it in a minute and a half; then it grows, off the 1 kHz
+/// thread.
+constexpr std::size_t kReservedRuns = 100'000;
 
 }  // namespace
 
-Exercise::Exercise(const cases::CaseData& posed_case,
-                   std::uint64_t case_fingerprint,
-                   ExerciseSetup setup)
+Exercise::Exercise(const cases::CaseData& data, std::uint64_t case_fingerprint, ExerciseSetup setup)
     : setup_(std::move(setup)),
-      posed_case_(posed_case),
+      data_(data),
       case_fingerprint_(case_fingerprint),
       started_at_(records::utc_now()),
-      world_(posed_case, setup_.procedure, setup_.seed),
-      recorder_(kProgramVersion, case_fingerprint_, setup_.procedure, setup_.seed),
+      world_(data, *setup_.procedure, setup_.seed),
+      session_(data, *setup_.procedure, world_.now()),
+      recorder_(kProgramVersion, case_fingerprint_, *setup_.procedure, setup_.seed),
       state_{world_.now(), {}},  // before the thread starts: from then on the world is its own
       loop_(
           [this](const simulation::Input& input) -> const simulation::Snapshot& {
             return world_.step(input);
           },
-          world_.now()) {
+          world_.now(),
+          session::resting(world_.now())) {
   recorder_.reserve(kReservedRuns);
+}
+
+void Exercise::add_news(const EventfulTick& tick, ExerciseNews& news) const {
+  const simulation::Snapshot& snapshot = tick.snapshot;
+  for (std::size_t i = 0; i < snapshot.event_count; ++i) {
+    const simulation::Event& event = snapshot.events[i];
+    news.events.push_back(session_.describe(event));
+    if (event.kind != EventKind::ShotTaken) continue;
+    news.shots.push_back({static_cast<std::uint32_t>(event.detail), 0, setup_.procedure->target,
+                          tick.command.rotation_deg, tick.command.tilt_deg, snapshot});
+  }
 }
 
 ExerciseNews Exercise::collect() {
@@ -67,20 +68,20 @@ records::Attempt Exercise::end() {
   const simulation::Recording recording = recorder_.finished(world_.now().state_hash);
   std::optional<procedure::ScoreReport> score;
   if (world_.now().finished) {
-    score = procedure::score_operation(posed_case_, world_.operation_record());
+    score = setup_.procedure->score(data_, world_.operation_record());
   }
-  return make_attempt({posed_case_, recording, log_, std::move(score), setup_.trainee,
-                       setup_.input_device, started_at_});
+  return make_attempt(
+      {data_, recording, log_, std::move(score), setup_.trainee, setup_.input_device, started_at_});
 }
 
 records::Attempt make_attempt(const AttemptParts& parts) {
   records::Attempt attempt;
   records::AttemptSummary& summary = attempt.summary;
   summary.trainee = parts.trainee;
-  summary.case_name = parts.posed_case.pseudonym;
+  summary.case_name = parts.data.pseudonym;
   summary.case_fingerprint = hexadecimal(parts.recording.case_fingerprint);
-  summary.case_simulated = parts.posed_case.provenance.simulated;
-  summary.procedure = procedure::name_of(parts.recording.procedure);
+  summary.case_simulated = parts.data.provenance.simulated;
+  summary.procedure = parts.recording.procedure;
   summary.input_device = parts.input_device;
   summary.started_at = parts.started_at;
   summary.ended_at = records::utc_now();
@@ -89,25 +90,13 @@ records::Attempt make_attempt(const AttemptParts& parts) {
   if (parts.score) {
     summary.outcome = records::Outcome::Finished;
     summary.overall = parts.score->overall;
-    attempt.score_json = procedure::score_json(*parts.score);
+    attempt.score_json = protocol::serialize_stored_score(session::score_message(*parts.score));
   }
-  attempt.events_json = events_json(parts.log);
+  std::vector<protocol::LoggedEvent> log = parts.log;
+  log.resize(std::min(log.size(), protocol::kMaxStoredEvents));
+  attempt.events_json = protocol::serialize_stored_events(log);
   attempt.recording = simulation::encode(parts.recording);
   return attempt;
-}
-
-std::string hexadecimal(std::uint64_t value) {
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
-  return text.data();
-}
-
-std::string events_json(const std::vector<LoggedEvent>& events) {
-  auto list = nlohmann::ordered_json::array();
-  for (const LoggedEvent& event : events) {
-    list.push_back({{"tick", event.tick}, {"kind", event.kind}, {"text", event.text}});
-  }
-  return list.dump();
 }
 
 }  // namespace carpus::server

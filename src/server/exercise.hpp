@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
-#include "procedure/procedure_id.hpp"
+#include "procedure/procedure.hpp"
 #include "procedure/score.hpp"
 #include "records/attempt.hpp"
-#include "server/event_text.hpp"
 #include "server/simulation_loop.hpp"
+#include "session/session.hpp"
 #include "simulation/recording.hpp"
 #include "simulation/world.hpp"
 
@@ -24,33 +24,36 @@ namespace carpus::server {
 struct ExerciseSetup {
   std::string trainee;
   std::string input_device;
-  procedure::ProcedureId procedure = procedure::ProcedureId::DorsalScaphoidFixation;
+  const procedure::Procedure* procedure = nullptr;  ///< must outlive the exercise
   std::uint64_t seed = 0;
 };
 
-/// A picture that was taken: from where, and the state at that tick.
+/// A picture that was taken: where the C-arm stood in the room, and the state at that tick.
 struct TakenShot {
   std::uint32_t number = 0;
-  std::uint64_t exercise = 0;  ///< the station's count, to tell late pictures from new ones
-  double rotation_deg = 0.0;
+  std::uint64_t exercise = 0;        ///< the station's count, to tell late pictures from new ones
+  BoneId target = BoneId::Scaphoid;  ///< what the beam is centred on
+  double rotation_deg = 0.0;         ///< from the forearm as scanned
   double tilt_deg = 0.0;
   simulation::Snapshot snapshot;
 };
 
 /// What happened since the last look.
 struct ExerciseNews {
-  std::vector<LoggedEvent> events;
+  std::vector<protocol::LoggedEvent> events;
   std::vector<TakenShot> shots;
 };
 
 class Exercise {
  public:
-  /// Starts at once. @param posed_case must outlive it.
+  /// Starts at once. @param data  as scanned; must outlive it.
   /// @throws InvalidInput when the case cannot be operated on.
-  Exercise(const cases::CaseData& posed_case, std::uint64_t case_fingerprint, ExerciseSetup setup);
+  Exercise(const cases::CaseData& data, std::uint64_t case_fingerprint, ExerciseSetup setup);
 
   /// The loop's controls: hold, command, pause.
   [[nodiscard]] SimulationLoop& loop() noexcept { return loop_; }
+  /// What page and exercise say to each other.
+  [[nodiscard]] session::Session& session() noexcept { return session_; }
 
   /// Takes over what was done since; to be called many times a second.
   [[nodiscard]] ExerciseNews collect();
@@ -63,40 +66,37 @@ class Exercise {
   [[nodiscard]] const std::string& trainee() const noexcept { return setup_.trainee; }
   [[nodiscard]] const std::string& started_at() const noexcept { return started_at_; }
   /// All that was collected so far.
-  [[nodiscard]] const std::vector<LoggedEvent>& log() const noexcept { return log_; }
+  [[nodiscard]] const std::vector<protocol::LoggedEvent>& log() const noexcept { return log_; }
 
   /// Stops the thread and returns what is to be kept: with a score when the operation was
   /// finished. The last news are in the attempt's log. Call once.
   [[nodiscard]] records::Attempt end();
 
  private:
+  void add_news(const EventfulTick& tick, ExerciseNews& news) const;
+
   ExerciseSetup setup_;
-  const cases::CaseData& posed_case_;
+  const cases::CaseData& data_;
   std::uint64_t case_fingerprint_;
   std::string started_at_;
   simulation::World world_;
+  session::Session session_;
   simulation::Recorder recorder_;
-  std::vector<LoggedEvent> log_;
+  std::vector<protocol::LoggedEvent> log_;
   LoopState state_;
   SimulationLoop loop_;  ///< last, so that its thread ends before what it uses
 };
 
 /// The record of one attempt, however it was made: a station's exercise or a scripted trainee's.
 struct AttemptParts {
-  const cases::CaseData& posed_case;
+  const cases::CaseData& data;
   const simulation::Recording& recording;
-  const std::vector<LoggedEvent>& log;
+  const std::vector<protocol::LoggedEvent>& log;
   std::optional<procedure::ScoreReport> score;  ///< of a finished operation
   std::string trainee;
   std::string input_device;
   std::string started_at;
 };
 [[nodiscard]] records::Attempt make_attempt(const AttemptParts& parts);
-
-/// Sixteen hexadecimal digits, as state hashes and fingerprints are written everywhere.
-[[nodiscard]] std::string hexadecimal(std::uint64_t value);
-
-/// [{"tick", "kind", "text"}]
-[[nodiscard]] std::string events_json(const std::vector<LoggedEvent>& events);
 
 }  // namespace carpus::server

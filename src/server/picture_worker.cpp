@@ -7,8 +7,9 @@
 
 #include "core/error.hpp"
 #include "geometry/aabb.hpp"
-#include "procedure/views.hpp"
-#include "server/metal_in_beam.hpp"
+#include "procedure/shots.hpp"
+#include "session/metal_in_beam.hpp"
+#include "simulation/c_arm_angles.hpp"
 
 namespace carpus::server {
 
@@ -22,12 +23,13 @@ void append(std::string& bytes, double value) {
   append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
 }
 
-/// Middle of the scaphoid's bounds: where a radiographer would centre the beam.
-Vec3 scaphoid_centre(const cases::CaseData& data) {
+/// Middle of the target's bounds where it is now: where a radiographer would centre the beam.
+Vec3 centre_of(const cases::CaseData& data, BoneId target, const simulation::Snapshot& now) {
   Aabb bounds;
-  for (const cases::Bone* part : cases::scaphoid_parts(data)) {
-    for (const Vec3& vertex : part->surface.vertices) {
-      bounds.include((part->patient_from_bone * Point<frame::Bone>{vertex}).v);
+  for (std::size_t body = 0; body < now.body_count && body < data.bones.size(); ++body) {
+    if (data.bones[body].bone != target) continue;
+    for (const Vec3& vertex : data.bones[body].surface.vertices) {
+      bounds.include((now.patient_from_bone[body] * Point<frame::Bone>{vertex}).v);
     }
   }
   return bounds.is_empty() ? Vec3{} : (bounds.low + bounds.high) / 2;
@@ -42,27 +44,28 @@ std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& imag
   append(bytes, static_cast<std::uint32_t>(image.width), 2);
   append(bytes, static_cast<std::uint32_t>(image.height), 2);
   append(bytes, image.pixel_mm);
-  append(bytes, shot.rotation_deg);
+  append(bytes,
+         simulation::held_rotation_deg(shot.rotation_deg, shot.snapshot.wrist.pronation_rad));
   append(bytes, shot.tilt_deg);
   append(bytes, procedure::kDosePerShotCgyCm2);
   bytes.append(image.grey.begin(), image.grey.end());
   return bytes;
 }
 
-fluoroscopy::Image take_picture(const cases::CaseData& posed_case,
+fluoroscopy::Image take_picture(const cases::CaseData& data,
                                 const fluoroscopy::FluoroscopyRenderer& renderer,
                                 const TakenShot& shot) {
-  const Direction<frame::Wrist> ulnar{{0, posed_case.side == Side::Left ? 1.0 : -1.0, 0}};
+  const Direction<frame::Wrist> ulnar{{0, data.side == Side::Left ? 1.0 : -1.0, 0}};
   const fluoroscopy::CArmPose pose = fluoroscopy::make_c_arm_pose(
-      {shot.rotation_deg, shot.tilt_deg}, {scaphoid_centre(posed_case)},
-      cases::held_wrist_from_patient(posed_case), ulnar);
+      {shot.rotation_deg, shot.tilt_deg}, {centre_of(data, shot.target, shot.snapshot)},
+      data.wrist_from_patient, ulnar);
   fluoroscopy::Exposure exposure;
   exposure.seed = shot.snapshot.tick;
-  return renderer.render(pose, metal_in_beam(shot.snapshot), exposure);
+  return renderer.render(pose, session::metal_in_beam(shot.snapshot), exposure);
 }
 
-PictureWorker::PictureWorker(const cases::CaseData& posed_case, Deliver deliver)
-    : posed_case_(posed_case), renderer_(posed_case.ct.view()), deliver_(std::move(deliver)) {
+PictureWorker::PictureWorker(const cases::CaseData& data, Deliver deliver)
+    : data_(data), renderer_(data.ct.view()), deliver_(std::move(deliver)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -98,7 +101,7 @@ void PictureWorker::run() {
     lock.unlock();
     std::string frame;
     try {
-      frame = encode_picture(shot, take_picture(posed_case_, renderer_, shot));
+      frame = encode_picture(shot, take_picture(data_, renderer_, shot));
     } catch (const std::exception&) {
       frame.clear();
     }

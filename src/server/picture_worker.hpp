@@ -22,10 +22,10 @@ namespace carpus::server {
 /// The binary frame of protocol/README.md.
 [[nodiscard]] std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image);
 
-/// One picture, as `PictureWorker` makes it: the C-arm centred on the scaphoid, the metal as it
-/// lay.
+/// One picture, as `PictureWorker` makes it: the C-arm in the room, centred on the target, bones
+/// and metal as they lay.
 /// @throws InvalidInput for angles that no C-arm can take.
-[[nodiscard]] fluoroscopy::Image take_picture(const cases::CaseData& posed_case,
+[[nodiscard]] fluoroscopy::Image take_picture(const cases::CaseData& data,
                                               const fluoroscopy::FluoroscopyRenderer& renderer,
                                               const TakenShot& shot);
 
@@ -34,7 +34,7 @@ class PictureWorker {
   /// Called in the worker's thread; the frame is empty when the picture could not be made.
   using Deliver = std::function<void(std::uint64_t exercise, std::string frame)>;
 
-  PictureWorker(const cases::CaseData& posed_case, Deliver deliver);
+  PictureWorker(const cases::CaseData& data, Deliver deliver);
   ~PictureWorker();
   PictureWorker(const PictureWorker&) = delete;
   PictureWorker& operator=(const PictureWorker&) = delete;
@@ -46,7 +46,7 @@ class PictureWorker {
  private:
   void run();
 
-  const cases::CaseData& posed_case_;
+  const cases::CaseData& data_;
   fluoroscopy::FluoroscopyRenderer renderer_;
   Deliver deliver_;
   std::mutex mutex_;

@@ -23,11 +23,11 @@ bool request_real_time_priority() noexcept {
 
 }  // namespace
 
-SimulationLoop::SimulationLoop(Step step, const simulation::Snapshot& initial)
-    : step_(std::move(step)) {
+SimulationLoop::SimulationLoop(Step step,
+                               const simulation::Snapshot& initial,
+                               const session::HeldInput& held)
+    : step_(std::move(step)), source_(held) {
   state_.snapshot = initial;
-  tool_.tip_in_patient = initial.tip_in_patient;
-  tool_.shaft_in_patient = initial.shaft_in_patient;
   thread_ = std::thread([this] { run(); });
 }
 
@@ -52,7 +52,9 @@ void SimulationLoop::run() noexcept {
   while (!stopping_.load(std::memory_order_relaxed)) {
     clock_.wait();
     const bool is_running = !paused_.load(std::memory_order_relaxed) && !state_.snapshot.finished;
-    clock_.work_done(is_running && tick());
+    const bool has_passed = is_running && tick();
+    clock_.work_done(has_passed);
+    if (!has_passed) ask_for_no_force();
     state_.timing = clock_.timing();
     states_.publish(state_);
   }
@@ -64,18 +66,24 @@ bool SimulationLoop::has_delivered() noexcept {
   return !undelivered_;
 }
 
+/// What stands still must not push: a force that was right a moment ago is not while the hand moves
+/// on without the simulation.
+void SimulationLoop::ask_for_no_force() noexcept {
+  for (simulation::HandView& hand : state_.snapshot.hands) hand.force_in_patient = {};
+}
+
 bool SimulationLoop::tick() noexcept {
   if (!has_delivered()) return false;
-  ticks_since_heard_ = held_.take(tool_) ? 0 : ticks_since_heard_ + 1;
-  const bool is_heard = ticks_since_heard_ < kDriverHoldTicks;
+  session::HeldInput newest;
+  if (held_.take(newest)) source_.hold(newest);
   if (!next_command_) next_command_ = commands_.pop();
   const simulation::Command command = next_command_.value_or(simulation::Command{});
-  const simulation::Input input{tool_.tip_in_patient, tool_.shaft_in_patient, tool_.thrust_n,
-                                is_heard ? tool_.driver : simulation::Driver::Off, command};
+  const simulation::Input input = source_.input(command);
   // The input is on its way to the recording before it is used: what cannot be recorded does not
   // happen.
   if (!inputs_.push(input)) return false;
   next_command_.reset();
+  source_.passed();
   state_.snapshot = step_(input);
   if (state_.snapshot.event_count > 0 || command.kind != simulation::CommandKind::None) {
     undelivered_ = EventfulTick{command, state_.snapshot};

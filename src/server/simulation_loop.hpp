@@ -15,18 +15,11 @@
 #include "core/latest_value.hpp"
 #include "core/spsc_ring.hpp"
 #include "server/tick_timing.hpp"
+#include "session/held_input.hpp"
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
 
 namespace carpus::server {
-
-/// What the hand holds and does until told otherwise: Input without its command.
-struct HeldTool {
-  Vec3 tip_in_patient{};
-  Vec3 shaft_in_patient{0, 0, 1};
-  double thrust_n = 0.0;
-  simulation::Driver driver = simulation::Driver::Off;
-};
 
 /// A tick in which something happened, with what was commanded in it.
 struct EventfulTick {
@@ -53,19 +46,20 @@ class SimulationLoop {
   /// Advances the simulation by one tick; called in the loop's thread only, must not throw.
   using Step = std::function<const simulation::Snapshot&(const simulation::Input&)>;
 
-  /// Starts the thread. @param initial  state before the first tick; the tool is held where it is.
-  SimulationLoop(Step step, const simulation::Snapshot& initial);
+  /// Starts the thread. @param initial  state before the first tick. @param held  until told
+  /// otherwise.
+  SimulationLoop(Step step, const simulation::Snapshot& initial, const session::HeldInput& held);
   ~SimulationLoop();
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
 
   /// The newest counts.
-  void hold(const HeldTool& tool) noexcept { held_.publish(tool); }
+  void hold(const session::HeldInput& held) noexcept { held_.publish(held); }
   /// Done in order, one a tick. False when too many wait.
   [[nodiscard]] bool command(const simulation::Command& command) noexcept {
     return commands_.push(command);
   }
-  /// While paused no ticks pass.
+  /// While paused no ticks pass and no force is asked for.
   void pause(bool on) noexcept { paused_.store(on, std::memory_order_relaxed); }
 
   /// True when there is a newer state than at the last call.
@@ -84,10 +78,6 @@ class SimulationLoop {
   /// Known once the first state was taken.
   [[nodiscard]] RealTimeGrants grants() const noexcept;
 
-  /// The driver runs only this long after the tool was last heard of: a page that is held up must
-  /// not drill on. Whoever holds the driver says so more often.
-  static constexpr Tick kDriverHoldTicks = 150;
-
   /// About 8 s of ticks.
   static constexpr std::size_t kMaxUndrained = 8192;
 
@@ -95,18 +85,18 @@ class SimulationLoop {
   void run() noexcept;
   [[nodiscard]] bool tick() noexcept;  ///< false: nothing was simulated
   [[nodiscard]] bool has_delivered() noexcept;
+  void ask_for_no_force() noexcept;
 
   // The thread's own.
   Step step_;
-  HeldTool tool_;
-  Tick ticks_since_heard_ = 0;
+  session::InputSource source_;
   LoopState state_;
   std::optional<simulation::Command> next_command_;
   std::optional<EventfulTick> undelivered_;  ///< waits for room in the ring
   TickClock clock_;
 
   // Shared.
-  LatestValue<HeldTool> held_;
+  LatestValue<session::HeldInput> held_;
   LatestValue<LoopState> states_;
   SpscRing<simulation::Command, 64> commands_;
   SpscRing<simulation::Input, kMaxUndrained> inputs_;

@@ -24,29 +24,41 @@ struct CountingWorld {
   Snapshot now;
   const Snapshot& step(const Input& input) {
     ++now.tick;
-    now.tip_in_patient = input.tip_in_patient;
+    now.wrist = input.wrist;
+    now.hands[0].force_in_patient = {0, 1, 0};
     now.event_count = 0;
     if (input.command.kind == CommandKind::TakeShot) {
       now.event_count = 1;
-      now.events[0] = {EventKind::ShotTaken, static_cast<std::int32_t>(++now.shots), 0.0, now.tick};
+      now.events[0].kind = EventKind::ShotTaken;
+      now.events[0].detail = static_cast<std::int32_t>(++now.shots);
     }
     now.finished = input.command.kind == CommandKind::Finish;
     return now;
   }
 };
 
-std::unique_ptr<SimulationLoop> run(CountingWorld& world) {
-  return std::make_unique<SimulationLoop>(
-      [&world](const Input& input) -> const Snapshot& { return world.step(input); }, world.now);
+/// The wrist's traction is a mark that comes back in the snapshot.
+session::HeldInput marked(double mark) {
+  session::HeldInput held;
+  held.wrist.traction_n = mark;
+  return held;
 }
 
-Snapshot wait_for(SimulationLoop& loop, const std::function<bool(const Snapshot&)>& fits) {
+std::unique_ptr<SimulationLoop> run(CountingWorld& world) {
+  return std::make_unique<SimulationLoop>(
+      [&world](const Input& input) -> const Snapshot& { return world.step(input); }, world.now,
+      session::HeldInput{});
+}
+
+Snapshot wait_for(SimulationLoop& loop,
+                  const std::function<bool(const Snapshot&)>& fits,
+                  int milliseconds = 5000) {
   LoopState state;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < milliseconds; ++i) {
     if (loop.take_state(state) && fits(state.snapshot)) return state.snapshot;
     std::this_thread::sleep_for(1ms);
   }
-  ADD_FAILURE() << "waited for 5 s in vain";
+  ADD_FAILURE() << "waited for " << milliseconds << " ms in vain";
   return state.snapshot;
 }
 
@@ -84,16 +96,16 @@ TEST(SimulationLoop, HandsOutEveryInputInOrderWithoutGaps) {
   CountingWorld world;
   const auto loop = run(world);
   for (int i = 1; i <= 50; ++i) {
-    loop->hold({{static_cast<double>(i), 0, 0}, {0, 0, 1}, 0.0, simulation::Driver::Off});
+    loop->hold(marked(i));
     std::this_thread::sleep_for(1ms);
   }
-  (void)wait_for(*loop, [](const Snapshot& s) { return s.tip_in_patient.x == 50.0; });
+  (void)wait_for(*loop, [](const Snapshot& s) { return s.wrist.traction_n == 50.0; });
   loop->stop();
   double previous = 0.0;
   std::uint64_t count = 0;
   while (const auto input = loop->next_input()) {
-    EXPECT_GE(input->tip_in_patient.x, previous);
-    previous = input->tip_in_patient.x;
+    EXPECT_GE(input->wrist.traction_n, previous);
+    previous = input->wrist.traction_n;
     ++count;
   }
   EXPECT_EQ(previous, 50.0);
@@ -103,22 +115,26 @@ TEST(SimulationLoop, HandsOutEveryInputInOrderWithoutGaps) {
 TEST(SimulationLoop, DriverStopsWhenNobodySaysThatItIsHeld) {
   CountingWorld world;
   const auto loop = run(world);
-  loop->hold({{7, 0, 0}, {0, 0, 1}, 20.0, simulation::Driver::Forward});
-  const Snapshot held = wait_for(*loop, [](const Snapshot& s) { return s.tip_in_patient.x == 7; });
+  session::HeldInput drilling = marked(7);
+  drilling.hands[1].driver = simulation::Driver::Forward;
+  drilling.heard[1] = 1;
+  loop->hold(drilling);
+  const Snapshot held = wait_for(*loop, [](const Snapshot& s) { return s.wrist.traction_n == 7; });
   (void)wait_for(*loop, [&](const Snapshot& s) { return s.tick > held.tick + 300; });
   loop->stop();
   Tick driven = 0;
   while (const auto input = loop->next_input()) {
-    driven += input->driver == simulation::Driver::Forward ? 1 : 0;
+    driven += input->hands[1].driver == simulation::Driver::Forward ? 1 : 0;
   }
-  EXPECT_EQ(driven, SimulationLoop::kDriverHoldTicks);
+  EXPECT_EQ(driven, session::InputSource::kDriverHoldTicks);
 }
 
 TEST(SimulationLoop, CommandsAreDoneInOrderAndTheirTicksDelivered) {
   CountingWorld world;
   const auto loop = run(world);
   for (int i = 0; i < 20; ++i) {
-    Command shot{CommandKind::TakeShot, 0, static_cast<double>(i), 0.0};
+    Command shot{CommandKind::TakeShot};
+    shot.rotation_deg = i;
     ASSERT_TRUE(loop->command(shot));
   }
   (void)wait_for(*loop, [](const Snapshot& s) { return s.shots == 20; });
@@ -145,11 +161,32 @@ TEST(SimulationLoop, NoTimePassesWhilePausedOrAfterTheEnd) {
   ASSERT_TRUE(loop->take_state(state));
   EXPECT_EQ(state.snapshot.tick, paused_at);
   loop->pause(false);
-  ASSERT_TRUE(loop->command({CommandKind::Finish, 0, 0.0, 0.0}));
+  ASSERT_TRUE(loop->command({CommandKind::Finish}));
   const Snapshot finished = wait_for(*loop, [](const Snapshot& s) { return s.finished; });
   std::this_thread::sleep_for(20ms);
   loop->stop();
   EXPECT_EQ(world.now.tick, finished.tick);
+}
+
+TEST(SimulationLoop, AsksForNoForceWhilePausedOrStalledOrAfterTheEnd) {
+  const auto is_pushed = [](const Snapshot& s) { return s.hands[0].force_in_patient.y > 0; };
+  const auto is_free = [](const Snapshot& s) { return s.hands[0].force_in_patient == Vec3{}; };
+  CountingWorld world;
+  const auto loop = run(world);
+  (void)wait_for(*loop, is_pushed);
+  loop->pause(true);
+  (void)wait_for(*loop, is_free);
+  loop->pause(false);
+  (void)wait_for(*loop, is_pushed);
+  // Nobody takes the inputs: time comes to a standstill by itself.
+  const Snapshot stalled = wait_for(
+      *loop, [&](const Snapshot& s) { return is_free(s) && s.tick > 0; }, 15'000);
+  EXPECT_EQ(stalled.tick, SimulationLoop::kMaxUndrained);
+  while (loop->next_input()) {
+  }
+  (void)wait_for(*loop, is_pushed);
+  ASSERT_TRUE(loop->command({CommandKind::Finish}));
+  (void)wait_for(*loop, [&](const Snapshot& s) { return s.finished && is_free(s); });
 }
 
 TEST(SimulationLoop, TimeStandsStillRatherThanLosingWhatWasDone) {
@@ -161,7 +198,7 @@ TEST(SimulationLoop, TimeStandsStillRatherThanLosingWhatWasDone) {
   loop->pause(false);
   int sent = 0;
   for (int i = 0; i < 600 && sent < 400; ++i) {
-    if (loop->command({CommandKind::TakeShot, 0, 0.0, 0.0})) {
+    if (loop->command({CommandKind::TakeShot})) {
       ++sent;
     } else {
       std::this_thread::sleep_for(1ms);

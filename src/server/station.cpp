@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/version.hpp"
-#include "server/case_messages.hpp"
+#include "protocol/bodies.hpp"
 
 namespace carpus::server {
 
@@ -24,15 +24,6 @@ namespace {
 constexpr std::size_t kMaxWaitingFrames = 3;
 /// A page that goes on after so many messages were dropped is not ours.
 constexpr std::uint64_t kMaxDropped = 20000;
-
-/// The protocol's limit for texts that come from elsewhere, such as a system's error message.
-std::string shortened(std::string text) {
-  constexpr std::size_t kMaxBytes = 1000;
-  if (text.size() <= kMaxBytes) return text;
-  std::size_t end = kMaxBytes;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + "…";
-}
 
 /// "62000 ticks of 12 us (p50), 30 us (p99), 210 us (worst), 0 late; ordinary priority"
 std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
@@ -53,24 +44,21 @@ std::uint64_t first_exercise_number() {
   return static_cast<std::uint64_t>(std::chrono::duration_cast<milliseconds>(now).count());
 }
 
-protocol::Event message_of(const LoggedEvent& event) {
-  return {static_cast<std::int64_t>(event.tick), event.kind, event.text};
-}
-
 void send_error(PageConnection& page, std::string reason, std::string what_to_do) {
-  page.send_text(serialize(protocol::HostMessage(
-      protocol::Error{shortened(std::move(reason)), shortened(std::move(what_to_do))})));
+  page.send_text(
+      serialize(protocol::HostMessage(protocol::Error{std::move(reason), std::move(what_to_do)})));
 }
 
 }  // namespace
 
-Station::Station(const cases::CaseData& posed_case,
+Station::Station(const cases::CaseData& data,
+                 const procedure::ProcedureList& procedures,
                  records::AttemptKeeper& records,
                  Log log,
                  StationPatience patience)
-    : posed_case_(posed_case),
-      case_fingerprint_(simulation::fingerprint_of(posed_case)),
-      broken_scaphoid_(has_broken_scaphoid(posed_case)),
+    : data_(data),
+      procedures_(procedures),
+      case_fingerprint_(simulation::fingerprint_of(data)),
       records_(records),
       log_(std::move(log)),
       patience_(patience),
@@ -86,8 +74,8 @@ void Station::detach() {
 
 void Station::attach(NetworkServer& network) {
   network_ = &network;
-  pictures_ = std::make_unique<PictureWorker>(
-      posed_case_, [this](std::uint64_t exercise, std::string frame) {
+  pictures_ =
+      std::make_unique<PictureWorker>(data_, [this](std::uint64_t exercise, std::string frame) {
         network_->post([this, exercise, frame = std::move(frame)]() mutable {
           deliver(exercise, std::move(frame));
         });
@@ -113,8 +101,7 @@ void Station::on_close(const std::shared_ptr<PageConnection>& page) {
   left_at_ = steady_clock::now();
   if (!exercise_) return;
   // Whoever comes back finds the driver off and time where it stood.
-  const simulation::Snapshot& last = exercise_->state().snapshot;
-  exercise_->loop().hold({last.tip_in_patient, last.shaft_in_patient, 0.0});
+  exercise_->loop().hold(exercise_->session().let_go());
   last_heard_ = {};
   watch_silence();
   log_("the page has lost its connection; its exercise waits for it");
@@ -215,55 +202,63 @@ std::string Station::why_busy(const PageConnection& page, const std::string& wor
 
 /// The exercise as a page must know it that comes back.
 void Station::show_again() {
-  const std::vector<LoggedEvent>& log = exercise_->log();
+  exercise_->session().forget_what_was_sent();
+  send(exercise_->session().exercise());
+  const std::vector<protocol::LoggedEvent>& log = exercise_->log();
   for (std::size_t i = log.size() - std::min(log.size(), kEventsShown); i < log.size(); ++i) {
-    send(message_of(log[i]));
+    send(protocol::Event{log[i]});
   }
   for (const std::string& frame : shown_) operator_->send_binary(frame);
-  send(snapshot_message(exercise_->state(), paused_by_page_ || paused_by_silence_,
-                        broken_scaphoid_));
+  send_update();
 }
 
 void Station::on_message(const protocol::Hello&) {}
 
 void Station::on_message(const protocol::Start& start) {
+  const procedure::Procedure* procedure = procedures_.find(start.procedure);
+  if (procedure == nullptr) {
+    return refuse("There is no procedure '" + start.procedure + "'",
+                  "Choose one of those that the station offers.");
+  }
   store_running();
   ExerciseSetup setup;
   setup.trainee = start.trainee;
   setup.input_device = name_of(start.input_device);
-  setup.procedure = procedure::procedure_of(name_of(start.procedure)).value();
+  setup.procedure = procedure;
   setup.seed = static_cast<std::uint64_t>(start.seed);
   paused_by_page_ = false;
   paused_by_silence_ = false;
-  exercise_ = std::make_unique<Exercise>(posed_case_, case_fingerprint_, std::move(setup));
+  exercise_ = std::make_unique<Exercise>(data_, case_fingerprint_, std::move(setup));
   ++exercise_number_;
   pictures_->clear();
   shown_.clear();
   last_heard_ = steady_clock::now();
   welcome();
+  send(exercise_->session().exercise());
 }
 
-void Station::on_message(const protocol::Tool& tool) {
-  if (has_exercise()) exercise_->loop().hold(held_tool(tool));
+void Station::on_message(const protocol::Hand& hand) {
+  if (has_exercise()) exercise_->loop().hold(exercise_->session().take(hand));
+}
+
+void Station::on_message(const protocol::Wrist& wrist) {
+  if (has_exercise()) exercise_->loop().hold(exercise_->session().take(wrist));
+}
+
+void Station::on_message(const protocol::Act& act) {
+  if (!has_exercise()) return;
+  const Result<Command> asked = exercise_->session().take(act);
+  if (!asked) return refuse(asked.error(), "Choose one of the actions that the page shows.");
+  if (asked->kind == CommandKind::Finish) {
+    // Time must pass for the operation to end.
+    paused_by_page_ = false;
+    apply_pause();
+  }
+  command(*asked);
 }
 
 void Station::on_message(const protocol::TakeShot& shot) {
-  command({CommandKind::TakeShot, 0, shot.rotation_deg, shot.tilt_deg});
-}
-
-void Station::on_message(const protocol::Measure&) { command({CommandKind::Measure, 0, 0.0, 0.0}); }
-
-void Station::on_message(const protocol::SelectScrew& screw) {
-  command({CommandKind::SelectScrew, static_cast<std::int32_t>(screw.index), 0.0, 0.0});
-}
-
-void Station::on_message(const protocol::Undo&) { command({CommandKind::Undo, 0, 0.0, 0.0}); }
-
-void Station::on_message(const protocol::Finish&) {
-  // Time must pass for the operation to end.
-  paused_by_page_ = false;
-  apply_pause();
-  command({CommandKind::Finish, 0, 0.0, 0.0});
+  if (has_exercise()) command(exercise_->session().take(shot));
 }
 
 void Station::on_message(const protocol::Pause& pause) {
@@ -279,7 +274,6 @@ bool Station::has_exercise() {
 }
 
 void Station::command(const Command& command) {
-  if (!has_exercise()) return;
   if (!exercise_->loop().command(command)) {
     refuse("Too many commands are waiting", "Wait a moment, or resume when paused.");
   }
@@ -307,7 +301,7 @@ void Station::watch_silence() {
 
 void Station::send_news() {
   ExerciseNews news = exercise_->collect();
-  for (const LoggedEvent& event : news.events) send(message_of(event));
+  for (const protocol::LoggedEvent& event : news.events) send(protocol::Event{event});
   for (TakenShot& shot : news.shots) {
     shot.exercise = exercise_number_;
     if (pictures_) pictures_->request(shot);
@@ -319,8 +313,16 @@ void Station::send_state() {
   // The last state of an exercise must arrive, others are replaced by the next.
   const bool is_last = exercise_->state().snapshot.finished;
   if (!is_last && operator_->waiting_frames() > kMaxWaitingFrames) return;
-  send(snapshot_message(exercise_->state(), paused_by_page_ || paused_by_silence_,
-                        broken_scaphoid_));
+  send_update();
+}
+
+void Station::send_update() {
+  const LoopState& state = exercise_->state();
+  const session::HostState host{paused_by_page_ || paused_by_silence_, state.timing.rate_hz,
+                                state.timing.p99_us, state.timing.late_ticks};
+  for (const protocol::HostMessage& message : exercise_->session().update(state.snapshot, host)) {
+    send(message);
+  }
 }
 
 void Station::store_running() {
@@ -341,9 +343,18 @@ void Station::conclude() {
     log_(kept.problem);
     refuse(kept.problem, "Tell the person who runs this station; nothing is lost yet.");
   }
-  if (finished) {
-    send(protocol::Score{kept.id, attempt.summary.overall.value_or(0.0), attempt.score_json});
+  if (finished) send_score(kept.id, attempt);
+}
+
+void Station::send_score(std::int64_t id, const records::Attempt& attempt) {
+  // What was stored is what is told: it can be read again, or somebody learns of it now.
+  auto report = protocol::parse_stored_score(attempt.score_json);
+  if (!report) {
+    log_("the score cannot be read: " + report.error());
+    return refuse("The score cannot be shown: " + report.error(),
+                  "Tell the person who runs this station; the recording is stored.");
   }
+  send(protocol::Score{id, report->overall, std::move(*report)});
 }
 
 void Station::send(const protocol::HostMessage& message) {

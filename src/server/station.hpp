@@ -14,11 +14,12 @@
 #include <unordered_map>
 
 #include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
+#include "protocol/messages.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/exercise.hpp"
 #include "server/network_server.hpp"
 #include "server/picture_worker.hpp"
-#include "server/protocol_messages.hpp"
 #include "server/rate_limit.hpp"
 
 namespace carpus::server {
@@ -41,8 +42,9 @@ class Station : public PageHandler {
   /// A page that is silent for longer than this stops time until it is heard again.
   static constexpr std::chrono::milliseconds kSilence{1000};
 
-  /// @param posed_case  in its operative posture; it and the records must outlive the station.
-  Station(const cases::CaseData& posed_case,
+  /// @param data  as scanned; it, the procedures and the records must outlive the station.
+  Station(const cases::CaseData& data,
+          const procedure::ProcedureList& procedures,
           records::AttemptKeeper& records,
           Log log,
           StationPatience patience = {});
@@ -73,12 +75,10 @@ class Station : public PageHandler {
 
   void on_message(const protocol::Hello& hello);
   void on_message(const protocol::Start& start);
-  void on_message(const protocol::Tool& tool);
+  void on_message(const protocol::Hand& hand);
+  void on_message(const protocol::Wrist& wrist);
+  void on_message(const protocol::Act& act);
   void on_message(const protocol::TakeShot& shot);
-  void on_message(const protocol::Measure&);
-  void on_message(const protocol::SelectScrew& screw);
-  void on_message(const protocol::Undo&);
-  void on_message(const protocol::Finish&);
   void on_message(const protocol::Pause& pause);
 
   void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
@@ -94,17 +94,20 @@ class Station : public PageHandler {
   void apply_pause();
   void send_news();
   void send_state();
+  /// What the page does not know yet of the newest state.
+  void send_update();
   /// Ends the exercise that runs, if any, and stores it as it is.
   void store_running();
   /// Ends and stores; sends the score when there is one.
   void conclude();
+  void send_score(std::int64_t id, const records::Attempt& attempt);
   void send(const protocol::HostMessage& message);
   void refuse(std::string reason, std::string what_to_do);
   [[nodiscard]] bool has_exercise();
 
-  const cases::CaseData& posed_case_;
+  const cases::CaseData& data_;
+  const procedure::ProcedureList& procedures_;
   std::uint64_t case_fingerprint_;
-  bool broken_scaphoid_;
   records::AttemptKeeper& records_;
   Log log_;
   StationPatience patience_;

@@ -1,34 +1,26 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the station answers over HTTP (protocol/README.md): the page's files, the case, the tray of
-// screws and the records.
+// What the station answers over HTTP (protocol/README.md): the page's files, the case, what can be
+// practised with which instruments, and the records.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/http_message.hpp"
 #include "server/static_files.hpp"
 
 namespace carpus::server {
 
-/// A summary as JSON: {"id", "trainee", …} as in docs/json.md.
-[[nodiscard]] std::string attempts_json(const std::vector<records::AttemptSummary>& attempts,
-                                        int indent = -1);
-/// The same of one attempt, with "case_is_open", "score" (null when unfinished) and "events".
-/// @param open_case_fingerprint  of the case that is served: places of an attempt mean nothing in
-/// another patient's bones.
-[[nodiscard]] std::string attempt_json(const records::Attempt& attempt,
-                                       const std::string& open_case_fingerprint,
-                                       int indent = -1);
-
 class StationHttp {
  public:
   /// Prepares what never changes. @param records must outlive it.
-  StationHttp(const cases::CaseData& posed_case,
+  StationHttp(const cases::CaseData& data,
+              const procedure::ProcedureList& procedures,
               std::string scene_glb,
               const records::AttemptKeeper& records,
               const std::filesystem::path& web_root);
@@ -38,11 +30,13 @@ class StationHttp {
 
  private:
   [[nodiscard]] HttpResponse answer_api(std::string_view path) const;
+  [[nodiscard]] HttpResponse answer_attempts() const;
   [[nodiscard]] HttpResponse answer_attempt(std::string_view rest) const;
 
   std::string case_fingerprint_;
   std::string case_json_;
-  std::string screws_json_;
+  std::string procedures_json_;
+  std::string instruments_json_;
   std::shared_ptr<const std::string> scene_glb_;
   const records::AttemptKeeper& records_;
   StaticFiles files_;

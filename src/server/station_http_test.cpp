@@ -11,6 +11,7 @@
 #include <string>
 
 #include "cases/synthetic_case_test_support.hpp"
+#include "core/hexadecimal.hpp"
 #include "server/exercise.hpp"
 #include "simulation/recording.hpp"
 
@@ -24,7 +25,7 @@ class StationHttpTest : public ::testing::Test {
   StationHttpTest()
       : folder_(new_folder()),
         records_(folder_ / "attempts.sqlite"),
-        http_(wrist_, "glTF", records_, folder_) {}
+        http_(wrist_, procedures_, "glTF", records_, folder_) {}
   ~StationHttpTest() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] Json get(const std::string& target) const {
@@ -42,6 +43,7 @@ class StationHttpTest : public ::testing::Test {
   }
 
   const cases::CaseData wrist_ = cases::test::synthetic_case();
+  const procedure::ProcedureList procedures_;
   std::filesystem::path folder_;
   records::AttemptKeeper records_;
   StationHttp http_;

@@ -14,9 +14,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cases/synthetic_case_test_support.hpp"
+#include "protocol/bodies.hpp"
 #include "server/loopback_client_test_support.hpp"
 #include "server/station_http.hpp"
+#include "simulation/operation_test_support.hpp"
 #include "simulation/recording.hpp"
 
 namespace carpus::server {
@@ -30,18 +31,20 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":3,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":3,"page":"second"})";
-constexpr const char* kStart =
-    R"({"type":"start","trainee":"Ada","procedure":"dorsal_scaphoid_fixation",)"
-    R"("input_device":"mouse","seed":7})";
-constexpr const char* kTool =
-    R"({"type":"tool","sequence":1,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],"thrust_n":2,)"
-    R"("driver":"off"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":4,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":4,"page":"second"})";
+constexpr const char* kStart = R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
+                               R"("input_device":"mouse","seed":7})";
+constexpr const char* kHand =
+    R"({"type":"hand","sequence":1,"hand":0,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],)"
+    R"("thrust_n":2,"driver":"off","guidance":"direct"})";
 
-const cases::CaseData& wrist() {
-  static const cases::CaseData data = cases::test::synthetic_case();
-  return data;
+using simulation::test::exercise;
+using simulation::test::wrist;
+
+const procedure::ProcedureList& procedures() {
+  static const procedure::ProcedureList list({&exercise()});
+  return list;
 }
 
 class StationTest : public ::testing::Test {
@@ -52,8 +55,8 @@ class StationTest : public ::testing::Test {
     std::ofstream(folder_ / "index.html") << "<title>Carpus</title>";
     records_ = std::make_unique<records::AttemptKeeper>(folder_ / "attempts.sqlite");
     station_ = std::make_unique<Station>(
-        wrist(), *records_, [](const std::string&) {}, patience());
-    http_ = std::make_unique<StationHttp>(wrist(), "glTF", *records_, folder_);
+        wrist(), procedures(), *records_, [](const std::string&) {}, patience());
+    http_ = std::make_unique<StationHttp>(wrist(), procedures(), "glTF", *records_, folder_);
     NetworkOptions options;
     options.port = 0;
     options.ping_interval = 100ms;
@@ -80,7 +83,7 @@ class StationTest : public ::testing::Test {
     page->send(kHello);
     EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"exercise\":0,"));
     page->send(kStart);
-    page->send(kTool);
+    page->send(kHand);
     return page;
   }
   /// Says hello until it is answered by a message of this type, and returns that.
@@ -130,8 +133,8 @@ class StationTest : public ::testing::Test {
 TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
   const auto page = operate(port());
   const Json moving = wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 50; });
-  EXPECT_EQ(moving["step"], "survey");
-  page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5})");
+  EXPECT_EQ(moving["step"], 0);
+  page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5,"reference":"held_forearm"})");
   const auto picture = page->wait_for([](const auto& f) { return f.is_binary; });
   ASSERT_TRUE(picture.has_value());
   EXPECT_EQ(picture->content.substr(0, 4), "CARM");
@@ -139,7 +142,7 @@ TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
   float rotation = 0;
   std::memcpy(&rotation, picture->content.data() + 20, 4);
   EXPECT_EQ(rotation, 30.0F);
-  page->send(R"({"type":"finish"})");
+  page->send(R"({"type":"act","id":"finish"})");
   const Json last = wait_for_snapshot(*page, [](const Json& s) { return bool(s["finished"]); });
   const Json score = Json::parse(page->wait_for_type("score"));
   EXPECT_EQ(score["attempt_id"], 1);
@@ -160,19 +163,19 @@ TEST_F(StationTest, RecordingOfALiveExerciseReplaysToTheSameHash) {
   const auto page = operate(port());
   for (int i = 0; i < 200; ++i) {
     const double z = 40.0 - 0.2 * i;
-    page->send(R"({"type":"tool","sequence":2,"tip_mm":[2,-1,)" + std::to_string(z) +
-               R"(],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"forward"})");
+    page->send(R"({"type":"hand","sequence":2,"hand":0,"tip_mm":[2,-1,)" + std::to_string(z) +
+               R"(],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"forward","guidance":"direct"})");
     std::this_thread::sleep_for(1ms);
   }
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 100; });
-  page->send(R"({"type":"finish"})");
+  page->send(R"({"type":"act","id":"finish"})");
   (void)page->wait_for_type("score");
   const auto recording = request(port(), "/api/attempts/1/recording");
   EXPECT_EQ(recording["Content-Type"], "application/octet-stream");
   const std::string& bytes = recording.body();
   const auto decoded = simulation::decode(std::as_bytes(std::span(bytes.data(), bytes.size())));
   ASSERT_TRUE(decoded.has_value()) << decoded.error();
-  const simulation::Replay replay = simulation::replay(wrist(), *decoded);
+  const simulation::Replay replay = simulation::replay(wrist(), exercise(), *decoded);
   EXPECT_TRUE(replay.hash_matches);
   EXPECT_TRUE(replay.case_matches);
   EXPECT_TRUE(replay.last.finished);
@@ -186,21 +189,47 @@ TEST_F(StationTest, BadMessagesAreAnsweredAndTheExerciseGoesOn) {
     EXPECT_THAT(page->wait_for_type("error"), HasSubstr(reason)) << text.substr(0, 100);
   };
   refused("rubbish", "not valid JSON");
-  refused(R"({"type":"select_screw","index":999})", "from 0 to 255");
-  refused(R"({"type":"tool"})", "is missing");
+  refused(R"({"type":"act","id":"pick_up","item":999})", "from 0 to 254");
+  refused(R"({"type":"hand"})", "is missing");
   refused(R"({"type":"welcome"})", "unknown message type");
-  refused(R"({"type":"undo","x":")" + std::string(20000, 'x') + "\"}", "longer than 16384 bytes");
+  refused(R"({"type":"pause","x":")" + std::string(20000, 'x') + "\"}", "longer than 16384 bytes");
   refused("\x01\x02", "binary", true);
   const Json now = wait_for_snapshot(*page, [](const Json&) { return true; });
   (void)wait_for_snapshot(*page, [&](const Json& s) { return s["tick"] > now["tick"]; });
 }
 
+TEST_F(StationTest, PageIsToldWhatIsDoneAndWhatItMayAskFor) {
+  const auto page = operate(port());
+  const Json exercise = Json::parse(page->wait_for_type("exercise"));
+  EXPECT_EQ(exercise["procedure"]["id"], "test_exercise");
+  EXPECT_EQ(exercise["bodies"].size(), wrist().bones.size());
+  const Json actions = Json::parse(page->wait_for_type("actions"));
+  EXPECT_GT(actions["actions"].size(), 10U);
+  page->send(R"({"type":"act","id":"take","hand":1,"instrument":"probe"})");
+  const Json two = wait_for_snapshot(*page, [](const Json& s) { return s["items"].size() == 2U; });
+  EXPECT_EQ(two["items"][1]["instrument"], "probe");
+  EXPECT_EQ(two["items"][1]["hand"], 1);
+  page->send(R"({"type":"act","id":"take","instrument":"spoon"})");
+  EXPECT_THAT(page->wait_for_type("error"), HasSubstr("no instrument 'spoon'"));
+}
+
+TEST_F(StationTest, ProcedureThatIsNotOfferedIsRefusedAndWhatRunsGoesOn) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  std::string other = kStart;
+  other.replace(other.find("test_exercise"), 13, "no_such_thing");
+  page->send(other);
+  EXPECT_THAT(page->wait_for_type("error"), HasSubstr("no_such_thing"));
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 40; });
+  EXPECT_EQ(records_->list().size(), 0U);
+}
+
 TEST_F(StationTest, FloodOfMessagesIsThinnedWithoutHarm) {
   const auto page = operate(port());
-  for (int i = 0; i < 6000; ++i) page->send(kTool);
+  for (int i = 0; i < 6000; ++i) page->send(kHand);
   EXPECT_THAT(page->wait_for_type("error"), HasSubstr("Too many messages"));
   std::this_thread::sleep_for(300ms);
-  page->send(R"({"type":"finish"})");
+  page->send(R"({"type":"act","id":"finish"})");
   EXPECT_THAT(page->wait_for_type("score"), HasSubstr("attempt_id"));
 }
 
@@ -213,7 +242,7 @@ TEST_F(StationTest, CommandsWithoutAnExerciseAndTalkWithoutHelloAreRefused) {
   EXPECT_TRUE(page.wait_until_closed());
   PageClient other(port());
   other.send(kHello);
-  other.send(R"({"type":"measure"})");
+  other.send(R"({"type":"act","id":"read_gauge"})");
   EXPECT_THAT(other.wait_for_type("error"), HasSubstr("No exercise runs"));
 }
 
@@ -222,10 +251,10 @@ TEST_F(StationTest, SecondPageIsBusyWhileTheFirstOperatesAndHttpStillWorks) {
   PageClient second(port());
   second.send(kSecondHello);
   EXPECT_THAT(second.wait_for_type("busy"), HasSubstr("Another page operates"));
-  second.send(R"({"type":"finish"})");
+  second.send(R"({"type":"act","id":"finish"})");
   EXPECT_THAT(second.wait_for_type("error"), HasSubstr("does not operate"));
   EXPECT_EQ(request(port(), "/").result_int(), 200U);
-  first->send(R"({"type":"finish"})");
+  first->send(R"({"type":"act","id":"finish"})");
   (void)first->wait_for_type("score");
   first->vanish();
   EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0,"));
@@ -245,7 +274,7 @@ TEST_F(StationTest, SeatOfALostPageIsKeptForIt) {
 
 TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsLogAndPictures) {
   auto page = operate(port());
-  page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5})");
+  page->send(R"({"type":"take_shot","rotation_deg":30,"tilt_deg":-5,"reference":"held_forearm"})");
   const auto is_picture = [](const auto& frame) { return frame.is_binary; };
   const auto picture = page->wait_for(is_picture);
   ASSERT_TRUE(picture.has_value());
@@ -269,22 +298,22 @@ TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsLogAndPictures) {
   const Json after = wait_for_snapshot(again, [](const Json& s) { return !s["paused"]; });
   EXPECT_LT(after["tick"].get<int>() - before["tick"].get<int>(), 300);
   (void)wait_for_snapshot(again, [&](const Json& s) { return s["tick"] > after["tick"]; });
-  again.send(R"({"type":"finish"})");
+  again.send(R"({"type":"act","id":"finish"})");
   EXPECT_EQ(Json::parse(again.wait_for_type("score"))["attempt_id"], 1);
 }
 
 TEST_F(StationTest, DriverOfALostPageIsOffWhenItComesBack) {
   auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
-  page->send(R"({"type":"tool","sequence":2,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],)"
-             R"("thrust_n":5,"driver":"forward"})");
+  page->send(R"({"type":"hand","sequence":2,"hand":0,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],)"
+             R"("thrust_n":5,"driver":"forward","guidance":"direct"})");
   std::this_thread::sleep_for(20ms);
   page->vanish();
   PageClient again(port());
   (void)say_hello(again, kHello, "welcome");
   again.send(kGoOn);
   (void)wait_for_snapshot(again, [](const Json& s) { return s["tick"] > 300; });
-  again.send(R"({"type":"finish"})");
+  again.send(R"({"type":"act","id":"finish"})");
   (void)again.wait_for_type("score");
   const auto attempt = records_->find(1);
   ASSERT_TRUE(attempt.has_value());
@@ -292,8 +321,8 @@ TEST_F(StationTest, DriverOfALostPageIsOffWhenItComesBack) {
   ASSERT_TRUE(decoded.has_value());
   ASSERT_FALSE(decoded->runs.empty());
   const auto& last = decoded->runs.back().input;
-  EXPECT_EQ(last.driver, simulation::Driver::Off);
-  EXPECT_EQ(last.thrust_n, 0.0);
+  EXPECT_EQ(last.hands[0].driver, simulation::Driver::Off);
+  EXPECT_EQ(last.hands[0].thrust_n, 0.0);
 }
 
 TEST_F(StationTest, PageThatComesBackBeforeItsOldConnectionIsKnownDeadGetsItsSeat) {
@@ -349,7 +378,7 @@ TEST_F(ForgetfulStationTest, PageThatDoesNotComeBackLeavesAnUnfinishedAttemptTha
   EXPECT_FALSE(attempt->summary.overall.has_value());
   const auto decoded = simulation::decode(attempt->recording);
   ASSERT_TRUE(decoded.has_value());
-  EXPECT_TRUE(simulation::replay(wrist(), *decoded).hash_matches);
+  EXPECT_TRUE(simulation::replay(wrist(), exercise(), *decoded).hash_matches);
   PageClient second(port());
   EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0,"));
 }
@@ -393,18 +422,19 @@ TEST_F(StationTest, FullDiskWhileSavingIsToldAndNothingIsLost) {
   const auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   for (int i = 0; i < 1500; ++i) {  // fills the recording beyond 8 pages
-    page->send(R"({"type":"tool","sequence":2,"tip_mm":[)" + std::to_string(40 + 0.01 * i) +
-               R"(,40,40],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"off"})");
+    page->send(R"({"type":"hand","sequence":2,"hand":0,"tip_mm":[)" +
+               std::to_string(40 + 0.01 * i) +
+               R"(,40,40],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"off","guidance":"direct"})");
     std::this_thread::sleep_for(1ms);
   }
-  page->send(R"({"type":"finish"})");
+  page->send(R"({"type":"act","id":"finish"})");
   EXPECT_THAT(page->wait_for_type("error"), HasSubstr("free some space"));
   const Json score = Json::parse(page->wait_for_type("score"));
   EXPECT_EQ(score["attempt_id"], 0);
   EXPECT_EQ(records_->waiting(), 1U);
   records_->store().limit_pages(100000);
   page->send(kStart);
-  page->send(R"({"type":"finish"})");
+  page->send(R"({"type":"act","id":"finish"})");
   (void)page->wait_for_type("score");
   EXPECT_EQ(records_->list().size(), 2U);
 }
@@ -414,7 +444,11 @@ TEST_F(StationTest, HttpTellsTheCaseWithoutTheAnswer) {
   ASSERT_TRUE(protocol::parse_case_description(answer.body()).has_value());
   EXPECT_EQ(answer.body().find("axis"), std::string::npos);
   EXPECT_TRUE(Json::parse(answer.body())["simulated"]);
-  EXPECT_EQ(Json::parse(request(port(), "/api/screws").body())["screws"][0]["index"], 0);
+  const Json offered = Json::parse(request(port(), "/api/procedures").body());
+  EXPECT_EQ(offered["procedures"][0]["id"], "test_exercise");
+  const auto instruments = request(port(), "/api/instruments").body();
+  ASSERT_TRUE(protocol::parse_instrument_list(instruments).has_value());
+  EXPECT_GT(Json::parse(instruments)["instruments"].size(), 5U);
   EXPECT_EQ(request(port(), "/api/scene.glb")["Content-Type"], "model/gltf-binary");
   EXPECT_EQ(request(port(), "/").body(), "<title>Carpus</title>");
 }

@@ -22,20 +22,14 @@ TEST(AllocationGuard, CountsWhatItShould) {
 
 TEST(AllocationGuard, AWholeOperationAllocatesNothing) {
   std::vector<Input> inputs;
-  test::Operator op(test::posed_wrist(), [&](const Input& input) { inputs.push_back(input); });
-  op.command({CommandKind::TakeShot, 0, 0, 0});
-  op.command({CommandKind::TakeShot, 0, 90, 0});
-  op.place_on_entry({{3, 2, 1}, {}});
-  op.place_on_entry({});
-  op.drive_to(24.0);
-  op.command({CommandKind::Measure, 0, 0, 0});
-  op.command({CommandKind::SelectScrew, 3, 0, 0});
-  op.hold(Driver::Forward, 30.0, 3000);
-  op.command({CommandKind::Undo, 0, 0, 0});
-  op.hold(Driver::Reverse, 0.0, 8000);
-  op.command({CommandKind::Finish, 0, 0, 0});
+  test::Operator op([&](const Input& input) { inputs.push_back(input); });
+  test::operate(op);
+  op.command(test::simple(CommandKind::Undo));
+  op.command(test::simple(CommandKind::Undo));
+  op.command(test::simple(CommandKind::Finish));
+  ASSERT_TRUE(op.now().finished);
 
-  World world(test::posed_wrist(), procedure::ProcedureId::DorsalScaphoidFixation, 1);
+  World world(test::wrist(), test::exercise(), 1);
   carpus::test::start_counting_allocations();
   for (const Input& input : inputs) world.step(input);
   EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);

@@ -25,13 +25,13 @@ enum class Driver : std::uint8_t { Off = 0, Forward = 1, Reverse = 2 };
 /// Things done once rather than held.
 enum class CommandKind : std::uint8_t {
   None = 0,
-  TakeShot = 1,     ///< one fluoroscopy image from `rotation_deg`, `tilt_deg`
-  Take = 2,         ///< `hand` takes instrument `index` of the catalogue from the tray
-  PickUp = 3,       ///< `hand` takes hold of item `index`, which lies in bone
-  PutDown = 4,      ///< `hand` lets go: what stays in bone stays, the rest goes back to the tray
-  ReadGauge = 5,    ///< the gauge in `hand` is read
-  Undo = 6,         ///< back to the last checkpoint; counted, time and shots stay spent
-  Finish = 7,       ///< end the operation
+  TakeShot = 1,   ///< one fluoroscopy image from `rotation_deg`, `tilt_deg`
+  Take = 2,       ///< `hand` takes instrument `index` of the catalogue from the tray
+  PickUp = 3,     ///< `hand` takes hold of item `index`, which lies in bone
+  PutDown = 4,    ///< `hand` lets go: what stays in bone stays, the rest goes back to the tray
+  ReadGauge = 5,  ///< the gauge in `hand` is read
+  Undo = 6,       ///< back to the last checkpoint; counted, time and shots stay spent
+  Finish = 7,     ///< end the operation
 };
 inline constexpr std::uint8_t kCommandKinds = 8;
 
@@ -71,9 +71,9 @@ struct Input {
 };
 static_assert(std::is_trivially_copyable_v<Input>);
 
-/// The input as recordings hold it and the world uses it (quantisation.hpp): positions to 1/1024 mm,
-/// directions and angles to 1/16384, forces to 1/64 N. Idempotent. What is not
-/// finite becomes a number that the world refuses.
+/// The input as recordings hold it and the world uses it (quantisation.hpp): positions to 1/1024
+/// mm, directions and angles to 1/16384, forces to 1/64 N. Idempotent. What is not finite becomes a
+/// number that the world refuses.
 [[nodiscard]] Input quantised(const Input& input) noexcept;
 
 }  // namespace carpus::simulation

@@ -140,11 +140,22 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 16> kNames{
-      "none",           "finished",          "unknown_command",       "no_such_hand",
-      "shot_out_of_range", "too_many_shots", "not_on_the_tray",       "hand_is_full",
-      "too_many_items", "no_wire_to_ride_on", "wire_is_taken",        "nothing_in_hand",
-      "nothing_there",  "something_rides_on_it", "no_gauge_in_hand",  "nothing_to_undo"};
+  static constexpr std::array<std::string_view, 16> kNames{"none",
+                                                           "finished",
+                                                           "unknown_command",
+                                                           "no_such_hand",
+                                                           "shot_out_of_range",
+                                                           "too_many_shots",
+                                                           "not_on_the_tray",
+                                                           "hand_is_full",
+                                                           "too_many_items",
+                                                           "no_wire_to_ride_on",
+                                                           "wire_is_taken",
+                                                           "nothing_in_hand",
+                                                           "nothing_there",
+                                                           "something_rides_on_it",
+                                                           "no_gauge_in_hand",
+                                                           "nothing_to_undo"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

@@ -24,12 +24,12 @@ enum class Refusal : std::uint8_t {
   ShotOutOfRange,
   TooManyShots,
   NotOnTheTray,
-  HandIsFull,        ///< what it holds is in bone and does not stay there: draw it back first
+  HandIsFull,  ///< what it holds is in bone and does not stay there: draw it back first
   TooManyItems,
-  NoWireToRideOn,    ///< a reamer, gauge or screw needs a wire that lies in the target
-  WireIsTaken,       ///< something rides on that wire already
+  NoWireToRideOn,  ///< a reamer, gauge or screw needs a wire that lies in the target
+  WireIsTaken,     ///< something rides on that wire already
   NothingInHand,
-  NothingThere,      ///< no such item, or it is in a hand already
+  NothingThere,  ///< no such item, or it is in a hand already
   SomethingRidesOnIt,
   NoGaugeInHand,
   NothingToUndo,

@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Inputs are whole multiples of small units, so that a recording is small and holds exactly what the
-// world was given. Units are powers of two: a multiple of one is exact in a double.
+// Inputs are whole multiples of small units, so that a recording is small and holds exactly what
+// the world was given. Units are powers of two: a multiple of one is exact in a double.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ inline constexpr double kAngleUnitRad = 1.0 / 16384;
 inline constexpr double kForceUnitN = 1.0 / 64;
 inline constexpr double kViewUnitDeg = 1.0 / 64;
 
-/// Beyond this many units, and where it is not finite, a value is no input: it becomes one more than
-/// this, for the world to refuse.
+/// Beyond this many units, and where it is not finite, a value is no input: it becomes one more
+/// than this, for the world to refuse.
 inline constexpr double kMostUnits = 1e9;
 inline constexpr std::int64_t kNoInputUnits = 1'000'000'001;
 

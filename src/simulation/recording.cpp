@@ -89,10 +89,9 @@ Input input_of(const InputUnits& units) {
     out.driver = static_cast<Driver>(hand.driver);
     out.guidance = static_cast<Guidance>(hand.guidance);
   }
-  input.wrist = {from_units(units.wrist[0], kAngleUnitRad),
-                 from_units(units.wrist[1], kAngleUnitRad),
-                 from_units(units.wrist[2], kAngleUnitRad),
-                 from_units(units.wrist[3], kForceUnitN)};
+  input.wrist = {
+      from_units(units.wrist[0], kAngleUnitRad), from_units(units.wrist[1], kAngleUnitRad),
+      from_units(units.wrist[2], kAngleUnitRad), from_units(units.wrist[3], kForceUnitN)};
   const InputUnits::What& command = units.command;
   input.command = {static_cast<CommandKind>(command.kind), command.hand, command.index,
                    from_units(command.rotation, kViewUnitDeg),
@@ -325,12 +324,13 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
   if (format == 1) {
     return carpus::Refusal{
-        "recording: format 1, of a wrist that did not move; it cannot be replayed, its stored score "
+        "recording: format 1, of a wrist that did not move; it cannot be replayed, its stored "
+        "score "
         "can be shown"};
   }
   if (format != kRecordingFormat) {
     return carpus::Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
-                   std::to_string(kRecordingFormat) + "; use the program that recorded it"};
+                           std::to_string(kRecordingFormat) + "; use the program that recorded it"};
   }
   Recording recording;
   recording.program_version = in.get_text();

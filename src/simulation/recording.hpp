@@ -1,15 +1,15 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A recording: every tick's input, from which the whole operation can be replayed to the same bytes,
-// and keyframes, from which any moment is reached.
+// A recording: every tick's input, from which the whole operation can be replayed to the same
+// bytes, and keyframes, from which any moment is reached.
 //
 // Layout, all little-endian: "CARPREC1"; u16 format version; text program version; u64 case
 // fingerprint; text procedure; u64 seed; u16 count and texts: the ids of the instruments that
 // commands name by number; then runs: u32 ticks (not 0), u16 mask of what changed, the changed
-// fields as signed differences in the units of quantisation.hpp, seven bits a byte; u32 0; u64 ticks
-// in all; u64 hash at the end; u32 keyframes, each u64 tick, u32 size, its bytes; u64 FNV-1a of all
-// bytes before it. A text is u16 size and UTF-8. A still hand costs nothing.
+// fields as signed differences in the units of quantisation.hpp, seven bits a byte; u32 0; u64
+// ticks in all; u64 hash at the end; u32 keyframes, each u64 tick, u32 size, its bytes; u64 FNV-1a
+// of all bytes before it. A text is u16 size and UTF-8. A still hand costs nothing.
 #pragma once
 
 #include <cstddef>
@@ -118,8 +118,8 @@ struct Replay {
                                                      const procedure::Procedure& procedure,
                                                      const Recording& recording);
 
-/// Brings a world to the state after `tick` (at most the last one): from the nearest keyframe before
-/// it, or from the beginning. Refuses a keyframe that does not fit.
+/// Brings a world to the state after `tick` (at most the last one): from the nearest keyframe
+/// before it, or from the beginning. Refuses a keyframe that does not fit.
 [[nodiscard]] Result<bool> seek(World& world, const Recording& recording, Tick tick);
 
 }  // namespace carpus::simulation

@@ -28,9 +28,9 @@ inline constexpr std::uint8_t kNoHand = 255;
 struct ItemView {
   InstrumentIndex instrument = kNoInstrument;  ///< kNoInstrument: this place is empty
   std::uint8_t hand = kNoHand;                 ///< that holds it
-  std::uint8_t body = kNoBody;  ///< in which its line is fixed, kNoBody while it is free
-  std::uint8_t wire = kNoItem;  ///< item on which it rides
-  Vec3 tip_in_patient{};        ///< where it really is, after contact [mm]
+  std::uint8_t body = kNoBody;     ///< in which its line is fixed, kNoBody while it is free
+  std::uint8_t wire = kNoItem;     ///< item on which it rides
+  Vec3 tip_in_patient{};           ///< where it really is, after contact [mm]
   Vec3 shaft_in_patient{0, 0, 1};  ///< unit, from the tip towards the hand
   bool in_target = false;
   std::uint8_t tip_body = kNoBody;  ///< body in which its tip is
@@ -44,12 +44,12 @@ struct ItemView {
 /// What a hand feels.
 struct HandView {
   std::uint8_t item = kNoItem;
-  bool touching = false;            ///< its free instrument touches bone
+  bool touching = false;  ///< its free instrument touches bone
   std::uint8_t touched_body = kNoBody;
-  double contact_depth_mm = 0.0;    ///< how far the hand's wish lies beyond where the tip is
+  double contact_depth_mm = 0.0;  ///< how far the hand's wish lies beyond where the tip is
   Vec3 contact_normal_in_patient{};
-  Vec3 force_in_patient{};          ///< on the hand [N]
-  double resistance_n = 0.0;        ///< of bone along the shaft [N]
+  Vec3 force_in_patient{};    ///< on the hand [N]
+  double resistance_n = 0.0;  ///< of bone along the shaft [N]
   bool operator==(const HandView&) const = default;
 };
 
@@ -66,23 +66,23 @@ struct TrackView {
 /// Kinds of things worth a line in the log.
 enum class EventKind : std::uint8_t {
   None = 0,
-  TouchedBone = 1,    ///< detail: body
-  EnteredBone = 2,    ///< an instrument engaged; detail: body
-  LeftFarSide = 3,    ///< the tip came out of the target's far side; value: mm
-  Withdrawn = 4,      ///< an instrument came out of bone; detail: instrument
-  ShotTaken = 5,      ///< detail: number of the shot
-  GaugeRead = 6,      ///< value: mm
-  Taken = 7,          ///< detail: instrument
-  PutDown = 8,        ///< detail: instrument
-  Seated = 9,         ///< a screw's tail is level with the surface; value: buried mm
+  TouchedBone = 1,     ///< detail: body
+  EnteredBone = 2,     ///< an instrument engaged; detail: body
+  LeftFarSide = 3,     ///< the tip came out of the target's far side; value: mm
+  Withdrawn = 4,       ///< an instrument came out of bone; detail: instrument
+  ShotTaken = 5,       ///< detail: number of the shot
+  GaugeRead = 6,       ///< value: mm
+  Taken = 7,           ///< detail: instrument
+  PutDown = 8,         ///< detail: instrument
+  Seated = 9,          ///< a screw's tail is level with the surface; value: buried mm
   StepCompleted = 10,  ///< detail: step
   Undone = 11,
   Finished = 12,
-  Refused = 13,     ///< a command that makes no sense now; detail: Refusal
-  WrongBone = 14,   ///< a bone was entered that is neither target nor allowed; detail: body
-  Slipped = 15,     ///< a turning tip slipped along a surface it met too flat; detail: body
+  Refused = 13,       ///< a command that makes no sense now; detail: Refusal
+  WrongBone = 14,     ///< a bone was entered that is neither target nor allowed; detail: body
+  Slipped = 15,       ///< a turning tip slipped along a surface it met too flat; detail: body
   WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
-  Stripped = 17,    ///< a screw was turned on after it was seated and lost its hold
+  Stripped = 17,      ///< a screw was turned on after it was seated and lost its hold
 };
 
 struct Event {

@@ -1,9 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One tick: quantise and check the input -> move the wrist and its bones -> carry out the command ->
-// move what each hand holds (free, or along its line in bone) -> tick off steps -> force, limited
-// last -> snapshot and hash.
+// One tick: quantise and check the input -> move the wrist and its bones -> carry out the command
+// -> move what each hand holds (free, or along its line in bone) -> tick off steps -> force,
+// limited last -> snapshot and hash.
 #include "simulation/world.hpp"
 
 #include <cstdint>
@@ -65,8 +65,7 @@ World::Model::Model(const cases::CaseData& case_data,
   }
 }
 
-World::State::State(const Model& model)
-    : tissue(model.fields), scene(model.fields, kHands) {
+World::State::State(const Model& model) : tissue(model.fields), scene(model.fields, kHands) {
   snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
 }
 
@@ -136,8 +135,7 @@ void World::State::emit(EventKind kind,
     ++faults.lost_events;
     return;
   }
-  const InstrumentIndex instrument =
-      item < kMaxItems ? now.items[item].instrument : kNoInstrument;
+  const InstrumentIndex instrument = item < kMaxItems ? now.items[item].instrument : kNoInstrument;
   snapshot.events[snapshot.event_count++] = {kind, item, instrument, detail, value, spent.tick};
 }
 
@@ -159,8 +157,8 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
       hand.plan = resting_at(hand.wish.tip_in_patient, hand.wish.shaft_in_patient);
       if (item != nullptr && !item->is_fixed()) {
         item->shaft = hand.wish.shaft_in_patient;
-        item->tip = hand.wish.tip_in_patient +
-                    item->shaft * kind_of(model, *item).shape.back_z_mm();
+        item->tip =
+            hand.wish.tip_in_patient + item->shaft * kind_of(model, *item).shape.back_z_mm();
       }
       hand.has_wish = true;
     }
@@ -190,9 +188,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   update_hash(model);
 }
 
-World::World(const cases::CaseData& data,
-             const procedure::Procedure& procedure,
-             std::uint64_t seed)
+World::World(const cases::CaseData& data, const procedure::Procedure& procedure, std::uint64_t seed)
     : model_(std::make_unique<Model>(data, procedure, seed)),
       state_(std::make_unique<State>(*model_)) {
   state_->open(*model_);

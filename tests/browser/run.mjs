@@ -5,6 +5,7 @@
 // driven and measured, pictures are taken, a screw goes in, the score is shown and the attempt is in
 // the list. Then what goes wrong: a second page, broken messages, a lost connection.
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
+import { accessibilityFaults, focusFaults } from "./accessibility.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
 import { cross, dot, Operator, readAxis, readHeldWrist } from "./operator.mjs";
 import { startStation } from "./station.mjs";
@@ -69,45 +70,23 @@ function watch(page, problems) {
   page.on("pageerror", (error) => problems.push(String(error)));
 }
 
-/** Names for everything that can be used, one main, no two elements of one id. */
-function accessibilityFaults(page) {
-  return page.evaluate(() => {
-    const faults = [];
-    const shown = (e) => e.getClientRects().length > 0;
-    const labelled = (e) =>
-      (e.getAttribute("aria-label") ?? "").trim() !== "" ||
-      e.hasAttribute("aria-labelledby") ||
-      (e.textContent ?? "").trim() !== "" ||
-      (e.id !== "" &&
-        document.querySelector(`label[for="${e.id}"]`) !== null) ||
-      e.closest("label") !== null;
-    for (const e of document.querySelectorAll(
-      "button, a[href], input, select, dialog[open]",
-    )) {
-      if (shown(e) && !labelled(e))
-        faults.push(`without a name: ${e.outerHTML.slice(0, 90)}`);
-    }
-    for (const e of document.querySelectorAll("img:not([alt])"))
-      faults.push(`image without alt: ${e.outerHTML}`);
-    const ids = [...document.querySelectorAll("[id]")].map((e) => e.id);
-    for (const id of ids)
-      if (ids.indexOf(id) !== ids.lastIndexOf(id))
-        faults.push(`id twice: ${id}`);
-    if (document.querySelectorAll("main").length !== 1)
-      faults.push("not one main");
-    if (document.documentElement.lang === "") faults.push("no language");
-    return faults;
-  });
-}
-
-async function expectAccessible(page) {
+/** @param tabs  so many times Tab shows where the focus is */
+async function expectAccessible(page, tabs = 0) {
   const faults = await accessibilityFaults(page);
+  if (tabs > 0) faults.push(...(await focusFaults(page, tabs)));
   expect(faults.length === 0, faults.join("; "));
 }
 
 async function operate(page, station, problems) {
   const operator = new Operator(page);
   const axis = readAxis(station.caseFolder);
+  await check(page, "the start dialog can be used by everyone", async () => {
+    await page.goto(station.url);
+    await page
+      .locator("dialog.start button[type=submit]:not([disabled])")
+      .waitFor();
+    await expectAccessible(page, 4);
+  });
   const went = await check(
     page,
     "the start dialog says whom one operates on, and starts",
@@ -126,12 +105,14 @@ async function operate(page, station, problems) {
     },
   );
   if (!went) return;
-  await check(page, "the page can be used by names and keyboard", () =>
-    expectAccessible(page),
-  );
+  await check(page, "the page can be used by names and keyboard", async () => {
+    await expectAccessible(page, 20);
+    await page.locator(".stage canvas").first().focus();
+  });
   await check(page, "the help opens by ? and closes", async () => {
     await page.keyboard.press("?");
     await page.locator("dialog.help[open]").waitFor();
+    await expectAccessible(page);
     await page.keyboard.press("Escape");
     await page
       .locator("dialog.help:not([open])")
@@ -322,7 +303,7 @@ async function operate(page, station, problems) {
       );
       expect(Number.parseFloat(angle) < 5, `angle to the axis ${angle}`);
       await page.locator(".placement canvas").first().waitFor();
-      await expectAccessible(page);
+      await expectAccessible(page, 6);
     },
   );
   await check(
@@ -353,7 +334,7 @@ async function operate(page, station, problems) {
       text.includes(TRAINEE) && text.includes("of 100"),
       `the first row is '${text}'`,
     );
-    await expectAccessible(page);
+    await expectAccessible(page, 4);
   });
 }
 

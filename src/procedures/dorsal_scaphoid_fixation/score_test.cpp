@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cases/synthetic_case_test_support.hpp"
 #include "core/units.hpp"
-#include "procedure/score_json.hpp"
 #include "procedures/dorsal_scaphoid_fixation/declared.hpp"
 
 namespace carpus::procedures::dorsal_scaphoid_fixation {
@@ -273,16 +271,6 @@ TEST(Score, WiresThatTakeNoScrewAndLinesBesideTheBoneDoNotCount) {
   record.lines.push_back(joystick);
   record.lines.push_back(beside);
   EXPECT_NEAR(*item_of(score(wrist(), record), "angle_to_central_axis_deg").value, 0.0, 1e-6);
-}
-
-TEST(ScoreJson, SaysTheSameAsTheReport) {
-  const ScoreReport report = score(wrist(), perfect());
-  const auto json = nlohmann::json::parse(score_json(report));
-  EXPECT_EQ(json.at("overall").get<double>(), report.overall);
-  EXPECT_EQ(json.at("items").size(), report.items.size());
-  EXPECT_EQ(json.at("items").at(0).at("grade"), "good");
-  const auto empty = nlohmann::json::parse(score_json(score(wrist(), {})));
-  EXPECT_TRUE(empty.at("items").at(0).at("value").is_null());
 }
 
 }  // namespace

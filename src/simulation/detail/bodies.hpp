@@ -30,8 +30,8 @@ using BodySet = std::uint32_t;
 
 /// What kind each body is to a procedure.
 struct BodyKinds {
-  BodySet target = 0;   ///< the bone that is operated on, all its fragments
-  BodySet allowed = 0;  ///< may be entered on the way
+  BodySet target = 0;     ///< the bone that is operated on, all its fragments
+  BodySet allowed = 0;    ///< may be entered on the way
   BodySet fragments = 0;  ///< parts of a broken bone, which move apart where pushed
 };
 

@@ -35,8 +35,8 @@ class Writer {
   }
   /// Seven bits a byte, small numbers of either sign in few.
   void put_signed(std::int64_t value) {
-    auto bits = (static_cast<std::uint64_t>(value) << 1U) ^
-                static_cast<std::uint64_t>(value < 0 ? -1 : 0);
+    auto bits =
+        (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value < 0 ? -1 : 0);
     while (bits >= 0x80U) {
       bytes_.push_back(static_cast<std::byte>(bits | 0x80U));
       bits >>= 7U;

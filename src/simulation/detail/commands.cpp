@@ -117,7 +117,11 @@ void World::State::put_down(const Model& model, std::uint8_t hand) noexcept {
   const InstrumentIndex instrument = held->instrument;
   now.held[hand] = kNoItem;
   held->hand = kNoHand;
-  if (!held->is_fixed() || !kind_of(model, *held).stays) *held = Item{};
+  if (!held->is_fixed() || !kind_of(model, *held).stays) {
+    *held = Item{};
+  } else {
+    held->wire = kNoItem;  // it stays by itself; the wire on which it came may go
+  }
   spent.hands[hand].touched_body = kNoBody;
   scene.clear_instrument(hand);
   emit(EventKind::PutDown, place, instrument, 0.0);

@@ -71,9 +71,9 @@ World::State::Touched World::State::surface_at(const Vec3& point) const noexcept
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
     const Vec3 local = (inverses[b] * Point<frame::Patient>{point}).v;
     if (!tissue.is_near(b, local)) continue;
-    const double distance_mm = tissue.distance_mm(b, local);
+    const double distance_mm = tissue.untouched_distance_mm(b, local);
     if (nearest.body != kNoBody && distance_mm >= nearest.distance_mm) continue;
-    const Vec3 normal = tissue.normal(b, local);
+    const Vec3 normal = tissue.untouched_normal(b, local);
     nearest = {b, distance_mm, (poses[b] * Direction<frame::Bone>{normal}).v};
   }
   return nearest;
@@ -94,10 +94,14 @@ void World::State::move_free(const Model& model, std::uint8_t hand) noexcept {
   const Vec3 before = item.shaft;
   turn_towards(item, spent.hands[hand].plan.shaft);
   // Bones may have moved into it, or it turned into them.
-  const Resolved turned = push_out(hand, item.tip, item.shaft);
+  Resolved turned = push_out(hand, item.tip, item.shaft);
   if (turned.is_wedged) {  // no room to turn
     ++faults.unresolved_contacts;
     item.shaft = before;
+    turned = push_out(hand, item.tip, item.shaft);
+  }
+  if (turned.is_wedged) {  // between bones that close on it: it holds them
+    stop_wrist(model);
   } else {
     item.tip = turned.tip;
   }
@@ -161,8 +165,8 @@ bool World::State::lead_through_sleeve(const Model& model, std::uint8_t hand) no
   const Vec3 shaft_before = item.shaft;
   item.shaft = sleeve_item.shaft;
   const double from = std::clamp(dot(item.tip - sleeve_item.tip, sleeve_item.shaft), -100.0, 200.0);
-  const double way = std::clamp(along - from, -kSubstepMm * kMaxSubsteps,
-                                kSubstepMm * kMaxSubsteps);
+  const double way =
+      std::clamp(along - from, -kSubstepMm * kMaxSubsteps, kSubstepMm * kMaxSubsteps);
   // Along the axis in short steps, until bone stops it.
   Vec3 tip = sleeve_item.tip + sleeve_item.shaft * from;
   const int steps = 1 + static_cast<int>(detail::absolute(way) / kSubstepMm);

@@ -19,13 +19,13 @@ using instruments::Work;
 
 namespace {
 
-constexpr double kLookAheadMm = 0.3;   // a trocar's edges cut this far before its middle
-constexpr double kDeepestMm = 90.0;    // no wire goes further
-constexpr double kScratchMm = 0.3;     // deeper, a bone counts as entered
-constexpr double kFarExitMm = 0.3;     // beyond the far surface, past what is doubtful
-constexpr double kNearBoneMm = 1.5;    // as far as a CT blurs a bone's density around it
+constexpr double kLookAheadMm = 0.3;  // a trocar's edges cut this far before its middle
+constexpr double kDeepestMm = 90.0;   // no wire goes further
+constexpr double kScratchMm = 0.3;    // deeper, a bone counts as entered
+constexpr double kFarExitMm = 0.3;    // beyond the far surface, past what is doubtful
+constexpr double kNearBoneMm = 1.5;   // as far as a CT blurs a bone's density around it
 constexpr double kSoftTissueHu = 40.0;
-constexpr double kCutStepMm = 0.05;    // removed at once: a fifth of a voxel
+constexpr double kCutStepMm = 0.05;      // removed at once: a fifth of a voxel
 constexpr double kGreatestSteer = 0.02;  // of its way a tip is drawn aside into an old track [E]
 
 }  // namespace
@@ -100,8 +100,8 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
       const double feed = std::clamp(kind.feed.mm_per_s_per_n * (thrust - resistance), 0.0,
                                      kind.feed.fastest_mm_per_s);
       const double before = item.travel_mm;
-      item.travel_mm = std::min(item.travel_mm + feed * kTickSeconds,
-                                item.entry_at_mm + kDeepestMm);
+      item.travel_mm =
+          std::min(item.travel_mm + feed * kTickSeconds, item.entry_at_mm + kDeepestMm);
       if (kind.work == Work::Drill) steer(model, item, item.travel_mm - before);
       view.resistance_n = std::min(thrust, resistance);
       if (model.kinds.fragments != 0) push_fragment(model, item, view.resistance_n);
@@ -138,9 +138,9 @@ void World::State::cut(const Model& model, Item& item) noexcept {
     track.from_radius_mm = kind.cut_tip_radius_mm;
   }
   // A tapered tool widens the way behind its tip as it follows.
-  const double taper =
-      kind.cut_length_mm > 0.0 ? (kind.cut_tail_radius_mm - kind.cut_tip_radius_mm) / kind.cut_length_mm
-                               : 0.0;
+  const double taper = kind.cut_length_mm > 0.0
+                           ? (kind.cut_tail_radius_mm - kind.cut_tip_radius_mm) / kind.cut_length_mm
+                           : 0.0;
   TrackView& track = now.tracks[item.track];
   track.to_in_bone = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
   track.to_radius_mm = kind.cut_tip_radius_mm;
@@ -171,16 +171,14 @@ void World::State::cut(const Model& model, Item& item) noexcept {
 void World::State::steer(const Model& model, Item& item, double advanced_mm) noexcept {
   if (!(advanced_mm > 0.0)) return;
   const instruments::Instrument& kind = kind_of(model, item);
-  const Vec3 ahead =
-      item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
+  const Vec3 ahead = item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
   const Vec3 pull =
       tissue.pull_to_removed(item.body, ahead, item.direction_in_bone, kind.cut_tip_radius_mm);
   if (!(squared_length(pull) > 0.0)) return;
   // The tip goes aside by a share of its way; the line turns about its entry.
   const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm +
                    pull * (kGreatestSteer * advanced_mm);
-  item.direction_in_bone =
-      normalized_or(tip - item.origin_in_bone, item.direction_in_bone);
+  item.direction_in_bone = normalized_or(tip - item.origin_in_bone, item.direction_in_bone);
 }
 
 /// What the tip has come into or out of.
@@ -224,9 +222,9 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
   const std::uint8_t wire = item.wire;
   spent.hands[hand].reverse_is_held = true;
   emit(EventKind::Withdrawn, index, item.instrument, 0.0);
-  if (wire < kMaxItems) {
+  if (kind_of(model, item).work != Work::Drill) {
     item = Item{};
-    const bool is_free = now.items[wire].hand == kNoHand;
+    const bool is_free = wire < kMaxItems && now.items[wire].hand == kNoHand;
     now.held[hand] = is_free ? wire : kNoItem;
     if (is_free) now.items[wire].hand = hand;
     scene.clear_instrument(hand);
@@ -250,9 +248,9 @@ void World::State::seat(const Model& model, std::uint8_t index) noexcept {
   const double buried = buried_mm(model, item);
   if (buried >= 0.0 && !item.told_seated) {
     item.told_seated = true;
-    now.holding_share = tissue.holding_share(model.data.ct.view(), item.body, entry_in_bone(item),
-                                             item.direction_in_bone, item.depth_mm(),
-                                             kind_of(model, item));
+    now.holding_share =
+        tissue.holding_share(model.data.ct.view(), item.body, entry_in_bone(item),
+                             item.direction_in_bone, item.depth_mm(), kind_of(model, item));
     emit(EventKind::Seated, index, item.instrument, buried);
   }
   if (buried < 0.0) item.told_seated = false;

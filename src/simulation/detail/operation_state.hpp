@@ -40,14 +40,14 @@ struct Item {
   bool in_target = false;         ///< it entered the target on this line
   bool has_left = false;          ///< its tip is beyond the target's far surface
   bool told_seated = false;
-  Vec3 tip;                  ///< frame Patient, after contact [mm]
-  Vec3 shaft{0, 0, 1};       ///< unit, towards the hand
-  Vec3 origin_in_bone;       ///< where the tip was when the line was fixed
-  Vec3 direction_in_bone;    ///< unit, into the bone
-  double travel_mm = 0.0;    ///< tip from the origin
-  double entry_at_mm = 0.0;  ///< travel at which it entered the target, else the first bone
-  double chord_mm = 0.0;     ///< of this line inside the target, gap included
-  double cut_to_mm = 0.0;    ///< travel up to which bone was removed
+  Vec3 tip;                       ///< frame Patient, after contact [mm]
+  Vec3 shaft{0, 0, 1};            ///< unit, towards the hand
+  Vec3 origin_in_bone;            ///< where the tip was when the line was fixed
+  Vec3 direction_in_bone;         ///< unit, into the bone
+  double travel_mm = 0.0;         ///< tip from the origin
+  double entry_at_mm = 0.0;       ///< travel at which it entered the target, else the first bone
+  double chord_mm = 0.0;          ///< of this line inside the target, gap included
+  double cut_to_mm = 0.0;         ///< travel up to which bone was removed
   std::uint32_t told_bodies = 0;  ///< wrong bones told of on this line, bit by body
 
   [[nodiscard]] bool is_there() const noexcept { return instrument != kNoInstrument; }
@@ -129,14 +129,14 @@ struct PassState {
 
 /// A hand between two ticks.
 struct HandState {
-  HandInput wish;                     ///< newest good input
-  HandPlan plan;                      ///< on its way there
+  HandInput wish;  ///< newest good input
+  HandPlan plan;   ///< on its way there
   bool has_wish = false;
-  bool forward_is_held = false;       ///< driver forward since the last tick
-  bool reverse_is_held = false;       ///< in reverse since what it held came out: let go first
-  bool slip_is_told = false;          ///< since the driver started
+  bool forward_is_held = false;  ///< driver forward since the last tick
+  bool reverse_is_held = false;  ///< in reverse since what it held came out: let go first
+  bool slip_is_told = false;     ///< since the driver started
   std::uint8_t touched_body = kNoBody;
-  Vec3 contact_normal;                ///< frame Patient
+  Vec3 contact_normal;  ///< frame Patient
   haptics::VirtualCoupling coupling;
 };
 

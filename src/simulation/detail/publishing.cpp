@@ -70,8 +70,8 @@ void World::State::publish_hand(std::size_t hand) noexcept {
     held.coupling.release(wish);
     return;
   }
-  // The hand is tied to where its instrument could go: free, to beside the bone; in bone to its line,
-  // along which it goes as far as the bone lets it.
+  // The hand is tied to where its instrument could go: free, to beside the bone; in bone to its
+  // line, along which it goes as far as the bone lets it.
   view.force_in_patient = held.coupling.force_n(item->tip, wish, haptics::kForceLimitN);
   faults.forces_zeroed += held.coupling.take_faults();
 }

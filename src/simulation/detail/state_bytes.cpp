@@ -122,7 +122,8 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   StateHash hash;
   hash.add_bytes(body);
   detail::Reader end(bytes.last(kChecksum));
-  if (end.get(8) != hash.value()) return carpus::Refusal{"keyframe: damaged, its checksum does not match"};
+  if (end.get(8) != hash.value())
+    return carpus::Refusal{"keyframe: damaged, its checksum does not match"};
 
   auto next = std::make_unique<State>(*model_);
   detail::Reader in(body);

@@ -34,22 +34,16 @@ bool Tissue::is_near(std::uint8_t body, const Vec3& point) const noexcept {
          cell.z < size[2];
 }
 
-double Tissue::distance_mm(std::uint8_t body, const Vec3& point) const noexcept {
-  const double untouched = bones_[body].sample(point);
-  const fields::CutField& cut = cuts_.field(body);
-  return cut.is_cut() ? std::max(untouched, cut.sample(point)) : untouched;
-}
-
-Vec3 Tissue::normal(std::uint8_t body, const Vec3& point) const noexcept {
-  // By differences over a cell: the same for the bone's field and its cuts, on which the surface
-  // that is left is made of both.
-  const double h = 0.5 * bones_[body].spacing_mm();
-  const auto at = [&](double x, double y, double z) {
-    return distance_mm(body, point + Vec3{x, y, z});
-  };
-  const Vec3 slope{at(h, 0, 0) - at(-h, 0, 0), at(0, h, 0) - at(0, -h, 0),
-                   at(0, 0, h) - at(0, 0, -h)};
-  return normalized_or(slope, {});
+Vec3 Tissue::untouched_normal(std::uint8_t body, const Vec3& point) const noexcept {
+  const fields::ContactField& field = bones_[body];
+  const Vec3 cells = field.cells_from_point(point);
+  const VoxelIndex cell{static_cast<int>(cells.x), static_cast<int>(cells.y),
+                        static_cast<int>(cells.z)};
+  fields::CellPolynomial polynomial;
+  if (!field.load(cell, polynomial)) return {};
+  const Vec3 low{static_cast<double>(cell.x), static_cast<double>(cell.y),
+                 static_cast<double>(cell.z)};
+  return normalized_or(polynomial.slope(cells - low), {});
 }
 
 double Tissue::density_hu(const CtView& ct, std::uint8_t body, const Vec3& point) const noexcept {
@@ -85,23 +79,26 @@ double Tissue::holding_share(const CtView& ct,
                              double depth_mm,
                              const instruments::Instrument& screw) const noexcept {
   constexpr int kStations = 48;
+  constexpr int kRadii = 3;
   constexpr double kOutside = 0.0;
   const Vec3 a = any_perpendicular(direction);
   const Vec3 b = cross(direction, a);
   const double length = screw.length_mm;
   const double crest = screw.shape.greatest_radius_mm();
   const double core = std::max(screw.cut_tip_radius_mm, screw.cut_tail_radius_mm);
-  const double middle = 0.5 * (crest + core);
   double left = 0;
   double stood = 0;
   for (int i = 0; i < kStations; ++i) {
     const Vec3 on_axis = entry + direction * (depth_mm - length * (i + 0.5) / kStations);
     for (const auto& [x, y] : kAround) {
-      const Vec3 p = on_axis + (a * x + b * y) * middle;
-      if (!is_near(body, p) || untouched_distance_mm(body, p) > kOutside) continue;
-      const double bone = std::max(0.0, sample_at(ct, p, kSoftTissueHu) - kSoftTissueHu);
-      stood += bone;
-      left += bone * (1.0 - cuts_.field(body).removed_share(p, kVoxelMm));
+      for (int k = 0; k < kRadii; ++k) {
+        const double radius = core + (crest - core) * (k + 0.5) / kRadii;
+        const Vec3 p = on_axis + (a * x + b * y) * radius;
+        if (!is_near(body, p) || untouched_distance_mm(body, p) > kOutside) continue;
+        const double bone = std::max(0.0, sample_at(ct, p, kSoftTissueHu) - kSoftTissueHu);
+        stood += bone;
+        left += bone * (1.0 - cuts_.field(body).removed_share(p, kVoxelMm));
+      }
     }
   }
   return stood > 0 ? left / stood : 1.0;

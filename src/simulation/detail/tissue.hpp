@@ -36,10 +36,8 @@ class Tissue {
   [[nodiscard]] double untouched_distance_mm(std::uint8_t body, const Vec3& point) const noexcept {
     return bones_[body].sample(point);
   }
-  /// To the surface that is left.
-  [[nodiscard]] double distance_mm(std::uint8_t body, const Vec3& point) const noexcept;
-  /// Unit, out of the bone that is left; zero where the field has no slope.
-  [[nodiscard]] Vec3 normal(std::uint8_t body, const Vec3& point) const noexcept;
+  /// Unit, out of that surface; zero where the field has no slope.
+  [[nodiscard]] Vec3 untouched_normal(std::uint8_t body, const Vec3& point) const noexcept;
   /// HU of what is left, at a point of the CT as scanned.
   [[nodiscard]] double density_hu(const CtView& ct,
                                   std::uint8_t body,
@@ -49,14 +47,14 @@ class Tissue {
   fields::Removal remove(std::uint8_t body, const SweptTool& swept) noexcept {
     return cuts_.remove(body, swept);
   }
-  /// Towards where bone beside a tip was removed: a vector across `direction` of length 0 to 1; zero
-  /// in untouched bone.
+  /// Towards where bone beside a tip was removed: a vector across `direction` of length 0 to 1;
+  /// zero in untouched bone.
   [[nodiscard]] Vec3 pull_to_removed(std::uint8_t body,
                                      const Vec3& tip,
                                      const Vec3& direction,
                                      double radius_mm) const noexcept;
-  /// How a screw holds: bone left between the thread's core and crest, weighted by its density, as a
-  /// share of what stood there in the untouched body [1]. 1 where nothing stood.
+  /// How a screw holds: bone left between the thread's core and crest, weighted by its density, as
+  /// a share of what stood there in the untouched body [1]. 1 where nothing stood.
   /// @param entry, direction  the screw's line; its tip lies `depth_mm` along it.
   [[nodiscard]] double holding_share(const CtView& ct,
                                      std::uint8_t body,

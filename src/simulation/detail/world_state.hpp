@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a world holds while it runs: the case as the tick reads it, everything that changes, and what
-// changes it.
+// What a world holds while it runs: the case as the tick reads it, everything that changes, and
+// what changes it.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ struct World::Model {
   std::span<const instruments::Instrument> catalogue;
   std::vector<fields::ContactField> fields;  ///< by body
   std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
-  std::vector<BoneSolid> target;    ///< one: the target's fragments as scanned, gap bridged
+  std::vector<BoneSolid> target;  ///< one: the target's fragments as scanned, gap bridged
   procedure::Opening opening;
 };
 
@@ -47,9 +47,10 @@ struct World::State {
   detail::Spent spent;
   detail::Tissue tissue;
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
-  std::array<detail::BodyPose, kMaxBodies> poses{};         ///< follow from wrist and shifts
+  std::array<detail::BodyPose, kMaxBodies> poses{};  ///< follow from wrist and shifts
   std::array<Pose<frame::Bone, frame::Patient>, kMaxBodies> inverses{};
   std::array<Vec3, kMaxBodies> applied_shift{};  ///< that is in `poses`
+  WristPose wrist_before;                        ///< at the beginning of the tick
   Snapshot snapshot;
   TickFaults faults;
   std::array<procedure::Shot, kMaxShots> shots{};
@@ -80,6 +81,7 @@ struct World::State {
 
   // wrist_motion.cpp
   void move_wrist(const Model& model, const WristPose& raw) noexcept;
+  void stop_wrist(const Model& model) noexcept;
   void pose_bodies(const Model& model) noexcept;
   void carry_fixed_items() noexcept;
   [[nodiscard]] bool is_wrist_pinned(const Model& model) const noexcept;
@@ -114,8 +116,7 @@ struct World::State {
   void come_out(const Model& model, std::uint8_t hand) noexcept;
   void seat(const Model& model, std::uint8_t index) noexcept;
   void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
-  [[nodiscard]] detail::BodyPose shifted_pose(std::uint8_t body,
-                                              const Vec3& shift) const noexcept;
+  [[nodiscard]] detail::BodyPose shifted_pose(std::uint8_t body, const Vec3& shift) const noexcept;
   [[nodiscard]] bool is_fragment_inside_another(const Model& model,
                                                 std::uint8_t body) const noexcept;
   [[nodiscard]] double density_hu(const Model& model, const Vec3& point_in_patient) const noexcept;

@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The wrist follows where it is wanted at a hand's speed, within its limits, as long as nothing pins
-// its bones together; bodies and all that is fixed in them go along.
+// The wrist follows where it is wanted at a hand's speed, within its limits, as long as nothing
+// pins its bones together; bodies and all that is fixed in them go along.
 #include <cstdint>
 
 #include "simulation/detail/world_state.hpp"
@@ -16,11 +16,11 @@ using detail::Item;
 
 namespace {
 
-constexpr double kTurnRadPerTick = 0.001;     // 57 degrees a second
-constexpr double kTractionNPerTick = 0.05;    // 50 N a second
-constexpr double kStiffnessNPerMm = 5.0;      // of a nonunion's gap tissue [E]
-constexpr double kYieldMmPerTick = 0.005;     // a fragment moves at most 5 mm a second
-constexpr double kGreatestShiftMm = 2.0;      // then ligaments hold it [E]
+constexpr double kTurnRadPerTick = 0.001;   // 57 degrees a second
+constexpr double kTractionNPerTick = 0.05;  // 50 N a second
+constexpr double kStiffnessNPerMm = 5.0;    // of a nonunion's gap tissue [E]
+constexpr double kYieldMmPerTick = 0.005;   // a fragment moves at most 5 mm a second
+constexpr double kGreatestShiftMm = 2.0;    // then ligaments hold it [E]
 
 double towards(double from, double to, double most) noexcept {
   const double way = to - from;
@@ -56,6 +56,7 @@ void World::State::move_wrist(const Model& model, const WristPose& raw) noexcept
     ++faults.bad_inputs;
     return;
   }
+  wrist_before = spent.wrist;
   const WristPose wanted = model.data.hand_motion.limits.clamp(raw);
   const WristPose before = spent.wrist;
   if (wanted == before) {
@@ -84,6 +85,16 @@ BodyPose World::State::shifted_pose(std::uint8_t body, const Vec3& shift) const 
   return pose;
 }
 
+/// Takes this tick's motion of the wrist back: something is in its way.
+void World::State::stop_wrist(const Model& model) noexcept {
+  if (spent.wrist == wrist_before) return;
+  spent.wrist = wrist_before;
+  pose_bodies(model);
+  carry_fixed_items();
+  if (!spent.wrist_is_told) emit(EventKind::WristStopped, kNoItem, 0, 0.0);
+  spent.wrist_is_told = true;
+}
+
 /// The bodies' poses from wrist and shifts.
 void World::State::pose_bodies(const Model& model) noexcept {
   const auto by_group = model.data.hand_motion.poses_at(spent.wrist);
@@ -103,9 +114,9 @@ void World::State::carry_fixed_items() noexcept {
       item.direction_in_bone = now.items[item.wire].direction_in_bone;
     }
     const detail::BodyPose& pose = poses[item.body];
-    item.tip = (pose * Point<frame::Bone>{item.origin_in_bone +
-                                          item.direction_in_bone * item.travel_mm})
-                   .v;
+    item.tip =
+        (pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.travel_mm})
+            .v;
     item.shaft = -(pose * Direction<frame::Bone>{item.direction_in_bone}).v;
   }
 }

@@ -6,6 +6,8 @@ import * as THREE from "three";
 
 interface Named {
   readonly text: string;
+  readonly bone: THREE.Mesh;
+  /** In the bone's own frame: the leader goes where the bone goes. */
   readonly centre: THREE.Vector3;
   x: number;
   y: number;
@@ -36,7 +38,7 @@ export class BoneNames {
     this.named = bones.map((bone) => {
       const centre = new THREE.Vector3();
       bone.geometry.boundingBox?.getCenter(centre);
-      return { text: boneLabel(bone.name), centre, x: 0, y: 0, labelY: 0, left: false };
+      return { text: boneLabel(bone.name), bone, centre, x: 0, y: 0, labelY: 0, left: false };
     });
   }
 
@@ -46,12 +48,12 @@ export class BoneNames {
     this.context?.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  draw(camera: THREE.Camera, patient: THREE.Matrix4, width: number, height: number): void {
+  draw(camera: THREE.Camera, width: number, height: number): void {
     const context = this.context;
     if (context === null) return;
     context.clearRect(0, 0, width, height);
     for (const bone of this.named) {
-      this.projected.copy(bone.centre).applyMatrix4(patient).project(camera);
+      this.projected.copy(bone.centre).applyMatrix4(bone.bone.matrixWorld).project(camera);
       bone.x = (0.5 + 0.5 * this.projected.x) * width;
       bone.y = (0.5 - 0.5 * this.projected.y) * height;
       bone.left = bone.x < width / 2;

@@ -5,14 +5,18 @@
 import * as THREE from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { vertexOcclusion, type Surface } from "../bone_shading";
-import { boneMaterial, depthOnlyMaterial, skinMaterial } from "./materials";
+import { makeHittable } from "./bone_rays";
+import { boneMaterial } from "./materials";
+import { Skin } from "./skin";
+
+export type BoneMesh = THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
 
 export interface CaseScene {
   /** All of it, in mm of the Patient frame. */
   readonly root: THREE.Group;
-  readonly bones: readonly THREE.Mesh[];
-  readonly skin: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial> | undefined;
-  readonly skinDepth: THREE.Mesh | undefined;
+  /** Each in a frame of its own, which is Patient's until it moves; hittable (bone_rays.ts). */
+  readonly bones: readonly BoneMesh[];
+  readonly skin: Skin | undefined;
 }
 
 /** Where no light reaches, bone is this part of its colour: warm, as fat and cartilage between. */
@@ -21,36 +25,34 @@ const DARK: readonly [number, number, number] = [0.16, 0.1, 0.075];
 export async function loadCaseScene(url: string): Promise<CaseScene> {
   const loaded = await new GLTFLoader().loadAsync(url);
   const root = new THREE.Group();
-  const bones: THREE.Mesh[] = [];
-  let skin: CaseScene["skin"];
-  let skinDepth: CaseScene["skinDepth"];
+  const bones: BoneMesh[] = [];
+  let skinSurface: THREE.BufferGeometry | undefined;
   loaded.scene.updateMatrixWorld(true);
-  const material = boneMaterial();
   loaded.scene.traverse((node) => {
     if (!(node instanceof THREE.Mesh)) return;
     const mesh = node as THREE.Mesh;
     const name = mesh.name !== "" ? mesh.name : (mesh.parent?.name ?? "");
     const geometry = mesh.geometry.clone().applyMatrix4(mesh.matrixWorld);
     if (geometry.getAttribute("normal") === undefined) geometry.computeVertexNormals();
-    if (name === "skin") {
-      skinDepth = new THREE.Mesh(geometry, depthOnlyMaterial());
-      skinDepth.renderOrder = 5;
-      skin = new THREE.Mesh(geometry, skinMaterial());
-      skin.renderOrder = 6;
-      return;
-    }
-    const bone = new THREE.Mesh(geometry, material);
-    bone.name = name;
-    bone.castShadow = bone.receiveShadow = true;
-    geometry.computeBoundingBox();
-    geometry.computeBoundingSphere();
-    bones.push(bone);
+    if (name === "skin") skinSurface = geometry;
+    else bones.push(makeBone(name, geometry));
   });
   if (bones.length === 0) throw new Error("the scene holds no bones");
   shade(bones);
   root.add(...bones);
-  if (skin !== undefined && skinDepth !== undefined) root.add(skinDepth, skin);
-  return { root, bones, skin, skinDepth };
+  const skin = skinSurface === undefined ? undefined : new Skin(skinSurface, bones);
+  if (skin !== undefined) root.add(skin.group);
+  return { root, bones, skin };
+}
+
+function makeBone(name: string, geometry: THREE.BufferGeometry): BoneMesh {
+  const bone = new THREE.Mesh(geometry, boneMaterial());
+  bone.name = name;
+  bone.castShadow = bone.receiveShadow = true;
+  geometry.computeBoundingBox();
+  geometry.computeBoundingSphere();
+  makeHittable(bone);
+  return bone;
 }
 
 function shade(bones: readonly THREE.Mesh[]): void {

@@ -1,10 +1,13 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The 3-D view: bones, skin, instruments, contact.
-export { Theatre, VIEWS, type ViewId } from "./theatre";
+// The 3-D view: bones and what was drilled out of them, skin, instruments, contact.
+export { Theatre } from "./theatre";
+export { VIEWS, type ViewId } from "./sight";
 export { loadCaseScene, type CaseScene } from "./case_scene";
-export { boneMaterial, glassBoneMaterial, metalMaterial } from "./materials";
+export { glassBoneMaterial } from "./materials";
 export { studioLight } from "./light";
-export { screwGeometry, wireGeometry, alignShaft, WIRE_LENGTH_MM } from "./instruments";
-export { backdrop } from "./backdrop";
+export { alignShaft, drawInstrument } from "./instruments";
+export type { InstrumentPart, PartKind, PartMaterial } from "./instrument_model";
+export { screwParts, wireParts } from "./instrument_set";
+export type { Track } from "./tunnel_model";

@@ -1,141 +1,135 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Guide wire, powered driver, headless compression screw and its driver, at true size [mm]. Each
-// lies along +z: its tip at the origin, the hand at +z.
+// Draws an instrument from its parts (instrument_model.ts), at true size [mm], along +z.
 import * as THREE from "three";
-import { handleMaterial, metalMaterial } from "./materials";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import {
+  chains,
+  isTurned,
+  threadTurns,
+  type Chain,
+  type InstrumentPart,
+  type PartMaterial,
+} from "./instrument_model";
+import { blackMaterial, handleMaterial, steelMaterial, titaniumMaterial } from "./materials";
 
-export const WIRE_DIAMETER_MM = 1.14;
-export const WIRE_LENGTH_MM = 150;
-/** Of the trocar point. */
-const POINT_MM = 2.4;
-/** Where the driver grips the wire, from its tip. */
-const CHUCK_MM = 72;
-
-/** A profile (radius, z) turned about z; LatheGeometry turns about y, which goes to z here. */
-function lathe(
-  profile: readonly (readonly [number, number])[],
-  segments = 48,
-): THREE.BufferGeometry {
-  const points = profile.map(([r, z]) => new THREE.Vector2(r, z));
-  return new THREE.LatheGeometry(points, segments).rotateX(Math.PI / 2);
-}
-
-/** Double-pointed in truth; the point at the hand's end is hidden in the driver. */
-export function wireGeometry(lengthMm = WIRE_LENGTH_MM): THREE.BufferGeometry {
-  const r = WIRE_DIAMETER_MM / 2;
-  return lathe(
-    [
-      [0, 0],
-      [r, POINT_MM],
-      [r, lengthMm],
-      [r * 0.7, lengthMm],
-      [0, lengthMm],
-    ],
-    24,
-  );
-}
-
-/** Pistol-grip wire driver; the wire runs through it. */
-export function wireDriver(): THREE.Group {
-  const group = new THREE.Group();
-  const steel = metalMaterial("#b9c2c7", 0.3);
-  const dark = handleMaterial();
-  const chuck = lathe([
-    [0.9, CHUCK_MM],
-    [2.2, CHUCK_MM],
-    [3.4, CHUCK_MM + 6],
-    [7.2, CHUCK_MM + 11],
-    [7.6, CHUCK_MM + 20],
-    [7.6, CHUCK_MM + 21],
-  ]);
-  const body = lathe([
-    [7.6, CHUCK_MM + 21],
-    [9.6, CHUCK_MM + 22.5],
-    [13.4, CHUCK_MM + 27],
-    [14, CHUCK_MM + 32],
-    [14, CHUCK_MM + 86],
-    [12.8, CHUCK_MM + 91],
-    [7, CHUCK_MM + 94],
-    [0, CHUCK_MM + 94],
-  ]);
-  const grip = new THREE.CapsuleGeometry(11, 62, 8, 24);
-  grip.scale(0.82, 1, 1.12);
-  grip.translate(0, -44, CHUCK_MM + 66);
-  const ring = lathe([
-    [14.15, CHUCK_MM + 34],
-    [14.3, CHUCK_MM + 34.6],
-    [14.3, CHUCK_MM + 36],
-    [14.15, CHUCK_MM + 36.6],
-  ]);
-  group.add(new THREE.Mesh(chuck, steel), new THREE.Mesh(body, dark), new THREE.Mesh(grip, dark));
-  group.add(new THREE.Mesh(ring, metalMaterial("#7f9aa8", 0.35)));
-  return group;
-}
-
-/** Cannulated hand driver; its blade is at the origin, in the screw's tail. */
-export function screwDriver(): THREE.Group {
-  const group = new THREE.Group();
-  const steel = metalMaterial("#b9c2c7", 0.28);
-  const shaft = lathe([
-    [0.7, -0.8],
-    [1.5, -0.8],
-    [1.5, 2],
-    [2.1, 4],
-    [2.1, 52],
-    [4.4, 55],
-    [4.4, 60],
-  ]);
-  const profile: (readonly [number, number])[] = [[4.4, 60]];
-  for (let i = 0; i <= 40; ++i) {
-    const t = i / 40;
-    const groove = i % 8 < 2 && i > 4 && i < 36 ? -1.1 : 0;
-    profile.push([9.5 + 2.2 * Math.sin(Math.PI * t) + groove, 61 + 58 * t]);
-  }
-  profile.push([8, 122], [2.5, 124], [0, 124]);
-  group.add(new THREE.Mesh(shaft, steel), new THREE.Mesh(lathe(profile), handleMaterial()));
-  return group;
-}
-
-export interface ScrewShape {
-  readonly lengthMm: number;
-  readonly tipDiameterMm: number;
-  readonly tailDiameterMm: number;
-}
-
-/** Pitch at the tip and at the tail [mm]: coarse leads, so that the screw draws the parts together. */
-const TIP_PITCH_MM = 1.4;
-const TAIL_PITCH_MM = 0.9;
+const AROUND = 48;
+const THREAD_AROUND = 40;
+/** Of a thread, per mm of its length. */
+const THREAD_RINGS_PER_MM = 14;
 const THREAD_DEPTH_MM = 0.42;
+const DEFAULT_PITCH_MM = 1.25;
 
-/** A tapered, fully threaded, headless screw with a running pitch; its tip at the origin. */
-export function screwGeometry(shape: ScrewShape): THREE.BufferGeometry {
-  const around = 40;
-  const along = Math.max(80, Math.round(shape.lengthMm * 14));
-  const positions = new Float32Array(3 * (around + 1) * (along + 1));
-  const length = shape.lengthMm;
+const MATERIALS: Readonly<Record<PartMaterial, () => THREE.MeshStandardMaterial>> = {
+  steel: steelMaterial,
+  titanium: titaniumMaterial,
+  handle: handleMaterial,
+  black: blackMaterial,
+};
+
+/** One mesh for each surface; parts that go on from each other show no seam. */
+export function drawInstrument(parts: readonly InstrumentPart[]): THREE.Group {
+  const group = new THREE.Group();
+  fillInstrument(group, parts);
+  return group;
+}
+
+/** Draws other parts in the group from now on. */
+export function fillInstrument(group: THREE.Group, parts: readonly InstrumentPart[]): void {
+  clearInstrument(group);
+  const materials = new Map<PartMaterial, THREE.MeshStandardMaterial>();
+  for (const chain of chains(parts)) {
+    const name = chain.first.material;
+    const material = materials.get(name) ?? MATERIALS[name]();
+    materials.set(name, material);
+    const mesh = new THREE.Mesh(surface(chain), material);
+    place(mesh, chain.first);
+    group.add(mesh);
+  }
+}
+
+export function clearInstrument(group: THREE.Group): void {
+  for (const child of group.children) {
+    const mesh = child as THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
+    mesh.geometry.dispose();
+    mesh.material.dispose();
+  }
+  group.clear();
+}
+
+/** Whether the instrument's surfaces cast shadows. */
+export function castShadows(group: THREE.Group): void {
+  for (const child of group.children) child.castShadow = true;
+}
+
+function place(mesh: THREE.Mesh, part: InstrumentPart): void {
+  if (part.axis !== undefined)
+    mesh.quaternion.setFromUnitVectors(Z, along.set(...part.axis).normalize());
+  if (part.origin_mm !== undefined) mesh.position.set(...part.origin_mm);
+  if (part.squash !== undefined) mesh.scale.set(part.squash[0], part.squash[1], 1);
+}
+
+function surface(chain: Chain): THREE.BufferGeometry {
+  const { first } = chain;
+  if (isTurned(first)) return turnedSurface(chain);
+  if (first.kind === "threaded") return threadedSurface(first);
+  const middle = (first.from_mm + first.to_mm) / 2;
+  return new THREE.SphereGeometry(first.radius_mm, AROUND, AROUND / 2).translate(0, 0, middle);
+}
+
+/** A profile turned about z, its ends closed; LatheGeometry turns about y, which goes to z here. */
+function turnedSurface({ profile }: Chain): THREE.BufferGeometry {
+  const points = profile.map(([r, z]) => new THREE.Vector2(r, z));
+  const surfaces: THREE.BufferGeometry[] = [
+    new THREE.LatheGeometry(points, AROUND).rotateX(Math.PI / 2),
+  ];
+  const [start, end] = [profile[0], profile.at(-1)];
+  if (start !== undefined && start[0] > 0)
+    surfaces.push(
+      new THREE.CircleGeometry(start[0], AROUND).rotateX(Math.PI).translate(0, 0, start[1]),
+    );
+  if (end !== undefined && end[0] > 0)
+    surfaces.push(new THREE.CircleGeometry(end[0], AROUND).translate(0, 0, end[1]));
+  return merged(surfaces);
+}
+
+function merged(surfaces: THREE.BufferGeometry[]): THREE.BufferGeometry {
+  const one = mergeGeometries(surfaces);
+  for (const surface of surfaces) surface.dispose();
+  return one;
+}
+
+/** A tapered thread with a running pitch, its tip rounded, its ends open. */
+function threadedSurface(part: InstrumentPart): THREE.BufferGeometry {
+  const length = part.to_mm - part.from_mm;
+  const rings = Math.max(80, Math.round(length * THREAD_RINGS_PER_MM));
+  const pitch = part.pitch_mm ?? DEFAULT_PITCH_MM;
+  const end = part.radius_end_mm ?? part.radius_mm;
+  const positions = new Float32Array(3 * (THREAD_AROUND + 1) * (rings + 1));
   let at = 0;
-  for (let i = 0; i <= along; ++i) {
-    const z = (length * i) / along;
-    const t = z / length;
-    // Turns up to z: the integral of one over the pitch, which runs evenly from tip to tail.
-    const slope = (TAIL_PITCH_MM - TIP_PITCH_MM) / length;
-    const turns = Math.log((TIP_PITCH_MM + slope * z) / TIP_PITCH_MM) / slope;
-    const outer = 0.5 * (shape.tipDiameterMm + (shape.tailDiameterMm - shape.tipDiameterMm) * t);
-    const nose = Math.min(1, 0.55 + z / 2.2);
-    for (let j = 0; j <= around; ++j) {
-      const angle = (2 * Math.PI * j) / around;
-      const phase = turns - j / around;
+  for (let i = 0; i <= rings; ++i) {
+    const t = i / rings;
+    const turns = threadTurns(t, length, pitch, part.pitch_end_mm ?? pitch);
+    const outer = part.radius_mm + (end - part.radius_mm) * t;
+    const nose = Math.min(1, 0.55 + (t * length) / 2.2);
+    for (let j = 0; j <= THREAD_AROUND; ++j) {
+      const angle = (2 * Math.PI * j) / THREAD_AROUND;
+      const phase = turns - j / THREAD_AROUND;
       const ridge = 1 - Math.abs(2 * (phase - Math.floor(phase)) - 1);
       const r = nose * (outer - THREAD_DEPTH_MM * (1 - Math.min(1, 1.7 * ridge)));
       positions[at++] = r * Math.cos(angle);
       positions[at++] = r * Math.sin(angle);
-      positions[at++] = z;
+      positions[at++] = part.from_mm + t * length;
     }
   }
+  return gridSurface(positions, rings, THREAD_AROUND);
+}
+
+/** Triangles over `rings + 1` rings of `around + 1` points each. */
+function gridSurface(positions: Float32Array, rings: number, around: number): THREE.BufferGeometry {
   const index: number[] = [];
-  for (let i = 0; i < along; ++i) {
+  for (let i = 0; i < rings; ++i) {
     for (let j = 0; j < around; ++j) {
       const a = i * (around + 1) + j;
       const b = a + around + 1;

@@ -3,6 +3,7 @@
 //
 // How bone, skin and steel look. Colours: docs/ui.md's tokens.
 import * as THREE from "three";
+import { CUT_GLSL, TRACKS_GLSL, type TrackUniforms } from "./track_shader";
 
 export const BONE_COLOR = "#e9dfc7";
 export const SKIN_COLOR = "#c99a80";
@@ -36,21 +37,95 @@ export function boneMaterial(): THREE.MeshStandardMaterial {
     vertexColors: true,
     envMapIntensity: 0.3,
   });
+  material.onBeforeCompile = grain;
+  return material;
+}
+
+type Shader = THREE.WebGLProgramParametersWithUniforms;
+
+/** Gives the fragment its place in the bone's own mm. */
+function place(shader: Shader, declarations: string): void {
+  shader.vertexShader = shader.vertexShader
+    .replace("#include <common>", "#include <common>\nvarying vec3 vBoneMm;")
+    .replace("#include <begin_vertex>", "#include <begin_vertex>\nvBoneMm = position;");
+  shader.fragmentShader = shader.fragmentShader.replace(
+    "#include <common>",
+    `#include <common>\nvarying vec3 vBoneMm;\n${NOISE_GLSL}\n${declarations}`,
+  );
+}
+
+function grain(shader: Shader): void {
+  place(shader, "");
+  shader.fragmentShader = shader.fragmentShader
+    .replace(
+      "#include <color_fragment>",
+      `#include <color_fragment>
+float boneGrain = 0.6 * noise3(vBoneMm * 0.45) + 0.3 * noise3(vBoneMm * 1.7) + 0.1 * noise3(vBoneMm * 5.0);
+diffuseColor.rgb *= mix(vec3(0.90, 0.86, 0.80), vec3(1.04, 1.03, 1.02), boneGrain);`,
+    )
+    .replace(
+      "#include <roughnessmap_fragment>",
+      "#include <roughnessmap_fragment>\nroughnessFactor = clamp(roughnessFactor + 0.22 * (boneGrain - 0.5), 0.4, 1.0);",
+    );
+}
+
+/** The bone's surface is left out where it was drilled away; at the rim the fresh cut is seen. */
+function cut(shader: Shader): void {
+  shader.fragmentShader = shader.fragmentShader
+    .replace("varying vec3 vBoneMm;", `varying vec3 vBoneMm;\n${TRACKS_GLSL}`)
+    .replace("void main() {", `void main() {\n${CUT_GLSL}`)
+    .replace(
+      "#include <opaque_fragment>",
+      `outgoingLight *= mix(0.62, 1.0, boneEdge) * mix(0.86, 1.0, smoothstep(0.0, 0.14, boneAway));
+#include <opaque_fragment>`,
+    );
+}
+
+/** Makes a bone's material leave out what was drilled away. */
+export function withTracks(material: THREE.Material, tracks: TrackUniforms): void {
+  const before = material.onBeforeCompile.bind(material);
+  material.onBeforeCompile = (shader, renderer) => {
+    before(shader, renderer);
+    Object.assign(shader.uniforms, tracks);
+    cut(shader);
+  };
+  material.customProgramCacheKey = () => "bone with tracks";
+  material.needsUpdate = true;
+}
+
+/** A wall stays where it is its own track's; this far within another it is gone [mm]. */
+const WALL_WITHIN_MM = 0.02;
+
+/** Freshly drilled bone: a hard pale rim, porous and redder within, darker the deeper. */
+export function tunnelMaterial(tracks: TrackUniforms): THREE.MeshStandardMaterial {
+  const material = new THREE.MeshStandardMaterial({
+    color: "#ffffff",
+    roughness: 0.9,
+    metalness: 0,
+    envMapIntensity: 0.25,
+  });
   material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, tracks);
+    place(shader, `varying vec2 vDepths;\n${TRACKS_GLSL}`);
     shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", "#include <common>\nvarying vec3 vBoneMm;")
-      .replace("#include <begin_vertex>", "#include <begin_vertex>\nvBoneMm = position;");
+      .replace(
+        "#include <common>",
+        "#include <common>\nattribute vec2 depths;\nvarying vec2 vDepths;",
+      )
+      .replace("#include <begin_vertex>", "#include <begin_vertex>\nvDepths = depths;");
     shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", `#include <common>\nvarying vec3 vBoneMm;\n${NOISE_GLSL}`)
+      .replace(
+        "void main() {",
+        `void main() {\nif (outsideTracks(vBoneMm) < -${WALL_WITHIN_MM.toFixed(3)}) discard;`,
+      )
       .replace(
         "#include <color_fragment>",
         `#include <color_fragment>
-float boneGrain = 0.6 * noise3(vBoneMm * 0.45) + 0.3 * noise3(vBoneMm * 1.7) + 0.1 * noise3(vBoneMm * 5.0);
-diffuseColor.rgb *= mix(vec3(0.90, 0.86, 0.80), vec3(1.04, 1.03, 1.02), boneGrain);`,
-      )
-      .replace(
-        "#include <roughnessmap_fragment>",
-        "#include <roughnessmap_fragment>\nroughnessFactor = clamp(roughnessFactor + 0.22 * (boneGrain - 0.5), 0.4, 1.0);",
+float pore = 0.6 * noise3(vBoneMm * 3.4) + 0.4 * noise3(vBoneMm * 8.3);
+vec3 cortex = vec3(0.60, 0.52, 0.39) * (0.94 + 0.12 * pore);
+vec3 spongy = mix(vec3(0.30, 0.15, 0.095), vec3(0.56, 0.42, 0.29), smoothstep(0.25, 0.66, pore));
+float within = smoothstep(0.6, 1.5, vDepths.y + 0.5 * (pore - 0.5));
+diffuseColor.rgb = mix(cortex, spongy, within) * mix(0.14, 1.0, vDepths.x);`,
       );
   };
   return material;
@@ -85,9 +160,14 @@ void main() {
 }
 `;
 
-function shell(color: string, opacity: number, rim: number): THREE.ShaderMaterial {
+function shell(
+  vertexShader: string,
+  color: string,
+  opacity: number,
+  rim: number,
+): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
-    vertexShader: SHELL_VERTEX,
+    vertexShader,
     fragmentShader: SHELL_FRAGMENT,
     uniforms: {
       tint: { value: new THREE.Color(color) },
@@ -101,22 +181,34 @@ function shell(color: string, opacity: number, rim: number): THREE.ShaderMateria
 }
 
 /** The skin as a clean shell: clear where one looks straight at it, dense at its edge. */
-export function skinMaterial(): THREE.ShaderMaterial {
-  return shell(SKIN_COLOR, 0.2, 2.6);
+export function skinMaterial(vertexShader: string): THREE.ShaderMaterial {
+  return shell(vertexShader, SKIN_COLOR, 0.2, 2.6);
 }
 
 /** Bone that one looks into, for the placement in the score. */
 export function glassBoneMaterial(color: string = BONE_COLOR): THREE.ShaderMaterial {
-  return shell(color, 0.42, 1.9);
+  return shell(SHELL_VERTEX, color, 0.42, 1.9);
 }
 
 /** Only depth, so that of a see-through shell the nearest face alone is drawn. */
-export function depthOnlyMaterial(): THREE.MeshBasicMaterial {
-  return new THREE.MeshBasicMaterial({ colorWrite: false });
+export function depthOnlyMaterial(vertexShader: string): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    vertexShader,
+    fragmentShader: "void main() { gl_FragColor = vec4(1.0); }",
+    colorWrite: false,
+  });
 }
 
-export function metalMaterial(color = "#c9d0d4", roughness = 0.24): THREE.MeshStandardMaterial {
+function metalMaterial(color: string, roughness: number): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({ color, roughness, metalness: 1, envMapIntensity: 1.6 });
+}
+
+export function steelMaterial(): THREE.MeshStandardMaterial {
+  return metalMaterial("#c9d0d4", 0.24);
+}
+
+export function titaniumMaterial(): THREE.MeshStandardMaterial {
+  return metalMaterial("#9fb3c4", 0.3);
 }
 
 export function handleMaterial(): THREE.MeshStandardMaterial {
@@ -126,4 +218,9 @@ export function handleMaterial(): THREE.MeshStandardMaterial {
     metalness: 0.35,
     envMapIntensity: 0.6,
   });
+}
+
+/** Blackened parts: knobs, cables, the inside of a barrel. */
+export function blackMaterial(): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({ color: "#14181a", roughness: 0.6, metalness: 0.1 });
 }

@@ -122,7 +122,7 @@ export class Actions {
   }
 }
 
-export function toggleFullScreen(): void {
+function toggleFullScreen(): void {
   if (document.fullscreenElement !== null) void document.exitFullscreen();
   else void document.documentElement.requestFullscreen();
 }

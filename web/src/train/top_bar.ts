@@ -40,7 +40,7 @@ export class TopBar {
     this.element = make(
       "header.top-bar",
       {},
-      make("strong.brand", {}, "Carpus"),
+      make("h1.brand", {}, "Carpus"),
       patient,
       make("span.secondary.procedure", {}, `${description.side} wrist · dorsal scaphoid fixation`),
       this.link,

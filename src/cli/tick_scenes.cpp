@@ -1,0 +1,264 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/tick_scenes.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "core/version.hpp"
+#include "instruments/instrument.hpp"
+#include "simulation/recording.hpp"
+#include "simulation/world.hpp"
+#include "trainee/attempt.hpp"
+#include "trainee/scripted_trainee.hpp"
+
+namespace carpus::cli {
+namespace {
+
+using simulation::CommandKind;
+using simulation::Input;
+using simulation::Snapshot;
+using simulation::World;
+
+constexpr int kWarmUpTicks = 200;
+/// Operations after which a scene that a scripted trainee should reach is given up.
+constexpr std::uint64_t kMostOperations = 12;
+
+double processor_us() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
+}
+
+float timed_step(World& world, const Input& input) {
+  const double before = processor_us();
+  world.step(input);
+  return static_cast<float>(processor_us() - before);
+}
+
+double heap_mib() {
+  const struct mallinfo2 info = ::mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / (1024.0 * 1024.0);
+}
+
+/// Everything stays where it is.
+Input at_rest(const Snapshot& now) {
+  Input input;
+  input.wrist = now.wrist;
+  for (std::size_t hand = 0; hand < simulation::kHands; ++hand) {
+    const std::uint8_t item = now.hands[hand].item;
+    const auto& view = now.items[item < simulation::kMaxItems ? item : 0];
+    input.hands[hand].tip_in_patient = view.tip_in_patient;
+    input.hands[hand].shaft_in_patient = view.shaft_in_patient;
+  }
+  return input;
+}
+
+/// A scene whose input is a function of time.
+template <typename Script>
+SceneTimes scene(const char* name, World& world, std::size_t ticks, Script&& script) {
+  SceneTimes times{name, {}};
+  times.microseconds.reserve(ticks);
+  Input input = at_rest(world.now());
+  for (int i = 0; i < kWarmUpTicks; ++i) world.step(input);
+  for (std::size_t i = 0; i < ticks; ++i) {
+    script(static_cast<double>(i) * kTickSeconds, input);
+    times.microseconds.push_back(timed_step(world, input));
+    input.command = {};
+  }
+  return times;
+}
+
+/// Middle of the target and its greatest distance from it, where it is now.
+struct TargetPlace {
+  Vec3 centre;
+  double radius_mm = 0.0;
+};
+
+TargetPlace place_of(const cases::CaseData& data, BoneId target, const Snapshot& now) {
+  TargetPlace place;
+  double count = 0;
+  for (const int pass : {0, 1}) {
+    for (std::size_t body = 0; body < data.bones.size(); ++body) {
+      if (data.bones[body].bone != target) continue;
+      for (const Vec3& vertex : data.bones[body].surface.vertices) {
+        const Vec3 at = (now.patient_from_bone[body] * Point<frame::Bone>{vertex}).v;
+        if (pass == 0) {
+          place.centre += at;
+          count += 1;
+        } else {
+          place.radius_mm = std::max(place.radius_mm, distance(at, place.centre));
+        }
+      }
+    }
+    if (pass == 0) place.centre = place.centre / std::max(count, 1.0);
+  }
+  return place;
+}
+
+/// An instrument of the tray that only touches, else the first.
+instruments::InstrumentIndex toucher(const procedure::Procedure& procedure) {
+  const auto all = instruments::catalogue();
+  for (const instruments::InstrumentIndex index : procedure.tray) {
+    const instruments::Instrument& each = all[index];
+    if (each.work == instruments::Work::None && !each.is_gauge && !each.is_sleeve) return index;
+  }
+  return procedure.tray.front();
+}
+
+/// Two instruments press on the target from where the first hand waits, and slide.
+SceneTimes two_hands(const cases::CaseData& data,
+                     const procedure::Procedure& procedure,
+                     std::size_t ticks) {
+  World world(data, procedure, 1);
+  const TargetPlace target = place_of(data, procedure.target, world.now());
+  const Vec3 out = normalized_or(world.now().items[0].tip_in_patient - target.centre, {0, 0, 1});
+  const Vec3 side = any_perpendicular(out);
+  const Vec3 along = cross(out, side);
+  const auto shafts =
+      std::array{normalized_or(out + side * 0.7, out), normalized_or(out - side * 0.7, out)};
+  const auto press = [&](double seconds, Input& input) {
+    for (std::size_t hand = 0; hand < simulation::kHands; ++hand) {
+      const double sign = hand == 0 ? 1.0 : -1.0;
+      const double angle = 2.0 * kPi * seconds * (hand == 0 ? 0.7 : 0.9);
+      input.hands[hand].tip_in_patient = target.centre + out * (0.5 * target.radius_mm) +
+                                         side * (sign * (3.0 + std::cos(angle))) +
+                                         along * (3.0 * std::sin(angle));
+      input.hands[hand].shaft_in_patient = shafts[hand];
+      input.hands[hand].thrust_n = 5.0;
+    }
+  };
+  Input input = at_rest(world.now());
+  for (const std::uint8_t hand : {std::uint8_t{0}, std::uint8_t{1}}) {
+    input.command = {CommandKind::Take, hand, toucher(procedure)};
+    world.step(input);
+    input.command = {};
+  }
+  for (int i = 0; i < 1000; ++i) {
+    press(0.0, input);
+    world.step(input);
+  }
+  return scene("two_hands_in_contact", world, ticks, press);
+}
+
+SceneTimes wrist_moving(const cases::CaseData& data,
+                        const procedure::Procedure& procedure,
+                        std::size_t ticks) {
+  World world(data, procedure, 1);
+  const anatomy::HandLimits& limits = data.hand_motion.limits;
+  const auto between = [](const anatomy::Interval& range, double phase) {
+    return 0.5 * (range.low + range.high) + 0.5 * (range.high - range.low) * std::sin(phase);
+  };
+  const TargetPlace target = place_of(data, procedure.target, world.now());
+  const Vec3 out = normalized_or(world.now().items[0].tip_in_patient - target.centre, {0, 0, 1});
+  return scene("wrist_moving", world, ticks, [&](double seconds, Input& input) {
+    const double turn = 2.0 * kPi * seconds;
+    input.wrist = {
+        between(limits.flexion_rad, 0.25 * turn), between(limits.radial_deviation_rad, 0.4 * turn),
+        between(limits.pronation_rad, 0.15 * turn), between(limits.traction_n, 0.1 * turn)};
+    input.hands[0].tip_in_patient = target.centre + out * (0.7 * target.radius_mm);
+    input.hands[0].shaft_in_patient = out;
+  });
+}
+
+/// Whether this tick's input drives an instrument that works so, in bone.
+bool drives(const Snapshot& now, const Input& input, instruments::Work work) {
+  const auto all = instruments::catalogue();
+  for (std::size_t hand = 0; hand < simulation::kHands; ++hand) {
+    const std::uint8_t held = now.hands[hand].item;
+    if (held >= simulation::kMaxItems || now.items[held].instrument >= all.size()) continue;
+    if (input.hands[hand].driver == simulation::Driver::Forward &&
+        now.items[held].body != simulation::kNoBody &&
+        all[now.items[held].instrument].work == work) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Ticks of whole operations, sorted by what was driven; afterwards back to before the last bone
+/// was removed.
+void operate(const cases::CaseData& data,
+             const procedure::Procedure& procedure,
+             std::size_t ticks,
+             TickBench& bench) {
+  SceneTimes drilling{"drilling", {}};
+  SceneTimes screwing{"screw_going_in", {}};
+  const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
+  for (std::uint64_t seed = 1; seed <= kMostOperations && (wants(drilling) || wants(screwing));
+       ++seed) {
+    World world(data, procedure, seed);
+    trainee::ScriptedTrainee hand(data, procedure, trainee::Skill::Expert, seed);
+    while (!world.now().finished && !hand.is_done()) {
+      const Input input = hand.next(world.now());
+      if (input.command.kind == CommandKind::Finish) break;
+      const bool is_drilling = drives(world.now(), input, instruments::Work::Drill);
+      const bool is_screwing = drives(world.now(), input, instruments::Work::Thread);
+      const float us = timed_step(world, input);
+      if (is_drilling && wants(drilling)) drilling.microseconds.push_back(us);
+      if (is_screwing && wants(screwing)) screwing.microseconds.push_back(us);
+    }
+    Input undo = at_rest(world.now());
+    undo.command = {CommandKind::Undo};
+    while (world.now().can_undo && !world.now().finished) {
+      bench.costs.undo_us = std::max(bench.costs.undo_us, double{timed_step(world, undo)});
+    }
+    bench.unresolved_contacts += world.faults().unresolved_contacts;
+  }
+  for (SceneTimes* times : {&drilling, &screwing}) {
+    if (times->microseconds.empty()) {
+      throw InvalidInput("bench tick: the scripted expert does not come to " + times->scene +
+                         " on this case");
+    }
+    bench.scenes.push_back(std::move(*times));
+  }
+}
+
+void cost_of_exercise(const cases::CaseData& data,
+                      const procedure::Procedure& procedure,
+                      ExerciseCosts& costs) {
+  std::array<double, 5> set_up{};
+  for (double& ms : set_up) {
+    const double heap = heap_mib();
+    const double before = processor_us();
+    const World world(data, procedure, 1);
+    ms = (processor_us() - before) / 1000.0;
+    costs.memory_mib = std::max(costs.memory_mib, heap_mib() - heap);
+  }
+  std::sort(set_up.begin(), set_up.end());
+  costs.set_up_ms = set_up[set_up.size() / 2];
+  const trainee::Attempt attempt =
+      trainee::operate(data, procedure, trainee::Skill::Expert, 1, kProgramVersion);
+  const double simulated_s = static_cast<double>(attempt.recording.tick_count()) * kTickSeconds;
+  const double before = processor_us();
+  (void)simulation::replay(data, procedure, attempt.recording);
+  costs.replay_speed = simulated_s / ((processor_us() - before) * 1e-6);
+  costs.recording_bytes_per_s =
+      static_cast<double>(simulation::encode(attempt.recording).size()) / simulated_s;
+}
+
+}  // namespace
+
+TickBench time_ticks(const cases::CaseData& data,
+                     const procedure::Procedure& procedure,
+                     std::size_t ticks) {
+  TickBench bench;
+  {
+    World world(data, procedure, 1);
+    bench.scenes.push_back(scene("quiet", world, ticks, [](double, Input&) {}));
+  }
+  bench.scenes.push_back(two_hands(data, procedure, ticks));
+  bench.scenes.push_back(wrist_moving(data, procedure, ticks));
+  operate(data, procedure, ticks, bench);
+  cost_of_exercise(data, procedure, bench.costs);
+  return bench;
+}
+
+}  // namespace carpus::cli

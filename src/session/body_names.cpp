@@ -1,0 +1,26 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/body_names.hpp"
+
+#include "anatomy/bone_words.hpp"
+
+namespace carpus::session {
+
+BodyNames::BodyNames(const cases::CaseData& data) {
+  for (const cases::Bone& bone : data.bones) {
+    bodies_.push_back(
+        {std::string(name_of(bone.bone, bone.part)), std::string(words_of(bone.bone, bone.part))});
+  }
+}
+
+const std::string& BodyNames::name(std::size_t body) const noexcept {
+  static const std::string kNone;
+  return body < bodies_.size() ? bodies_[body].name : kNone;
+}
+
+const std::string& BodyNames::words(std::size_t body) const noexcept {
+  static const std::string kUnknown = "bone";
+  return body < bodies_.size() ? bodies_[body].words : kUnknown;
+}
+
+}  // namespace carpus::session

@@ -1,0 +1,34 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bodies by the names of their meshes and in words. A body is named by its place in
+// CaseData::bones.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "cases/case_data.hpp"
+
+namespace carpus::session {
+
+class BodyNames {
+ public:
+  explicit BodyNames(const cases::CaseData& data);
+
+  [[nodiscard]] std::size_t size() const noexcept { return bodies_.size(); }
+  /// "scaphoid_proximal"; empty where there is no such body.
+  [[nodiscard]] const std::string& name(std::size_t body) const noexcept;
+  /// "proximal part of the scaphoid"; "bone" where there is no such body.
+  [[nodiscard]] const std::string& words(std::size_t body) const noexcept;
+
+ private:
+  struct Body {
+    std::string name;
+    std::string words;
+  };
+  std::vector<Body> bodies_;
+};
+
+}  // namespace carpus::session

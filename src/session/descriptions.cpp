@@ -1,0 +1,152 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/descriptions.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/units.hpp"
+#include "instruments/instrument.hpp"
+#include "session/body_names.hpp"
+
+namespace carpus::session {
+
+namespace {
+
+// The enumerations of protocol.json are in the order of the instruments'.
+static_assert(static_cast<int>(protocol::Material::Black) ==
+              static_cast<int>(instruments::Material::Black));
+static_assert(static_cast<int>(protocol::Work::Thread) ==
+              static_cast<int>(instruments::Work::Thread));
+static_assert(static_cast<int>(protocol::Drive::ByHand) ==
+              static_cast<int>(instruments::Drive::ByHand));
+
+protocol::InstrumentPart message_of(const instruments::DrawnPart& part) {
+  protocol::InstrumentPart message;
+  message.from_mm = part.from_mm;
+  message.to_mm = part.to_mm;
+  message.radius_mm = part.radius_mm;
+  message.end_radius_mm = part.end_radius_mm;
+  message.is_threaded = part.is_threaded;
+  message.pitch_mm = part.pitch_mm;
+  message.end_pitch_mm = part.end_pitch_mm;
+  message.material = static_cast<protocol::Material>(part.material);
+  message.only_in_hand = part.only_in_hand;
+  message.origin_mm = part.origin_mm;
+  message.axis = part.axis;
+  message.squash = part.squash;
+  return message;
+}
+
+protocol::Instrument message_of(const instruments::Instrument& instrument) {
+  protocol::Instrument message;
+  message.id = instrument.id;
+  message.name = instrument.name;
+  message.use = instrument.use;
+  message.length_mm = instrument.length_mm;
+  message.work = static_cast<protocol::Work>(instrument.work);
+  message.drive = static_cast<protocol::Drive>(instrument.drive);
+  message.rides_on_wire = instrument.bore_radius_mm > 0.0 && !instrument.is_sleeve;
+  message.is_gauge = instrument.is_gauge;
+  message.is_sleeve = instrument.is_sleeve;
+  message.stays = instrument.stays;
+  message.family = instrument.family;
+  message.tip_diameter_mm = instrument.tip_diameter_mm;
+  message.tail_diameter_mm = instrument.tail_diameter_mm;
+  message.is_confirmed = instrument.is_confirmed;
+  for (const instruments::DrawnPart& part : instrument.parts) {
+    message.parts.push_back(message_of(part));
+  }
+  return message;
+}
+
+protocol::ProcedureSummary summary_of(const procedure::Procedure& procedure) {
+  return {procedure.id, procedure.title, procedure.summary};
+}
+
+protocol::Step message_of(const procedure::Step& step) {
+  protocol::Step message{step.id, step.title, step.instruction, step.actions, {}};
+  const auto all = instruments::catalogue();
+  if (step.instrument < all.size()) message.instrument = all[step.instrument].id;
+  return message;
+}
+
+protocol::Range degrees(const anatomy::Interval& radians) noexcept {
+  return {degrees_from_radians(radians.low), degrees_from_radians(radians.high)};
+}
+
+protocol::WristLimits message_of(const anatomy::HandLimits& limits) noexcept {
+  return {degrees(limits.flexion_rad), degrees(limits.radial_deviation_rad),
+          degrees(limits.pronation_rad),
+          protocol::Range{limits.traction_n.low, limits.traction_n.high}};
+}
+
+}  // namespace
+
+protocol::WristPose message_of(const procedure::WristPose& wrist) noexcept {
+  return {degrees_from_radians(wrist.flexion_rad), degrees_from_radians(wrist.radial_deviation_rad),
+          degrees_from_radians(wrist.pronation_rad), wrist.traction_n};
+}
+
+protocol::CaseDescription case_description(const cases::CaseData& data) {
+  protocol::CaseDescription description;
+  description.pseudonym = data.pseudonym;
+  description.simulated = data.provenance.simulated;
+  description.side = data.side == Side::Left ? protocol::Side::Left : protocol::Side::Right;
+  description.source = data.provenance.source;
+  const auto& pose = data.wrist_from_patient;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      description.wrist_from_patient[4 * row + column] = pose.rotation.rows[row][column];
+    }
+    description.wrist_from_patient[4 * row + 3] = pose.translation[row];
+  }
+  description.wrist_from_patient[15] = 1.0;
+  const anatomy::HandPose& scan = data.hand_motion.scan;
+  description.scan = message_of(procedure::WristPose{scan.flexion_rad, scan.radial_deviation_rad,
+                                                     scan.pronation_rad, scan.traction_n});
+  for (const cases::Bone& bone : data.bones) {
+    description.bones.emplace_back(name_of(bone.bone, bone.part));
+  }
+  return description;
+}
+
+protocol::ProcedureList procedure_list(const procedure::ProcedureList& procedures) {
+  protocol::ProcedureList list;
+  for (const procedure::Procedure* procedure : procedures.all()) {
+    list.procedures.push_back(summary_of(*procedure));
+  }
+  return list;
+}
+
+protocol::InstrumentList instrument_list() {
+  protocol::InstrumentList list;
+  for (const instruments::Instrument& instrument : instruments::catalogue()) {
+    list.instruments.push_back(message_of(instrument));
+  }
+  return list;
+}
+
+protocol::Exercise exercise_message(const cases::CaseData& data,
+                                    const procedure::Procedure& procedure) {
+  protocol::Exercise message;
+  message.procedure = summary_of(procedure);
+  for (const procedure::Step& step : procedure.steps) message.steps.push_back(message_of(step));
+  for (const procedure::NamedView& view : procedure.views) {
+    message.views.push_back({view.id, view.label, view.rotation_deg, view.tilt_deg});
+  }
+  const auto all = instruments::catalogue();
+  for (const instruments::InstrumentIndex index : procedure.tray) {
+    message.tray.push_back(all[index].id);
+    message.instruments.push_back(message_of(all[index]));
+  }
+  const BodyNames names(data);
+  for (std::size_t body = 0; body < names.size(); ++body) {
+    message.bodies.push_back(
+        {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
+  }
+  message.wrist_limits = message_of(data.hand_motion.limits);
+  return message;
+}
+
+}  // namespace carpus::session

@@ -1,0 +1,25 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a page may know of case, procedure and instruments before anything is done: no landmark that
+// would give an answer away.
+#pragma once
+
+#include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
+#include "protocol/bodies.hpp"
+#include "protocol/messages.hpp"
+
+namespace carpus::session {
+
+[[nodiscard]] protocol::CaseDescription case_description(const cases::CaseData& data);
+[[nodiscard]] protocol::ProcedureList procedure_list(const procedure::ProcedureList& procedures);
+/// The whole catalogue.
+[[nodiscard]] protocol::InstrumentList instrument_list();
+/// What is being done.
+[[nodiscard]] protocol::Exercise exercise_message(const cases::CaseData& data,
+                                                  const procedure::Procedure& procedure);
+
+[[nodiscard]] protocol::WristPose message_of(const procedure::WristPose& wrist) noexcept;
+
+}  // namespace carpus::session

@@ -1,0 +1,116 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/event_text.hpp"
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "anatomy/bone_words.hpp"
+#include "instruments/instrument.hpp"
+#include "session/refusal_text.hpp"
+
+namespace carpus::session {
+
+namespace {
+
+using simulation::EventKind;
+
+std::string with_mm(const std::string& what, double mm) {
+  std::array<char, 32> number{};
+  std::snprintf(number.data(), number.size(), "%.1f mm", mm);
+  return what + " " + number.data();
+}
+
+std::string instrument_name(std::int64_t index) {
+  const auto all = instruments::catalogue();
+  if (index < 0 || static_cast<std::size_t>(index) >= all.size()) return "Instrument";
+  return all[static_cast<std::size_t>(index)].name;
+}
+
+/// A sentence of one event, in terms of one procedure.
+class Sentence {
+ public:
+  Sentence(const simulation::Event& event,
+           const procedure::Procedure& procedure,
+           const BodyNames& bodies)
+      : event_(event), procedure_(procedure), bodies_(bodies) {}
+
+  [[nodiscard]] std::string text() const {
+    switch (event_.kind) {
+      case EventKind::TouchedBone:
+        return "Touched the " + bone();
+      case EventKind::EnteredBone:
+        return subject() + " entered the " + bone();
+      case EventKind::LeftFarSide:
+        return with_mm(subject() + " came out of the far side of the " + target() + " by",
+                       event_.value);
+      case EventKind::Withdrawn:
+        return instrument_name(event_.detail) + " withdrawn";
+      case EventKind::ShotTaken:
+        return "Picture " + std::to_string(event_.detail);
+      case EventKind::GaugeRead:
+        return with_mm("Depth gauge reads", event_.value);
+      case EventKind::Taken:
+        return instrument_name(event_.detail) + " taken";
+      case EventKind::PutDown:
+        return instrument_name(event_.detail) + " put down";
+      case EventKind::Seated:
+        return with_mm("Screw level with the bone, buried", event_.value);
+      case EventKind::StepCompleted:
+        return "Step done: " + step();
+      case EventKind::Undone:
+        return "Back to the last checkpoint";
+      case EventKind::Finished:
+        return "Operation finished";
+      case EventKind::Refused:
+        return std::string(text_of(static_cast<simulation::Refusal>(event_.detail)));
+      case EventKind::WrongBone:
+        return subject() + " entered the " + bone() + ", which is not to be entered";
+      case EventKind::Slipped:
+        return subject() + " slipped along the " + bone() + ": hold it steeper to the surface";
+      case EventKind::WristStopped:
+        return "The wrist goes no further: its limit, or an instrument, holds it";
+      case EventKind::Stripped:
+        return "The screw was turned on after it was seated and lost its hold";
+      case EventKind::None:
+        break;
+    }
+    return {};
+  }
+
+ private:
+  [[nodiscard]] std::string subject() const { return instrument_name(event_.instrument); }
+  [[nodiscard]] const std::string& bone() const {
+    return bodies_.words(static_cast<std::size_t>(event_.detail));
+  }
+  [[nodiscard]] std::string target() const { return std::string(words_of(procedure_.target)); }
+  [[nodiscard]] std::string step() const {
+    const auto index = static_cast<std::size_t>(event_.detail);
+    return index < procedure_.steps.size() ? procedure_.steps[index].title : std::string("?");
+  }
+
+  const simulation::Event& event_;
+  const procedure::Procedure& procedure_;
+  const BodyNames& bodies_;
+};
+
+}  // namespace
+
+std::string_view name_of(EventKind kind) noexcept {
+  constexpr std::array<std::string_view, 18> kNames{
+      "none",       "touched_bone", "entered_bone", "left_far_side", "withdrawn",      "shot_taken",
+      "gauge_read", "taken",        "put_down",     "seated",        "step_completed", "undone",
+      "finished",   "refused",      "wrong_bone",   "slipped",       "wrist_stopped",  "stripped"};
+  const auto index = static_cast<std::size_t>(kind);
+  return index < kNames.size() ? kNames[index] : kNames[0];
+}
+
+protocol::LoggedEvent describe(const simulation::Event& event,
+                               const procedure::Procedure& procedure,
+                               const BodyNames& bodies) {
+  return {static_cast<std::int64_t>(event.tick), std::string(name_of(event.kind)),
+          Sentence(event, procedure, bodies).text()};
+}
+
+}  // namespace carpus::session

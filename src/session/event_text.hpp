@@ -1,0 +1,23 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Events of the simulation in words, for the log on the page and in the records.
+#pragma once
+
+#include <string_view>
+
+#include "procedure/procedure.hpp"
+#include "protocol/types.hpp"
+#include "session/body_names.hpp"
+#include "simulation/snapshot.hpp"
+
+namespace carpus::session {
+
+/// "touched_bone", …
+[[nodiscard]] std::string_view name_of(simulation::EventKind kind) noexcept;
+
+[[nodiscard]] protocol::LoggedEvent describe(const simulation::Event& event,
+                                             const procedure::Procedure& procedure,
+                                             const BodyNames& bodies);
+
+}  // namespace carpus::session

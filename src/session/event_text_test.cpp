@@ -1,0 +1,69 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/event_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "session/refusal_text.hpp"
+#include "simulation/operation_test_support.hpp"
+
+namespace carpus::session {
+namespace {
+
+using simulation::Event;
+using simulation::EventKind;
+using simulation::test::exercise;
+using simulation::test::wrist;
+
+protocol::LoggedEvent described(Event event) {
+  return describe(event, exercise(), BodyNames(wrist()));
+}
+
+TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
+  std::set<std::string> kinds;
+  constexpr int kLast = static_cast<int>(EventKind::Stripped);
+  for (int i = 1; i <= kLast; ++i) {
+    Event event;
+    event.kind = static_cast<EventKind>(i);
+    event.instrument = 0;
+    event.detail = 1;
+    event.value = 2.0;
+    const protocol::LoggedEvent told = described(event);
+    EXPECT_FALSE(told.text.empty()) << told.kind;
+    EXPECT_NE(told.kind, "none") << i;
+    kinds.insert(told.kind);
+  }
+  EXPECT_EQ(kinds.size(), static_cast<std::size_t>(kLast));
+}
+
+TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
+  Event event;
+  event.kind = EventKind::WrongBone;
+  event.instrument = *instruments::instrument_of("guide_wire");
+  event.detail = simulation::test::body_of(BoneId::Radius);
+  EXPECT_EQ(described(event).text, instruments::catalogue()[event.instrument].name +
+                                       " entered the radius, which is not to be entered");
+}
+
+TEST(EventText, NamesStepsByTheirTitles) {
+  Event event;
+  event.kind = EventKind::StepCompleted;
+  event.detail = 1;
+  EXPECT_EQ(described(event).text, "Step done: Drive");
+}
+
+TEST(RefusalText, EveryRefusalHasItsOwnReason) {
+  std::set<std::string> reasons;
+  constexpr int kLast = static_cast<int>(simulation::Refusal::NothingToUndo);
+  for (int i = 1; i <= kLast; ++i) {
+    reasons.insert(std::string(text_of(static_cast<simulation::Refusal>(i))));
+  }
+  EXPECT_EQ(reasons.size(), static_cast<std::size_t>(kLast));
+  EXPECT_TRUE(text_of(simulation::Refusal::None).empty());
+}
+
+}  // namespace
+}  // namespace carpus::session

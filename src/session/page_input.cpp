@@ -1,0 +1,104 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/page_input.hpp"
+
+#include <optional>
+#include <string>
+
+#include "core/units.hpp"
+#include "instruments/instrument.hpp"
+#include "simulation/c_arm_angles.hpp"
+
+namespace carpus::session {
+
+using simulation::Command;
+using simulation::CommandKind;
+
+namespace {
+
+// The enumerations of protocol.json are in the order of the simulation's.
+static_assert(static_cast<int>(protocol::Driver::Reverse) ==
+              static_cast<int>(simulation::Driver::Reverse));
+static_assert(static_cast<int>(protocol::Guidance::Planned) ==
+              static_cast<int>(simulation::Guidance::Planned));
+
+std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
+  switch (id) {
+    case protocol::ActionId::Take:
+      return CommandKind::Take;
+    case protocol::ActionId::PickUp:
+      return CommandKind::PickUp;
+    case protocol::ActionId::PutDown:
+      return CommandKind::PutDown;
+    case protocol::ActionId::ReadGauge:
+      return CommandKind::ReadGauge;
+    case protocol::ActionId::Undo:
+      return CommandKind::Undo;
+    case protocol::ActionId::Finish:
+      return CommandKind::Finish;
+    case protocol::ActionId::TakeShot:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+HeldInput resting(const simulation::Snapshot& now) noexcept {
+  HeldInput held;
+  held.wrist = now.wrist;
+  for (std::size_t hand = 0; hand < kHands; ++hand) {
+    const std::uint8_t item = now.hands[hand].item;
+    if (item >= simulation::kMaxItems) continue;
+    held.hands[hand].tip_in_patient = now.items[item].tip_in_patient;
+    held.hands[hand].shaft_in_patient = now.items[item].shaft_in_patient;
+  }
+  return held;
+}
+
+void hold(HeldInput& held, const protocol::Hand& message) noexcept {
+  const auto hand = static_cast<std::size_t>(message.hand);
+  if (hand >= kHands) return;
+  held.hands[hand] = {message.tip_mm, message.shaft, message.thrust_n,
+                      static_cast<simulation::Driver>(message.driver),
+                      static_cast<simulation::Guidance>(message.guidance)};
+  ++held.heard[hand];
+}
+
+void hold(HeldInput& held, const protocol::Wrist& message) noexcept {
+  held.wrist = {radians_from_degrees(message.flexion_deg),
+                radians_from_degrees(message.radial_deviation_deg),
+                radians_from_degrees(message.pronation_deg), message.traction_n};
+}
+
+Result<Command> command_of(const protocol::Act& message) {
+  const auto kind = kind_of(message.id);
+  if (!kind) return Refusal{"A picture is asked for with take_shot"};
+  Command command;
+  command.kind = *kind;
+  command.hand = static_cast<std::uint8_t>(message.hand.value_or(0));
+  if (*kind == CommandKind::Take) {
+    if (!message.instrument) return Refusal{"take needs an instrument"};
+    const auto index = instruments::instrument_of(*message.instrument);
+    if (!index) return Refusal{"There is no instrument '" + *message.instrument + "'"};
+    command.index = *index;
+  }
+  if (*kind == CommandKind::PickUp) {
+    if (!message.item) return Refusal{"pick_up needs an item"};
+    command.index = static_cast<std::uint8_t>(*message.item);
+  }
+  return command;
+}
+
+Command command_of(const protocol::TakeShot& message, const simulation::WristPose& wrist) noexcept {
+  Command command;
+  command.kind = CommandKind::TakeShot;
+  const bool is_room = message.reference == protocol::AngleReference::Room;
+  command.rotation_deg =
+      is_room ? message.rotation_deg
+              : simulation::room_rotation_deg(message.rotation_deg, wrist.pronation_rad);
+  command.tilt_deg = message.tilt_deg;
+  return command;
+}
+
+}  // namespace carpus::session

@@ -1,0 +1,28 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a page says, in the simulation's terms.
+#pragma once
+
+#include "core/result.hpp"
+#include "protocol/messages.hpp"
+#include "session/held_input.hpp"
+#include "simulation/snapshot.hpp"
+
+namespace carpus::session {
+
+/// Everything at rest where it is: what is held at the beginning, and when nobody holds anything.
+[[nodiscard]] HeldInput resting(const simulation::Snapshot& now) noexcept;
+
+/// Takes over what is said of one hand, and of the wrist.
+void hold(HeldInput& held, const protocol::Hand& message) noexcept;
+void hold(HeldInput& held, const protocol::Wrist& message) noexcept;
+
+/// A refusal says what is missing or not known, for the page that sent it. Whether it makes sense
+/// now, the simulation says.
+[[nodiscard]] Result<simulation::Command> command_of(const protocol::Act& message);
+/// @param wrist  as it is held now: angles may be counted from it.
+[[nodiscard]] simulation::Command command_of(const protocol::TakeShot& message,
+                                             const simulation::WristPose& wrist) noexcept;
+
+}  // namespace carpus::session

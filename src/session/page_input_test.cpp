@@ -1,0 +1,56 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/page_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/units.hpp"
+
+namespace carpus::session {
+namespace {
+
+TEST(PageInput, EachHandIsHeldAndHeardByItself) {
+  HeldInput held;
+  protocol::Hand message;
+  message.hand = 1;
+  message.tip_mm = {1, 2, 3};
+  message.shaft = {0, 1, 0};
+  message.thrust_n = 12;
+  message.driver = protocol::Driver::Reverse;
+  message.guidance = protocol::Guidance::Planned;
+  hold(held, message);
+  EXPECT_EQ(held.heard[0], 0U);
+  EXPECT_EQ(held.heard[1], 1U);
+  EXPECT_EQ(held.hands[0], simulation::HandInput{});
+  EXPECT_EQ(held.hands[1].tip_in_patient, (Vec3{1, 2, 3}));
+  EXPECT_EQ(held.hands[1].driver, simulation::Driver::Reverse);
+  EXPECT_EQ(held.hands[1].guidance, simulation::Guidance::Planned);
+}
+
+TEST(PageInput, WristIsTakenInRadians) {
+  HeldInput held;
+  protocol::Wrist message;
+  message.flexion_deg = 90;
+  message.traction_n = 20;
+  hold(held, message);
+  EXPECT_DOUBLE_EQ(held.wrist.flexion_rad, kPi / 2);
+  EXPECT_EQ(held.wrist.traction_n, 20);
+}
+
+TEST(PageInput, ViewsOfAHeldForearmTurnTheCArmWithIt) {
+  simulation::WristPose pronated;
+  pronated.pronation_rad = radians_from_degrees(60);
+  protocol::TakeShot shot;
+  shot.rotation_deg = 30;
+  shot.tilt_deg = -5;
+  EXPECT_DOUBLE_EQ(command_of(shot, pronated).rotation_deg, 90);
+  EXPECT_EQ(command_of(shot, pronated).tilt_deg, -5);
+  shot.reference = protocol::AngleReference::Room;
+  EXPECT_EQ(command_of(shot, pronated).rotation_deg, 30);
+  shot.reference = protocol::AngleReference::HeldForearm;
+  shot.rotation_deg = 150;
+  EXPECT_DOUBLE_EQ(command_of(shot, pronated).rotation_deg, -150) << "once round";
+}
+
+}  // namespace
+}  // namespace carpus::session

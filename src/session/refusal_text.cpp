@@ -1,0 +1,46 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/refusal_text.hpp"
+
+namespace carpus::session {
+
+std::string_view text_of(simulation::Refusal refusal) noexcept {
+  using simulation::Refusal;
+  switch (refusal) {
+    case Refusal::None:
+      return {};
+    case Refusal::Finished:
+      return "The operation is finished";
+    case Refusal::UnknownCommand:
+      return "That is not known here";
+    case Refusal::NoSuchHand:
+      return "There is no such hand";
+    case Refusal::ShotOutOfRange:
+      return "The C-arm does not turn so far";
+    case Refusal::TooManyShots:
+      return "No more pictures can be taken in this exercise";
+    case Refusal::NotOnTheTray:
+      return "It is not on the tray";
+    case Refusal::HandIsFull:
+      return "What the hand holds is in bone and would not stay there: draw it back first";
+    case Refusal::TooManyItems:
+      return "Too many instruments are in use: put one down first";
+    case Refusal::NoWireToRideOn:
+      return "It goes over a wire, and no wire lies in the bone that is operated on";
+    case Refusal::WireIsTaken:
+      return "Something rides on the wire already";
+    case Refusal::NothingInHand:
+      return "The hand is empty";
+    case Refusal::NothingThere:
+      return "There is nothing to take hold of";
+    case Refusal::SomethingRidesOnIt:
+      return "Something rides on it: take that off first";
+    case Refusal::NoGaugeInHand:
+      return "The depth gauge must be in the hand, over a wire";
+    case Refusal::NothingToUndo:
+      return "Nothing to undo";
+  }
+  return "That is not possible now";
+}
+
+}  // namespace carpus::session

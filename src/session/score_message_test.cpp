@@ -1,0 +1,44 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/score_message.hpp"
+
+#include <gtest/gtest.h>
+
+namespace carpus::session {
+namespace {
+
+TEST(ScoreMessage, SaysWhatWasNotMeasuredAndReadsBackAsItWas) {
+  procedure::ScoreReport report;
+  report.overall = 40;
+  report.items.resize(2);
+  report.items[0].id = "length_mm";
+  report.items[1].id = "angle_deg";
+  report.items[1].value = 3.5;
+  report.items[1].grade = procedure::Grade::Good;
+  report.must_haves.push_back({"inside", "Inside the bone", true});
+  const protocol::ScoreReport message = score_message(report);
+  const auto read = protocol::parse_stored_score(protocol::serialize_stored_score(message));
+  ASSERT_TRUE(read.has_value()) << read.error();
+  EXPECT_EQ(*read, message);
+  ASSERT_EQ(read->items.size(), 2U);
+  EXPECT_EQ(read->items[0].value, std::nullopt);
+  EXPECT_EQ(read->items[0].grade, protocol::Grade::NotMeasured);
+  EXPECT_EQ(read->items[1].value, 3.5);
+  EXPECT_EQ(read->overall, 40);
+  EXPECT_TRUE(read->must_haves.at(0).fulfilled);
+  EXPECT_EQ(read->placement.screw, std::nullopt);
+}
+
+TEST(ScoreMessage, PutsScrewAndWireWhereTheyLie) {
+  procedure::ScoreReport report;
+  report.placement.wire = procedure::PlacedLine{{1, 2, 3}, {4, 5, 6}};
+  report.placement.screw = procedure::PlacedLine{{7, 8, 9}, {10, 11, 12}};
+  report.placement.screw_tip_diameter_mm = 3.5;
+  report.placement.screw_tail_diameter_mm = 4.1;
+  const protocol::Placement placement = score_message(report).placement;
+  EXPECT_EQ(placement.wire, (protocol::PlacedWire{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(placement.screw, (protocol::PlacedScrew{{7, 8, 9}, {10, 11, 12}, 3.5, 4.1}));
+}
+
+}  // namespace
+}  // namespace carpus::session

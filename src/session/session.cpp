@@ -1,0 +1,83 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/session.hpp"
+
+#include <utility>
+
+#include "session/action_list.hpp"
+#include "session/descriptions.hpp"
+#include "session/event_text.hpp"
+
+namespace carpus::session {
+
+Session::Session(const cases::CaseData& data,
+                 const procedure::Procedure& procedure,
+                 const simulation::Snapshot& initial)
+    : data_(data),
+      procedure_(procedure),
+      bodies_(data),
+      held_(resting(initial)),
+      latest_(initial) {}
+
+const HeldInput& Session::take(const protocol::Hand& message) noexcept {
+  hold(held_, message);
+  return held_;
+}
+
+const HeldInput& Session::take(const protocol::Wrist& message) noexcept {
+  hold(held_, message);
+  return held_;
+}
+
+Result<simulation::Command> Session::take(const protocol::Act& message) const {
+  return command_of(message);
+}
+
+simulation::Command Session::take(const protocol::TakeShot& message) const noexcept {
+  return command_of(message, latest_.wrist);
+}
+
+const HeldInput& Session::let_go() noexcept {
+  const auto heard = held_.heard;
+  held_ = resting(latest_);
+  held_.heard = heard;
+  return held_;
+}
+
+protocol::Exercise Session::exercise() const { return exercise_message(data_, procedure_); }
+
+std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& now,
+                                                   const HostState& host) {
+  latest_ = now;
+  std::vector<protocol::HostMessage> messages;
+  if (sent_tissue_ != now.tissue_revision) {
+    messages.emplace_back(tissue_message(now, bodies_));
+    sent_tissue_ = now.tissue_revision;
+  }
+  protocol::Actions actions = actions_message(procedure_, now, bodies_);
+  if (actions != sent_actions_) {
+    messages.emplace_back(actions);
+    sent_actions_ = std::move(actions);
+  }
+  protocol::Snapshot snapshot = snapshot_message(now, host, bodies_);
+  const std::vector<BonePose> poses(now.patient_from_bone.begin(),
+                                    now.patient_from_bone.begin() + now.body_count);
+  if (poses != sent_poses_) {
+    snapshot.bodies = body_poses(now);
+    sent_poses_ = poses;
+  }
+  messages.emplace_back(std::move(snapshot));
+  return messages;
+}
+
+void Session::forget_what_was_sent() noexcept {
+  sent_tissue_.reset();
+  sent_poses_.clear();
+  sent_actions_.actions.clear();
+}
+
+protocol::LoggedEvent Session::describe(const simulation::Event& event) const {
+  return session::describe(event, procedure_, bodies_);
+}
+
+}  // namespace carpus::session

@@ -1,0 +1,64 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One page and one exercise, on any host: what the page says becomes input, what the world leaves
+// becomes messages. Knows no thread, socket or clock; the host carries frames, keeps time, makes
+// pictures and stores.
+//
+//   page ──text──▶ session ──HeldInput, Command──▶ InputSource ──Input──▶ World
+//   page ◀─text─── session ◀──────────── Snapshot ─────────────────────── World
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
+#include "protocol/messages.hpp"
+#include "session/body_names.hpp"
+#include "session/page_input.hpp"
+#include "session/snapshot_message.hpp"
+
+namespace carpus::session {
+
+class Session {
+ public:
+  /// @param data, procedure  must outlive it. @param initial  state before the first tick.
+  Session(const cases::CaseData& data,
+          const procedure::Procedure& procedure,
+          const simulation::Snapshot& initial);
+
+  // From the page. What is held goes to InputSource::hold, a command into a tick's input.
+  const HeldInput& take(const protocol::Hand& message) noexcept;
+  const HeldInput& take(const protocol::Wrist& message) noexcept;
+  [[nodiscard]] Result<simulation::Command> take(const protocol::Act& message) const;
+  [[nodiscard]] simulation::Command take(const protocol::TakeShot& message) const noexcept;
+  /// The page is gone: drivers off, everything stays where it is.
+  const HeldInput& let_go() noexcept;
+
+  // To the page.
+  /// To be sent first, and again to a page that comes back.
+  [[nodiscard]] protocol::Exercise exercise() const;
+  /// What the page does not know yet of this state, in the order in which it must be sent: bone
+  /// that was removed, what can be asked for, the state itself. All of it is taken for sent.
+  [[nodiscard]] std::vector<protocol::HostMessage> update(const simulation::Snapshot& now,
+                                                          const HostState& host);
+  /// A page came back: the next update tells everything.
+  void forget_what_was_sent() noexcept;
+  [[nodiscard]] protocol::LoggedEvent describe(const simulation::Event& event) const;
+
+ private:
+  using BonePose = Pose<frame::Patient, frame::Bone>;
+
+  const cases::CaseData& data_;
+  const procedure::Procedure& procedure_;
+  BodyNames bodies_;
+  HeldInput held_;
+  simulation::Snapshot latest_;
+  std::optional<std::uint32_t> sent_tissue_;
+  std::vector<BonePose> sent_poses_;
+  protocol::Actions sent_actions_;
+};
+
+}  // namespace carpus::session

@@ -1,0 +1,163 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tree finds what trying every triangle finds, also in bones that have moved; lines know where they
+// run within a bone. Prints what the tree saves.
+import * as THREE from "three";
+import { MeshBVH } from "three-mesh-bvh";
+import { describe, expect, it } from "vitest";
+import { vertexOcclusion } from "../bone_shading";
+import { BoneRays, makeHittable, stretchesWithin } from "./bone_rays";
+
+/** A bumpy ball, as fine as the bones of a case. */
+function ball(x: number, detail = 24): THREE.Mesh {
+  const geometry = new THREE.IcosahedronGeometry(8, detail);
+  const p = geometry.getAttribute("position");
+  for (let i = 0; i < p.count; ++i) {
+    const bump = 1 + 0.1 * Math.sin(p.getX(i)) * Math.cos(1.3 * p.getY(i));
+    p.setXYZ(i, p.getX(i) * bump, p.getY(i) * bump, p.getZ(i) * bump);
+  }
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial());
+  mesh.position.set(x, 0, 0);
+  mesh.updateMatrixWorld(true);
+  return mesh;
+}
+
+/** Seeded: the same rays each time. */
+function rays(count: number): THREE.Ray[] {
+  let state = 7;
+  const next = (): number => {
+    state = (1664525 * state + 1013904223) >>> 0;
+    return state / 2 ** 32 - 0.5;
+  };
+  return Array.from({ length: count }, () => {
+    const origin = new THREE.Vector3(100 * next(), 30 * next(), 60);
+    const target = new THREE.Vector3(100 * next(), 12 * next(), 6 * next());
+    return new THREE.Ray(origin, target.sub(origin).normalize());
+  });
+}
+
+function points(bones: THREE.Mesh[], lines: readonly THREE.Ray[]): (number[] | undefined)[] {
+  const caster = new THREE.Raycaster();
+  const out = new THREE.Vector3();
+  const boneRays = new BoneRays(bones);
+  return lines.map(({ origin, direction }) => {
+    caster.set(origin, direction);
+    return boneRays.first(caster, out) ? out.toArray() : undefined;
+  });
+}
+
+describe("BoneRays", () => {
+  it("find what trying every triangle finds, faster, in bones that have moved too", () => {
+    const bones = [-30, -10, 10, 30].map((x) => ball(x));
+    bones[1]?.position.set(-14, 3, 2);
+    bones[1]?.quaternion.setFromEuler(new THREE.Euler(0.4, -0.2, 0.9));
+    bones[1]?.updateMatrixWorld(true);
+    const lines = rays(200);
+    const timed = <T>(run: () => T): [T, number] => {
+      const start = performance.now();
+      return [run(), (performance.now() - start) / lines.length];
+    };
+    const [slow, slowMs] = timed(() => points(bones, lines));
+    const [, buildMs] = timed(() => {
+      bones.forEach(makeHittable);
+    });
+    points(bones, lines.slice(0, 20));
+    const [fast, fastMs] = timed(() => points(bones, lines));
+    const hit = slow.filter((point) => point !== undefined);
+    expect(hit.length).toBeGreaterThan(50);
+    expect(hit.length).toBeLessThan(lines.length);
+    slow.forEach((point, i) => {
+      expect(fast[i] === undefined).toBe(point === undefined);
+      point?.forEach((value, axis) => {
+        expect(fast[i]?.[axis]).toBeCloseTo(value, 6);
+      });
+    });
+    const triangles = bones.reduce((n, b) => n + b.geometry.getAttribute("position").count / 3, 0);
+    console.log(
+      `a ray over ${triangles} triangles: every one tried ${(1000 * slowMs).toFixed(0)} us, by trees ` +
+        `${(1000 * fastMs).toFixed(1)} us; trees made in ${(buildMs * lines.length).toFixed(0)} ms`,
+    );
+    expect(fastMs).toBeLessThan(slowMs / 2);
+  });
+});
+
+describe("light between the bones", () => {
+  it("stays with voxels (bone_shading): rays by trees take longer for a vertex", () => {
+    const surfaces = [-9, 9].map((x) => {
+      const mesh = ball(x, 12);
+      const geometry = mesh.geometry.applyMatrix4(mesh.matrixWorld);
+      return geometry;
+    });
+    const trees = surfaces.map((geometry) => new MeshBVH(geometry, { indirect: true }));
+    const array = (geometry: THREE.BufferGeometry, name: string): Float32Array =>
+      new Float32Array(geometry.getAttribute(name).array);
+    const voxels = (): number => {
+      const start = performance.now();
+      const light = vertexOcclusion(
+        surfaces.map((g) => ({ positions: array(g, "position"), normals: array(g, "normal") })),
+      );
+      const vertices = light.reduce((n, one) => n + one.length, 0);
+      return (performance.now() - start) / vertices;
+    };
+    const rayed = (): number => {
+      const [first] = surfaces;
+      const [p, n] = [first?.getAttribute("position"), first?.getAttribute("normal")];
+      const ray = new THREE.Ray();
+      const start = performance.now();
+      const vertices = 300;
+      for (let v = 0; v < vertices; ++v) {
+        // As many rays as a vertex sends, all about its normal.
+        for (let k = 0; k < 13; ++k) {
+          ray.direction.set(Math.sin(k), Math.cos(k), 0.3).multiplyScalar(0.6);
+          if (p === undefined || n === undefined) continue;
+          ray.direction.add(new THREE.Vector3().fromBufferAttribute(n, v)).normalize();
+          ray.origin.fromBufferAttribute(p, v).addScaledVector(ray.direction, 2);
+          for (const tree of trees) tree.raycastFirst(ray, THREE.DoubleSide, 0, 12);
+        }
+      }
+      return (performance.now() - start) / vertices;
+    };
+    const best = (run: () => number): number => Math.min(run(), run(), run());
+    const [byVoxels, byTrees] = [best(voxels), best(rayed)];
+    console.log(
+      `light of a vertex: by voxels ${(1000 * byVoxels).toFixed(1)} us, ` +
+        `by trees of 2 bones ${(1000 * byTrees).toFixed(1)} us`,
+    );
+    expect(byVoxels).toBeLessThan(byTrees);
+  });
+});
+
+describe("stretchesWithin", () => {
+  const hittable = (geometry: THREE.BufferGeometry): THREE.BufferGeometry => {
+    const mesh = new THREE.Mesh(geometry);
+    makeHittable(mesh);
+    return geometry;
+  };
+  const cube = hittable(new THREE.BoxGeometry(4, 4, 4));
+
+  it("are where a line enters and leaves", () => {
+    expect(stretchesWithin(cube, [-5, 0.3, 0.2], [1, 0, 0], 20)).toEqual([[3, 7]]);
+  });
+
+  it("begin at the line's start and end at its end where these lie within", () => {
+    expect(stretchesWithin(cube, [0, 0.3, 0.2], [1, 0, 0], 1.5)).toEqual([[0, 1.5]]);
+  });
+
+  it("are none for a line beside the bone or one that ends before it", () => {
+    expect(stretchesWithin(cube, [-5, 3, 0], [1, 0, 0], 20)).toEqual([]);
+    expect(stretchesWithin(cube, [-5, 0.3, 0.2], [1, 0, 0], 2)).toEqual([]);
+  });
+
+  it("count an edge between two triangles once", () => {
+    expect(stretchesWithin(cube, [-5, 0, 0], [1, 0, 0], 20)).toEqual([[3, 7]]);
+  });
+
+  it("are two through a ring", () => {
+    const ring = hittable(new THREE.TorusGeometry(10, 2, 32, 64));
+    const found = stretchesWithin(ring, [-20, 0.1, 0.1], [1, 0, 0], 40);
+    expect(found.length).toBe(2);
+    expect(found[0]?.[0]).toBeCloseTo(8, 1);
+    expect(found[1]?.[1]).toBeCloseTo(32, 1);
+  });
+});

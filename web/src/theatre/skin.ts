@@ -1,0 +1,92 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The skin as a see-through shell that follows forearm and hand (skin_blend_model.ts); its shader moves
+// each point, so that a bent wrist costs no more than a straight one.
+import * as THREE from "three";
+import { depthOnlyMaterial, skinMaterial } from "./materials";
+import { dualQuaternion, handWeights, sideOf, type RigidMotion } from "./skin_blend_model";
+
+/** The bones whose motion is that of their side of the skin, the first that is there. */
+const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"] } as const;
+
+/** As blendedPoint() in skin_blend_model.ts. */
+const VERTEX = /* glsl */ `
+attribute float handWeight;
+uniform vec4 forearmReal;
+uniform vec4 forearmDual;
+uniform vec4 handReal;
+uniform vec4 handDual;
+varying vec3 vNormalView;
+varying vec3 vToEye;
+vec3 turnedBy(vec4 q, vec3 v) {
+  return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+void main() {
+  float side = dot(forearmReal, handReal) < 0.0 ? -1.0 : 1.0;
+  vec4 real = mix(forearmReal, side * handReal, handWeight);
+  vec4 dual = mix(forearmDual, side * handDual, handWeight);
+  float size = length(real);
+  real /= size;
+  dual /= size;
+  vec3 moved = turnedBy(real, position)
+    + 2.0 * (real.w * dual.xyz - dual.w * real.xyz + cross(real.xyz, dual.xyz));
+  vec4 inView = modelViewMatrix * vec4(moved, 1.0);
+  vNormalView = normalMatrix * turnedBy(real, normal);
+  vToEye = -inView.xyz;
+  gl_Position = projectionMatrix * inView;
+}
+`;
+
+export class Skin {
+  readonly group = new THREE.Group();
+  private readonly shell: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  private readonly depth: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  private readonly motion = {
+    forearmReal: { value: new THREE.Vector4(0, 0, 0, 1) },
+    forearmDual: { value: new THREE.Vector4(0, 0, 0, 0) },
+    handReal: { value: new THREE.Vector4(0, 0, 0, 1) },
+    handDual: { value: new THREE.Vector4(0, 0, 0, 0) },
+  };
+  private readonly carriers: ReadonlySet<string>;
+
+  /** @param bones  where they are in the case, in the same frame as the skin [mm] */
+  constructor(surface: THREE.BufferGeometry, bones: readonly THREE.Mesh[]) {
+    const points = bones.map((bone) => ({
+      name: bone.name,
+      positions: bone.geometry.getAttribute("position").array,
+    }));
+    const weights = handWeights(surface.getAttribute("position").array, points);
+    surface.setAttribute("handWeight", new THREE.BufferAttribute(weights, 1));
+    const carriers = Object.values(CARRIERS).map((names) =>
+      names.find((name) => bones.some((bone) => bone.name === name)),
+    );
+    this.carriers = new Set(carriers.filter((name) => name !== undefined));
+    this.depth = new THREE.Mesh(surface, depthOnlyMaterial(VERTEX));
+    this.depth.renderOrder = 5;
+    this.shell = new THREE.Mesh(surface, skinMaterial(VERTEX));
+    this.shell.renderOrder = 6;
+    for (const mesh of [this.depth, this.shell]) {
+      Object.assign(mesh.material.uniforms, this.motion);
+      // Its bounds are those of the unbent wrist.
+      mesh.frustumCulled = false;
+      this.group.add(mesh);
+    }
+  }
+
+  /** @param opacity  0 none, 1 as on the patient */
+  setOpacity(opacity: number): void {
+    this.group.visible = opacity > 0;
+    const uniform = this.shell.material.uniforms["opacity"];
+    if (uniform !== undefined) uniform.value = opacity;
+  }
+
+  /** A bone has moved: the skin goes with those that carry it. */
+  follow(bone: string, motion: RigidMotion): void {
+    const side = this.carriers.has(bone) ? sideOf(bone) : undefined;
+    if (side === undefined) return;
+    const { dual, real } = dualQuaternion(motion);
+    this.motion[`${side}Real`].value.set(...real);
+    this.motion[`${side}Dual`].value.set(...dual);
+  }
+}

@@ -1,0 +1,141 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All bars, lists and dialogs of the room. They show, and pass on what was asked for; they decide nothing.
+import { CArmPanel } from "../c_arm";
+import { make } from "../dom";
+import { HelpOverlay } from "../help_overlay";
+import type { OnceAction } from "../operation";
+import type { CaseDescription, Screw } from "../protocol";
+import { StartDialog, type StartChoice } from "../start_dialog";
+import type { ViewId } from "../theatre";
+import { BottomBar } from "./bottom_bar";
+import { ConfirmDialog } from "./confirm_dialog";
+import { Notice } from "./notice";
+import { ScrewList } from "./screw_list";
+import { StepPanel } from "./step_panel";
+import { TopBar } from "./top_bar";
+import { ViewBar } from "./view_bar";
+
+/** What the panels ask for. */
+export interface Wishes {
+  /** What a key does too. */
+  act(action: OnceAction): void;
+  look(view: ViewId): void;
+  skin(opacity: number): void;
+  takeShot(rotationDeg: number, tiltDeg: number): void;
+  selectScrew(index: number): void;
+  start(choice: StartChoice): void;
+  resume(choice: StartChoice): void;
+  /** Asks before what was done is given up. */
+  restart(): void;
+  /** Was asked and is sure. */
+  startAnew(): void;
+  finish(): void;
+}
+
+export interface Panels {
+  readonly top: TopBar;
+  readonly steps: StepPanel;
+  readonly views: ViewBar;
+  readonly arm: CArmPanel;
+  readonly bottom: BottomBar;
+  readonly notice: Notice;
+  readonly start: StartDialog;
+  readonly help: HelpOverlay;
+  readonly tray: ScrewList;
+  readonly finishQuestion: ConfirmDialog;
+  readonly anewQuestion: ConfirmDialog;
+  /** Over the scene while there is no connection. */
+  readonly frozen: HTMLElement;
+  /** Over the scene while time stands still. */
+  readonly pausedSign: HTMLElement;
+}
+
+export function makePanels(
+  description: CaseDescription,
+  screws: readonly Screw[],
+  wishes: Wishes,
+): Panels {
+  const act = (
+    kind: "pause" | "help" | "full_screen" | "measure" | "screws" | "undo" | "finish",
+  ) => {
+    return (): void => {
+      wishes.act({ kind });
+    };
+  };
+  const panels: Panels = {
+    top: new TopBar(description, {
+      pause: act("pause"),
+      help: act("help"),
+      fullScreen: act("full_screen"),
+    }),
+    steps: new StepPanel(),
+    views: new ViewBar({
+      look: (view) => {
+        wishes.look(view);
+      },
+      skin: (opacity) => {
+        wishes.skin(opacity);
+      },
+      names: () => {
+        wishes.act({ kind: "labels" });
+      },
+    }),
+    arm: new CArmPanel(description.views, {
+      takeShot: (rotationDeg, tiltDeg) => {
+        wishes.takeShot(rotationDeg, tiltDeg);
+      },
+    }),
+    bottom: new BottomBar({
+      measure: act("measure"),
+      screws: act("screws"),
+      undo: act("undo"),
+      restart: () => {
+        wishes.restart();
+      },
+      finish: act("finish"),
+    }),
+    notice: new Notice(),
+    start: new StartDialog(
+      description,
+      (choice) => {
+        wishes.start(choice);
+      },
+      (choice) => {
+        wishes.resume(choice);
+      },
+    ),
+    help: new HelpOverlay(),
+    tray: new ScrewList(screws, (screw) => {
+      wishes.selectScrew(screw.index);
+    }),
+    finishQuestion: new ConfirmDialog(
+      "Finish the operation?",
+      "The placement is measured and stored. After this nothing can be changed.",
+      "Finish and score",
+      () => {
+        wishes.finish();
+      },
+    ),
+    anewQuestion: new ConfirmDialog(
+      "Start anew?",
+      "What was done so far is stored as unfinished.",
+      "Start anew",
+      () => {
+        wishes.startAnew();
+      },
+    ),
+    frozen: make("p.frozen", { role: "alert" }),
+    pausedSign: make(
+      "p.paused",
+      { role: "status" },
+      make("strong", {}, "Paused"),
+      "time stands still; ",
+      make("kbd", {}, "P"),
+      " goes on",
+    ),
+  };
+  panels.frozen.hidden = panels.pausedSign.hidden = true;
+  return panels;
+}

@@ -1,0 +1,31 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `window.carpus`: for tests and screenshots, what is shown; never a way to act.
+import type { SnapshotMessage, Vec3 } from "../protocol";
+import type { Theatre } from "../theatre";
+
+declare global {
+  interface Window {
+    carpus?: {
+      snapshot(): SnapshotMessage | undefined;
+      pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
+      screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
+    };
+  }
+}
+
+/** @return takes it away */
+export function showToTests(
+  theatre: Theatre,
+  snapshot: () => SnapshotMessage | undefined,
+): () => void {
+  window.carpus = {
+    snapshot,
+    pagePoint: (mm) => theatre.pagePoint(mm),
+    screenAxes: () => theatre.screenAxes(),
+  };
+  return () => {
+    delete window.carpus;
+  };
+}

@@ -1,0 +1,195 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Begins, goes on with, pauses and leaves an exercise, and shows which of these can be done.
+import { setText } from "../dom";
+import type { LinkState } from "../host_link";
+import type { PageMessage } from "../protocol";
+import type { StartChoice } from "../start_dialog";
+import type { Hand } from "./hand";
+import type { Panels } from "./panels";
+import { Participation } from "./participation_model";
+import { waitingText, type WaitingOperation } from "./waiting_model";
+import type { WhatIsSeen } from "./what_is_seen";
+
+const PROCEDURE = "dorsal_scaphoid_fixation";
+
+/** What an exercise takes hold of in the room. */
+export interface ExerciseRoom {
+  readonly panels: Panels;
+  readonly hand: Hand;
+  readonly seen: WhatIsSeen;
+  /** Where the keys belong while one operates. */
+  readonly canvas: HTMLCanvasElement;
+  /** @return whether it was sent */
+  tell(message: PageMessage): boolean;
+}
+
+export class TakingPart {
+  private readonly part = new Participation();
+  private pausedByHand = false;
+  private waiting: WaitingOperation = { trainee: "", startedAt: "" };
+  /** Said before what waits. */
+  private waitingLead = "";
+  private trainee = "";
+  private wanted: StartChoice = { trainee: "" };
+
+  constructor(private readonly room: ExerciseRoom) {}
+
+  get operates(): boolean {
+    return this.part.operates;
+  }
+
+  /** Asks first where an exercise waits that would be given up. */
+  start(choice: StartChoice): void {
+    this.wanted = choice;
+    if (this.part.isOffered) this.room.panels.anewQuestion.ask();
+    else this.begin(choice);
+  }
+
+  restart(): void {
+    this.wanted = { trainee: this.trainee };
+    this.room.panels.anewQuestion.ask();
+  }
+
+  startAnew(): void {
+    this.begin(this.wanted);
+  }
+
+  private begin(choice: StartChoice): void {
+    this.trainee = choice.trainee;
+    const sent = this.room.tell({
+      type: "start",
+      trainee: choice.trainee,
+      procedure: PROCEDURE,
+      input_device: "mouse",
+      seed: crypto.getRandomValues(new Uint32Array(1))[0] ?? 1,
+    });
+    if (!sent) return;
+    this.part.ask();
+    this.pausedByHand = false;
+    this.room.seen.clearRecord();
+    this.room.panels.notice.say("Press ? for mouse and keys.");
+    this.enter();
+  }
+
+  resume(choice: StartChoice): void {
+    const { hand, seen } = this.room;
+    this.trainee = choice.trainee;
+    this.part.goOn();
+    this.pausedByHand = false;
+    if (seen.latest !== undefined) hand.takeOver(seen.latest);
+    this.goOn();
+    this.enter();
+  }
+
+  /** The page operates from now on. */
+  private enter(): void {
+    const { canvas, hand, panels } = this.room;
+    panels.start.offerResume(false);
+    panels.start.close();
+    hand.setEnabled(true);
+    canvas.focus({ preventScroll: true });
+  }
+
+  /** The page does not operate any more; `note` says why. */
+  private leave(note: string): void {
+    const { hand, panels } = this.room;
+    hand.setEnabled(false);
+    panels.frozen.hidden = panels.pausedSign.hidden = true;
+    for (const { element } of [
+      panels.finishQuestion,
+      panels.anewQuestion,
+      panels.tray,
+      panels.help,
+    ])
+      element.close();
+    panels.start.offerResume(this.part.isOffered);
+    panels.start.setReady(true, note);
+    panels.start.open();
+  }
+
+  /** Another exercise waits that this page may go on with. */
+  private offer(lead: string): void {
+    this.room.seen.forget();
+    this.waitingLead = lead;
+    this.leave(lead + waitingText(this.waiting, undefined, new Date()));
+  }
+
+  /** The host lets time pass again, unless the trainee had stopped it. */
+  private goOn(): void {
+    this.room.tell({ type: "pause", on: this.pausedByHand });
+  }
+
+  togglePause(): void {
+    const { latest } = this.room.seen;
+    if (latest === undefined || !this.operates) return;
+    this.pausedByHand = !latest.paused;
+    this.goOn();
+  }
+
+  /** Asks before the operation ends. */
+  askToFinish(): void {
+    if (this.operates) this.room.panels.finishQuestion.ask();
+  }
+
+  /** The operation was scored. */
+  finished(): void {
+    this.part.finish();
+  }
+
+  /** The line to the host is open, or `text` says why not. */
+  showLink(state: LinkState, text: string): void {
+    const { hand, panels } = this.room;
+    const open = state === "open";
+    if (!open) {
+      this.part.lose();
+      panels.start.offerResume(false);
+    }
+    panels.frozen.hidden = open || !this.operates;
+    setText(panels.frozen, text);
+    panels.top.showLink(state === "lost" ? "not connected" : state === "busy" ? "busy" : "");
+    panels.start.setReady(open, text);
+    hand.setEnabled(open && this.operates);
+  }
+
+  /** Says of what waits how far it has come. */
+  showWaiting(): void {
+    const { panels, seen } = this.room;
+    if (!this.part.isOffered || this.operates) return;
+    panels.start.setReady(
+      true,
+      this.waitingLead + waitingText(this.waiting, seen.latest, new Date()),
+    );
+  }
+
+  /** The host takes this page, for the first time or again, or has begun what it asked for. */
+  arrive(exercise: number, waiting: WaitingOperation): void {
+    const { panels, seen } = this.room;
+    this.waiting = waiting;
+    switch (this.part.arrive(exercise)) {
+      case "begun":
+        // Pictures of the exercise before may have come after the request.
+        seen.clearRecord();
+        break;
+      case "goes_on":
+        // The host tells the log again.
+        panels.steps.clearLog();
+        this.goOn();
+        panels.notice.say("Connected again: the operation goes on where it was.");
+        break;
+      case "ended":
+        this.leave("The operation has ended; it is among the past attempts.");
+        break;
+      case "replaced":
+        this.offer("Your operation has ended; it is among the past attempts. ");
+        break;
+      case "offered":
+        this.offer("");
+        break;
+      case "free":
+        this.leave("");
+        break;
+    }
+  }
+}
