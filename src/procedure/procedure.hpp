@@ -32,13 +32,13 @@ struct Step {
   std::string title;                 ///< "Survey"
   std::string instruction;           ///< one sentence: what to do next
   std::vector<std::string> actions;  ///< ids of the actions whose keys the page names with it
-  /// What it is done with: shown on the tray, taken by scripts; kNoInstrument: nothing new.
-  instruments::InstrumentIndex instrument = instruments::kNoInstrument;
   Predicate is_done = nullptr;
   /// Once done it stays done until this holds; nullptr: for good.
   Predicate is_lost = nullptr;
   /// A step that is still current when this one is done cannot be made up for: it is passed over.
   bool passes_over_earlier = false;
+  /// What it is done with: shown on the tray, taken by scripts; kNoInstrument: nothing new.
+  instruments::InstrumentIndex instrument = instruments::kNoInstrument;
 };
 
 /// A view of the C-arm that the procedure asks for.

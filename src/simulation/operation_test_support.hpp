@@ -67,8 +67,8 @@ inline std::uint8_t body_of(BoneId bone) {
 inline procedure::Opening open_flexed(const cases::CaseData& data) {
   procedure::Opening opening;
   opening.wrist.flexion_rad = kOpenFlexionRad;
-  opening.tip_in_patient = data.scaphoid.waist + Vec3{0, 80, 0};
-  opening.shaft_in_patient = {0, 1, 0};
+  opening.tip_in_target = data.scaphoid.waist + Vec3{0, 80, 0};
+  opening.shaft_in_target = {0, 1, 0};
   return opening;
 }
 

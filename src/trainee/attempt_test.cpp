@@ -4,13 +4,25 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
+#include "procedures/built_in.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "trainee/hand_motion.hpp"
 
 namespace carpus::trainee {
 namespace {
 
-using simulation::test::posed_wrist;
+using simulation::test::wrist;
+
+const procedure::Procedure& declared(const char* id) {
+  const procedure::Procedure* found = procedures::built_in().find(id);
+  EXPECT_NE(found, nullptr) << id;
+  return *found;
+}
+
+Attempt operate(const char* procedure, Skill skill, std::uint64_t seed) {
+  return operate(wrist(), declared(procedure), skill, seed, "test");
+}
 
 const procedure::ScoreItem& item_of(const Attempt& attempt, std::string_view id) {
   for (const auto& item : attempt.score.items) {
@@ -20,45 +32,100 @@ const procedure::ScoreItem& item_of(const Attempt& attempt, std::string_view id)
   return attempt.score.items.front();
 }
 
-class EverySeed : public testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(EverySeed, BothFinishAndTheExpertScoresBetter) {
-  const Attempt expert = operate(posed_wrist(), Skill::Expert, GetParam(), "test");
-  const Attempt novice = operate(posed_wrist(), Skill::Novice, GetParam(), "test");
-  for (const Attempt* attempt : {&expert, &novice}) {
-    EXPECT_TRUE(attempt->last.finished);
-    EXPECT_GE(attempt->record.screw_index, 0) << "a screw was inserted";
-    EXPECT_LT(attempt->record.ticks, 600000U);
+bool has_screw(const Attempt& attempt) {
+  for (const procedure::LineFacts& line : attempt.record.lines) {
+    const auto& instrument = instruments::catalogue()[line.instrument];
+    if (line.in_target && instrument.work == instruments::Work::Thread) return true;
   }
-  EXPECT_GT(expert.score.overall, novice.score.overall + 10.0);
-  EXPECT_TRUE(expert.score.is_fixation_acceptable);
-  EXPECT_GT(expert.score.overall, 85.0);
-  EXPECT_EQ(item_of(novice, "required_views_seen").grade, procedure::Grade::Fail);
-  for (const Attempt* attempt : {&expert, &novice}) {
-    std::string line;
-    for (const auto& item : attempt->score.items) {
-      line += item.id + "=" + std::to_string(item.value.value_or(-99)) + " ";
-    }
-    RecordProperty(attempt == &expert ? "expert" : "novice", line);
-  }
+  return false;
 }
 
-INSTANTIATE_TEST_SUITE_P(TenSeeds, EverySeed, testing::Range<std::uint64_t>(1, 11));
+std::string words_of(const Attempt& attempt) {
+  std::string line;
+  for (const auto& item : attempt.score.items) {
+    line += item.id + "=" + std::to_string(item.value.value_or(-99)) + " ";
+  }
+  return line;
+}
+
+struct Case {
+  const char* procedure;
+  std::uint64_t seed;
+};
+std::ostream& operator<<(std::ostream& out, const Case& each) {
+  return out << each.procedure << each.seed;
+}
+
+class EverySeed : public testing::TestWithParam<Case> {};
+
+TEST_P(EverySeed, BothFinishAndTheExpertScoresBetter) {
+  const auto& [procedure, seed] = GetParam();
+  const Attempt expert = operate(procedure, Skill::Expert, seed);
+  const Attempt novice = operate(procedure, Skill::Novice, seed);
+  for (const Attempt* attempt : {&expert, &novice}) {
+    EXPECT_TRUE(attempt->last.finished);
+    EXPECT_TRUE(has_screw(*attempt)) << words_of(*attempt);
+    EXPECT_LT(attempt->record.ticks, 600000U);
+    EXPECT_GE(attempt->record.gauge_reading_mm, 0.0);
+  }
+  EXPECT_GT(expert.score.overall, novice.score.overall + 10.0);
+  EXPECT_TRUE(expert.score.is_fixation_acceptable) << words_of(expert);
+  EXPECT_GT(expert.score.overall, 85.0) << words_of(expert);
+  EXPECT_EQ(item_of(novice, "required_views_seen").grade, procedure::Grade::Fail);
+  const std::size_t steps = declared(procedure).steps.size();
+  EXPECT_EQ(expert.record.completed_steps, (1U << steps) - 1U) << "an expert leaves out no step";
+}
+
+INSTANTIATE_TEST_SUITE_P(Dorsal,
+                         EverySeed,
+                         testing::Values(Case{"dorsal_scaphoid_fixation", 1},
+                                         Case{"dorsal_scaphoid_fixation", 2},
+                                         Case{"dorsal_scaphoid_fixation", 3},
+                                         Case{"dorsal_scaphoid_fixation", 4},
+                                         Case{"dorsal_scaphoid_fixation", 5},
+                                         Case{"dorsal_scaphoid_fixation", 6}));
+INSTANTIATE_TEST_SUITE_P(Volar,
+                         EverySeed,
+                         testing::Values(Case{"volar_scaphoid_fixation", 1},
+                                         Case{"volar_scaphoid_fixation", 2},
+                                         Case{"volar_scaphoid_fixation", 3},
+                                         Case{"volar_scaphoid_fixation", 4}));
+
+TEST(ScriptedTrainee, TheMiddleOneStandsBetweenTheTwo) {
+  double expert = 0;
+  double middle = 0;
+  double novice = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    expert += operate("dorsal_scaphoid_fixation", Skill::Expert, seed).score.overall;
+    middle += operate("dorsal_scaphoid_fixation", Skill::Middle, seed).score.overall;
+    novice += operate("dorsal_scaphoid_fixation", Skill::Novice, seed).score.overall;
+  }
+  EXPECT_LT(middle, expert);
+  EXPECT_GT(middle, novice);
+}
 
 TEST(ScriptedTrainee, SameSeedSameBytesOtherSeedOtherBytes) {
-  const Attempt a = operate(posed_wrist(), Skill::Novice, 3, "test");
-  const Attempt b = operate(posed_wrist(), Skill::Novice, 3, "test");
-  const Attempt c = operate(posed_wrist(), Skill::Novice, 4, "test");
+  const Attempt a = operate("dorsal_scaphoid_fixation", Skill::Novice, 3);
+  const Attempt b = operate("dorsal_scaphoid_fixation", Skill::Novice, 3);
+  const Attempt c = operate("dorsal_scaphoid_fixation", Skill::Novice, 4);
   EXPECT_EQ(simulation::encode(a.recording), simulation::encode(b.recording));
   EXPECT_NE(a.last.state_hash, c.last.state_hash);
 }
 
 TEST(ScriptedTrainee, ItsRecordingReplaysToTheSameHash) {
-  const Attempt a = operate(posed_wrist(), Skill::Expert, 5, "test");
+  const Attempt a = operate("volar_scaphoid_fixation", Skill::Expert, 5);
   const auto decoded = simulation::decode(simulation::encode(a.recording));
   ASSERT_TRUE(decoded.has_value()) << decoded.error();
-  EXPECT_TRUE(simulation::replay(posed_wrist(), *decoded).hash_matches);
-  EXPECT_EQ(simulation::score_recording(posed_wrist(), *decoded).overall, a.score.overall);
+  EXPECT_EQ(decoded->procedure, "volar_scaphoid_fixation");
+  const procedure::Procedure& procedure = declared("volar_scaphoid_fixation");
+  EXPECT_TRUE(simulation::replay(wrist(), procedure, *decoded).hash_matches);
+  EXPECT_EQ(simulation::score_recording(wrist(), procedure, *decoded).overall, a.score.overall);
+}
+
+TEST(ScriptedTrainee, WhatItsScriptDoesNotKnowIsRefused) {
+  procedure::Procedure other = declared("dorsal_scaphoid_fixation");
+  other.target = BoneId::Lunate;
+  EXPECT_THROW((void)operate(wrist(), other, Skill::Expert, 1, "test"), InvalidInput);
 }
 
 TEST(MinimumJerkMove, StartsAndEndsAtRest) {
