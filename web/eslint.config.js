@@ -21,14 +21,7 @@ const pure = [
 ];
 
 export default tseslint.config(
-  {
-    ignores: [
-      "dist",
-      "node_modules",
-      "src/protocol/generated.ts",
-      "src/protocol/generated_rules.ts",
-    ],
-  },
+  { ignores: ["dist", "node_modules", "src/protocol/generated.ts"] },
   js.configs.recommended,
   ...tseslint.configs.strict,
   {

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Past attempts, newest first; each opens its score.
-import { fetchAttempts } from "../case_data";
+import { fetchJson } from "../case_data";
 import { make } from "../dom";
-import type { AttemptSummary } from "../protocol";
-import { dateText, durationText, procedureText } from "./attempts_model";
+import {
+  dateText,
+  durationText,
+  parseAttempts,
+  procedureText,
+  type AttemptSummary,
+} from "./attempts_model";
 
 export function mountAttempts(app: HTMLElement): () => void {
   let left = false;
@@ -25,7 +30,7 @@ export function mountAttempts(app: HTMLElement): () => void {
   );
   void (async () => {
     try {
-      const attempts = await fetchAttempts();
+      const attempts = parseAttempts(await fetchJson("/api/attempts"));
       if (!left) body.replaceChildren(attempts.length === 0 ? nothingYet() : table(attempts));
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
@@ -57,21 +62,21 @@ function table(attempts: readonly AttemptSummary[]): HTMLElement {
 
 function caseCell(attempt: AttemptSummary): (Node | string)[] {
   const badge = make("span.badge", {}, "simulated");
-  return attempt.case_simulated === true ? [attempt.case, " ", badge] : [attempt.case];
+  return attempt.caseSimulated === true ? [attempt.caseName, " ", badge] : [attempt.caseName];
 }
 
 function row(attempt: AttemptSummary): HTMLElement {
-  const score = attempt.overall !== null;
+  const score = attempt.finished && attempt.overall !== undefined;
   return make(
     "tr",
     { "data-attempt": String(attempt.id) },
     make("td", {}, String(attempt.id)),
-    make("td", {}, dateText(attempt.started_at)),
+    make("td", {}, dateText(attempt.startedAt)),
     make("td", {}, attempt.trainee === "" ? "not named" : attempt.trainee),
     make("td", {}, ...caseCell(attempt)),
     make("td", {}, procedureText(attempt.procedure)),
-    make("td", {}, attempt.input_device),
-    make("td.figure", {}, durationText(attempt.duration_s)),
+    make("td", {}, attempt.inputDevice),
+    make("td.figure", {}, durationText(attempt.durationS)),
     make(
       "td.figure",
       {},

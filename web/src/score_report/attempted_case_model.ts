@@ -3,7 +3,8 @@
 //
 // What the report may say of the case of an attempt. The records hold attempts of several cases, the
 // station serves one: a placement drawn in another patient's scaphoid would be a lie.
-import type { Attempt, CaseDescription } from "../protocol";
+import type { AttemptSummary } from "../attempts_list";
+import type { CaseDescription } from "../protocol";
 
 export interface AttemptedCase {
   /** Stands in place of the pictures; empty where they may be drawn in the open case's bones. */
@@ -12,15 +13,15 @@ export interface AttemptedCase {
 }
 
 export function attemptedCase(
-  attempt: Pick<Attempt, "case" | "case_is_open" | "case_simulated">,
+  attempt: Pick<AttemptSummary, "caseName" | "caseIsOpen" | "caseSimulated"> | undefined,
   open: Pick<CaseDescription, "simulated">,
 ): AttemptedCase {
-  if (attempt.case_is_open) {
-    return { notice: "", simulated: attempt.case_simulated ?? open.simulated };
+  if (attempt?.caseIsOpen === true) {
+    return { notice: "", simulated: attempt.caseSimulated ?? open.simulated };
   }
-  const name = attempt.case === "" ? "" : `, ${attempt.case}`;
+  const name = attempt === undefined || attempt.caseName === "" ? "" : `, ${attempt.caseName}`;
   return {
     notice: `This attempt was made on another case${name}; open that case to see the placement.`,
-    simulated: attempt.case_simulated === true,
+    simulated: attempt?.caseSimulated === true,
   };
 }

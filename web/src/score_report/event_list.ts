@@ -4,24 +4,21 @@
 // The course of an attempt, for whoever goes through it afterwards.
 import { make } from "../dom";
 import { tickText } from "../operation";
-import type { LoggedEvent } from "../protocol";
+import type { AttemptEvent } from "./events_model";
 
-/** @param events  null where the log cannot be read */
-export function eventList(events: readonly LoggedEvent[] | null): HTMLElement {
+export function eventList(events: readonly AttemptEvent[]): HTMLElement {
   return make(
     "section.events",
     { "aria-labelledby": "events-title" },
     make("h2", { id: "events-title" }, "What happened"),
-    events === null || events.length === 0
-      ? make(
-          "p.secondary",
-          {},
-          events === null ? "The log cannot be read." : "Nothing was recorded.",
-        )
+    events.length === 0
+      ? make("p.secondary", {}, "Nothing was recorded.")
       : make(
           "ol",
           {},
-          ...events.map(({ tick, text }) => make("li", {}, make("time", {}, tickText(tick)), text)),
+          ...events.map(({ tickMs, text }) =>
+            make("li", {}, make("time", {}, tickText(tickMs)), text),
+          ),
         ),
   );
 }
