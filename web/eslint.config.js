@@ -21,7 +21,14 @@ const pure = [
 ];
 
 export default tseslint.config(
-  { ignores: ["dist", "node_modules", "src/protocol/generated.ts"] },
+  {
+    ignores: [
+      "dist",
+      "node_modules",
+      "src/protocol/generated.ts",
+      "src/protocol/generated_rules.ts",
+    ],
+  },
   js.configs.recommended,
   ...tseslint.configs.strict,
   {

@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_store.hpp"
-#include "server/station_http.hpp"
+#include "server/attempt_messages.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -48,7 +48,8 @@ void run(const AttemptsArguments& arguments) {
   const auto attempts = store.list();
   std::fputs(attempts_table(attempts).c_str(), stdout);
   if (!arguments.json.empty()) {
-    records::write_file_atomically(arguments.json, server::attempts_json(attempts, 2) + "\n");
+    records::write_file_atomically(arguments.json,
+                                   protocol::serialize(server::attempt_list(attempts), 2) + "\n");
   }
 }
 

@@ -11,9 +11,10 @@
 #include "case_io/case_folder.hpp"
 #include "cases/posture.hpp"
 #include "core/error.hpp"
-#include "procedure/score_json.hpp"
+#include "protocol/bodies.hpp"
 #include "reconstruct/skin_surface.hpp"
 #include "records/atomic_file.hpp"
+#include "server/score_message.hpp"
 
 namespace carpus::cli {
 
@@ -99,7 +100,8 @@ std::string score_table(const procedure::ScoreReport& report) {
 }
 
 std::string score_file(const cases::CaseData& data, const procedure::ScoreReport& report) {
-  auto json = nlohmann::ordered_json::parse(procedure::score_json(report));
+  auto json = nlohmann::ordered_json::parse(
+      protocol::serialize_stored_score(server::score_message(report)));
   json["case"] = data.pseudonym;
   json["case_simulated"] = data.provenance.simulated;
   return json.dump(2) + "\n";

@@ -14,6 +14,7 @@
 #include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "protocol/types.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
 #include "records/utc_time.hpp"
@@ -36,7 +37,7 @@ void store(const cases::CaseData& posed_case,
            const trainee::Attempt& attempt,
            const SimulateArguments& arguments,
            const std::string& started_at) {
-  std::vector<server::LoggedEvent> log;
+  std::vector<protocol::LoggedEvent> log;
   for (const simulation::Event& event : attempt.events) log.push_back(server::describe(event));
   std::optional<procedure::ScoreReport> score;
   if (attempt.last.finished) score = attempt.score;

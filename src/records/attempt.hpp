@@ -43,8 +43,8 @@ struct AttemptSummary {
 /// All of it.
 struct Attempt {
   AttemptSummary summary;
-  std::string score_json;            ///< score report (docs/json.md); empty when unfinished
-  std::string events_json;           ///< array of {tick, kind, text}
+  std::string score_json;            ///< protocol's `stored_score`; empty when unfinished
+  std::string events_json;           ///< protocol's `stored_events`
   std::vector<std::byte> recording;  ///< every tick's input; see simulation/recording.hpp
   bool operator==(const Attempt&) const = default;
 };

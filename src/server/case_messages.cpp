@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/units.hpp"
@@ -18,11 +17,11 @@ namespace carpus::server {
 namespace {
 
 // The enumerations of protocol.json are in the order of the simulation's.
-static_assert(static_cast<int>(protocol::SnapshotStep::Finished) ==
+static_assert(static_cast<int>(protocol::StepId::Finished) ==
               static_cast<int>(procedure::Step::Finished));
-static_assert(static_cast<int>(protocol::SnapshotInstrument::None) ==
+static_assert(static_cast<int>(protocol::InstrumentId::None) ==
               static_cast<int>(simulation::Instrument::None));
-static_assert(static_cast<int>(protocol::ToolDriver::Reverse) ==
+static_assert(static_cast<int>(protocol::Driver::Reverse) ==
               static_cast<int>(simulation::Driver::Reverse));
 
 void write_wire(const simulation::WireState& wire, bool broken, protocol::Snapshot& message) {
@@ -49,9 +48,9 @@ protocol::Snapshot snapshot_message(const LoopState& state, bool paused, bool br
   message.state_hash = hexadecimal(now.state_hash);
   message.paused = paused;
   message.finished = now.finished;
-  message.step = static_cast<protocol::SnapshotStep>(now.step);
+  message.step = static_cast<protocol::StepId>(now.step);
   message.completed_steps = now.completed_steps;
-  message.instrument = static_cast<protocol::SnapshotInstrument>(now.instrument);
+  message.instrument = static_cast<protocol::InstrumentId>(now.instrument);
   message.tip_mm = now.tip_in_patient;
   message.shaft = now.shaft_in_patient;
   message.touching = now.contact.touching;
@@ -79,32 +78,27 @@ protocol::CaseDescription case_description(const cases::CaseData& posed_case) {
   protocol::CaseDescription description;
   description.pseudonym = posed_case.pseudonym;
   description.simulated = posed_case.provenance.simulated;
-  description.side = posed_case.side == Side::Left ? protocol::CaseDescriptionSide::Left
-                                                   : protocol::CaseDescriptionSide::Right;
+  description.side = posed_case.side == Side::Left ? protocol::Side::Left : protocol::Side::Right;
   description.source = posed_case.provenance.source;
   description.broken_scaphoid = has_broken_scaphoid(posed_case);
   description.flexion_deg =
       degrees_from_radians(posed_case.operative_posture.flexion_from_scan_rad);
   const auto pose = cases::held_wrist_from_patient(posed_case);
+  auto& matrix = description.held_wrist_from_patient;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
-      description.held_wrist_from_patient.push_back(pose.rotation.rows[row][column]);
+      matrix[4 * row + column] = pose.rotation.rows[row][column];
     }
-    description.held_wrist_from_patient.push_back(pose.translation[row]);
+    matrix[4 * row + 3] = pose.translation[row];
   }
-  description.held_wrist_from_patient.insert(description.held_wrist_from_patient.end(),
-                                             {0.0, 0.0, 0.0, 1.0});
+  matrix[15] = 1.0;
   for (const cases::Bone& bone : posed_case.bones) {
     description.bones.emplace_back(name_of(bone.bone, bone.part));
   }
-  auto views = nlohmann::ordered_json::array();
   for (const fluoroscopy::NamedView& view : fluoroscopy::kNamedViews) {
-    views.push_back({{"id", std::string(view.id)},
-                     {"label", std::string(view.label)},
-                     {"rotation_deg", view.angles.rotation_deg},
-                     {"tilt_deg", view.angles.tilt_deg}});
+    description.views.push_back({std::string(view.id), std::string(view.label),
+                                 view.angles.rotation_deg, view.angles.tilt_deg});
   }
-  description.views = views.dump();
   return description;
 }
 

@@ -7,7 +7,8 @@
 #include <string_view>
 
 #include "cases/case_data.hpp"
-#include "server/protocol_messages.hpp"
+#include "protocol/bodies.hpp"
+#include "protocol/messages.hpp"
 #include "server/simulation_loop.hpp"
 
 namespace carpus::server {

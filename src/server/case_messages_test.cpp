@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <vector>
 
 #include "cases/posture.hpp"
 #include "cases/synthetic_case_test_support.hpp"
@@ -30,8 +30,7 @@ TEST(CaseDescription, SidesAreThoseOfTheCArmOverAFlexedWrist) {
     const double flexion = radians_from_degrees(40);
     data.operative_posture = cases::posture_of_flexion(data, flexion);
     const protocol::CaseDescription description = case_description(data);
-    const std::vector<double>& m = description.held_wrist_from_patient;
-    ASSERT_EQ(m.size(), 16U);
+    const std::array<double, 16>& m = description.held_wrist_from_patient;
     EXPECT_NEAR(description.flexion_deg, 40, 1e-9);
 
     const Vec3 dorsal{-m[8], -m[9], -m[10]};

@@ -110,8 +110,8 @@ std::string_view name_of(EventKind kind) noexcept {
   return index < kNames.size() ? kNames[index] : kNames[0];
 }
 
-LoggedEvent describe(const simulation::Event& event) {
-  return {event.tick, std::string(name_of(event.kind)), text_of(event)};
+protocol::LoggedEvent describe(const simulation::Event& event) {
+  return {static_cast<std::int64_t>(event.tick), std::string(name_of(event.kind)), text_of(event)};
 }
 
 std::string bone_name_of_label(int label, bool broken_scaphoid) {

@@ -7,22 +7,15 @@
 #include <string>
 #include <string_view>
 
-#include "core/units.hpp"
+#include "protocol/types.hpp"
 #include "simulation/snapshot.hpp"
 
 namespace carpus::server {
 
-/// One line of the log.
-struct LoggedEvent {
-  Tick tick = 0;
-  std::string kind;  ///< stable, snake_case
-  std::string text;  ///< for people
-};
-
 /// "touched_bone", …
 [[nodiscard]] std::string_view name_of(simulation::EventKind kind) noexcept;
 
-[[nodiscard]] LoggedEvent describe(const simulation::Event& event);
+[[nodiscard]] protocol::LoggedEvent describe(const simulation::Event& event);
 
 /// "scaphoid_proximal" for a bone's label, "" for 0 and labels that are no bone.
 [[nodiscard]] std::string bone_name_of_label(int label, bool broken_scaphoid);

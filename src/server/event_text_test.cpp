@@ -19,7 +19,7 @@ TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   std::set<std::string> kinds;
   constexpr int kLast = static_cast<int>(EventKind::Slipped);
   for (int i = 1; i <= kLast; ++i) {
-    const LoggedEvent event = describe(Event{static_cast<EventKind>(i), 1, 2.0, 3});
+    const protocol::LoggedEvent event = describe(Event{static_cast<EventKind>(i), 1, 2.0, 3});
     EXPECT_FALSE(event.text.empty()) << event.kind;
     EXPECT_NE(event.kind, "none") << i;
     kinds.insert(event.kind);

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/exercise.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/version.hpp"
-#include "procedure/score_json.hpp"
+#include "protocol/bodies.hpp"
 #include "records/utc_time.hpp"
+#include "server/score_message.hpp"
 
 namespace carpus::server {
 
@@ -89,9 +90,11 @@ records::Attempt make_attempt(const AttemptParts& parts) {
   if (parts.score) {
     summary.outcome = records::Outcome::Finished;
     summary.overall = parts.score->overall;
-    attempt.score_json = procedure::score_json(*parts.score);
+    attempt.score_json = protocol::serialize_stored_score(score_message(*parts.score));
   }
-  attempt.events_json = events_json(parts.log);
+  std::vector<protocol::LoggedEvent> log = parts.log;
+  log.resize(std::min(log.size(), protocol::kMaxStoredEvents));
+  attempt.events_json = protocol::serialize_stored_events(log);
   attempt.recording = simulation::encode(parts.recording);
   return attempt;
 }
@@ -100,14 +103,6 @@ std::string hexadecimal(std::uint64_t value) {
   std::array<char, 24> text{};
   std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
   return text.data();
-}
-
-std::string events_json(const std::vector<LoggedEvent>& events) {
-  auto list = nlohmann::ordered_json::array();
-  for (const LoggedEvent& event : events) {
-    list.push_back({{"tick", event.tick}, {"kind", event.kind}, {"text", event.text}});
-  }
-  return list.dump();
 }
 
 }  // namespace carpus::server

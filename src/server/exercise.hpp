@@ -39,7 +39,7 @@ struct TakenShot {
 
 /// What happened since the last look.
 struct ExerciseNews {
-  std::vector<LoggedEvent> events;
+  std::vector<protocol::LoggedEvent> events;
   std::vector<TakenShot> shots;
 };
 
@@ -63,7 +63,7 @@ class Exercise {
   [[nodiscard]] const std::string& trainee() const noexcept { return setup_.trainee; }
   [[nodiscard]] const std::string& started_at() const noexcept { return started_at_; }
   /// All that was collected so far.
-  [[nodiscard]] const std::vector<LoggedEvent>& log() const noexcept { return log_; }
+  [[nodiscard]] const std::vector<protocol::LoggedEvent>& log() const noexcept { return log_; }
 
   /// Stops the thread and returns what is to be kept: with a score when the operation was
   /// finished. The last news are in the attempt's log. Call once.
@@ -76,7 +76,7 @@ class Exercise {
   std::string started_at_;
   simulation::World world_;
   simulation::Recorder recorder_;
-  std::vector<LoggedEvent> log_;
+  std::vector<protocol::LoggedEvent> log_;
   LoopState state_;
   SimulationLoop loop_;  ///< last, so that its thread ends before what it uses
 };
@@ -85,7 +85,7 @@ class Exercise {
 struct AttemptParts {
   const cases::CaseData& posed_case;
   const simulation::Recording& recording;
-  const std::vector<LoggedEvent>& log;
+  const std::vector<protocol::LoggedEvent>& log;
   std::optional<procedure::ScoreReport> score;  ///< of a finished operation
   std::string trainee;
   std::string input_device;
@@ -95,8 +95,5 @@ struct AttemptParts {
 
 /// Sixteen hexadecimal digits, as state hashes and fingerprints are written everywhere.
 [[nodiscard]] std::string hexadecimal(std::uint64_t value);
-
-/// [{"tick", "kind", "text"}]
-[[nodiscard]] std::string events_json(const std::vector<LoggedEvent>& events);
 
 }  // namespace carpus::server

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "protocol/bodies.hpp"
 #include "server/case_messages.hpp"
 
 namespace carpus::server {
@@ -24,15 +25,6 @@ namespace {
 constexpr std::size_t kMaxWaitingFrames = 3;
 /// A page that goes on after so many messages were dropped is not ours.
 constexpr std::uint64_t kMaxDropped = 20000;
-
-/// The protocol's limit for texts that come from elsewhere, such as a system's error message.
-std::string shortened(std::string text) {
-  constexpr std::size_t kMaxBytes = 1000;
-  if (text.size() <= kMaxBytes) return text;
-  std::size_t end = kMaxBytes;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + "…";
-}
 
 /// "62000 ticks of 12 us (p50), 30 us (p99), 210 us (worst), 0 late; ordinary priority"
 std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
@@ -53,13 +45,9 @@ std::uint64_t first_exercise_number() {
   return static_cast<std::uint64_t>(std::chrono::duration_cast<milliseconds>(now).count());
 }
 
-protocol::Event message_of(const LoggedEvent& event) {
-  return {static_cast<std::int64_t>(event.tick), event.kind, event.text};
-}
-
 void send_error(PageConnection& page, std::string reason, std::string what_to_do) {
-  page.send_text(serialize(protocol::HostMessage(
-      protocol::Error{shortened(std::move(reason)), shortened(std::move(what_to_do))})));
+  page.send_text(
+      serialize(protocol::HostMessage(protocol::Error{std::move(reason), std::move(what_to_do)})));
 }
 
 }  // namespace
@@ -215,9 +203,9 @@ std::string Station::why_busy(const PageConnection& page, const std::string& wor
 
 /// The exercise as a page must know it that comes back.
 void Station::show_again() {
-  const std::vector<LoggedEvent>& log = exercise_->log();
+  const std::vector<protocol::LoggedEvent>& log = exercise_->log();
   for (std::size_t i = log.size() - std::min(log.size(), kEventsShown); i < log.size(); ++i) {
-    send(message_of(log[i]));
+    send(protocol::Event{log[i]});
   }
   for (const std::string& frame : shown_) operator_->send_binary(frame);
   send(snapshot_message(exercise_->state(), paused_by_page_ || paused_by_silence_,
@@ -307,7 +295,7 @@ void Station::watch_silence() {
 
 void Station::send_news() {
   ExerciseNews news = exercise_->collect();
-  for (const LoggedEvent& event : news.events) send(message_of(event));
+  for (const protocol::LoggedEvent& event : news.events) send(protocol::Event{event});
   for (TakenShot& shot : news.shots) {
     shot.exercise = exercise_number_;
     if (pictures_) pictures_->request(shot);
@@ -341,9 +329,18 @@ void Station::conclude() {
     log_(kept.problem);
     refuse(kept.problem, "Tell the person who runs this station; nothing is lost yet.");
   }
-  if (finished) {
-    send(protocol::Score{kept.id, attempt.summary.overall.value_or(0.0), attempt.score_json});
+  if (finished) send_score(kept.id, attempt);
+}
+
+void Station::send_score(std::int64_t id, const records::Attempt& attempt) {
+  // What was stored is what is told: it can be read again, or somebody learns of it now.
+  auto report = protocol::parse_stored_score(attempt.score_json);
+  if (!report) {
+    log_("the score cannot be read: " + report.error());
+    return refuse("The score cannot be shown: " + report.error(),
+                  "Tell the person who runs this station; the recording is stored.");
   }
+  send(protocol::Score{id, report->overall, std::move(*report)});
 }
 
 void Station::send(const protocol::HostMessage& message) {

@@ -14,11 +14,11 @@
 #include <unordered_map>
 
 #include "cases/case_data.hpp"
+#include "protocol/messages.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/exercise.hpp"
 #include "server/network_server.hpp"
 #include "server/picture_worker.hpp"
-#include "server/protocol_messages.hpp"
 #include "server/rate_limit.hpp"
 
 namespace carpus::server {
@@ -98,6 +98,7 @@ class Station : public PageHandler {
   void store_running();
   /// Ends and stores; sends the score when there is one.
   void conclude();
+  void send_score(std::int64_t id, const records::Attempt& attempt);
   void send(const protocol::HostMessage& message);
   void refuse(std::string reason, std::string what_to_do);
   [[nodiscard]] bool has_exercise();

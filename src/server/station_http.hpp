@@ -15,16 +15,6 @@
 
 namespace carpus::server {
 
-/// A summary as JSON: {"id", "trainee", …} as in docs/json.md.
-[[nodiscard]] std::string attempts_json(const std::vector<records::AttemptSummary>& attempts,
-                                        int indent = -1);
-/// The same of one attempt, with "case_is_open", "score" (null when unfinished) and "events".
-/// @param open_case_fingerprint  of the case that is served: places of an attempt mean nothing in
-/// another patient's bones.
-[[nodiscard]] std::string attempt_json(const records::Attempt& attempt,
-                                       const std::string& open_case_fingerprint,
-                                       int indent = -1);
-
 class StationHttp {
  public:
   /// Prepares what never changes. @param records must outlive it.
@@ -38,6 +28,7 @@ class StationHttp {
 
  private:
   [[nodiscard]] HttpResponse answer_api(std::string_view path) const;
+  [[nodiscard]] HttpResponse answer_attempts() const;
   [[nodiscard]] HttpResponse answer_attempt(std::string_view rest) const;
 
   std::string case_fingerprint_;

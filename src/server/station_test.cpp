@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "cases/synthetic_case_test_support.hpp"
+#include "protocol/bodies.hpp"
 #include "server/loopback_client_test_support.hpp"
 #include "server/station_http.hpp"
 #include "simulation/recording.hpp"

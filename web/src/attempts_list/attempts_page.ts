@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Past attempts, newest first; each opens its score.
-import { fetchJson } from "../case_data";
+import { fetchAttempts } from "../case_data";
 import { make } from "../dom";
-import {
-  dateText,
-  durationText,
-  parseAttempts,
-  procedureText,
-  type AttemptSummary,
-} from "./attempts_model";
+import type { AttemptSummary } from "../protocol";
+import { dateText, durationText, procedureText } from "./attempts_model";
 
 export function mountAttempts(app: HTMLElement): () => void {
   let left = false;
@@ -30,7 +25,7 @@ export function mountAttempts(app: HTMLElement): () => void {
   );
   void (async () => {
     try {
-      const attempts = parseAttempts(await fetchJson("/api/attempts"));
+      const attempts = await fetchAttempts();
       if (!left) body.replaceChildren(attempts.length === 0 ? nothingYet() : table(attempts));
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
@@ -62,21 +57,21 @@ function table(attempts: readonly AttemptSummary[]): HTMLElement {
 
 function caseCell(attempt: AttemptSummary): (Node | string)[] {
   const badge = make("span.badge", {}, "simulated");
-  return attempt.caseSimulated === true ? [attempt.caseName, " ", badge] : [attempt.caseName];
+  return attempt.case_simulated === true ? [attempt.case, " ", badge] : [attempt.case];
 }
 
 function row(attempt: AttemptSummary): HTMLElement {
-  const score = attempt.finished && attempt.overall !== undefined;
+  const score = attempt.overall !== null;
   return make(
     "tr",
     { "data-attempt": String(attempt.id) },
     make("td", {}, String(attempt.id)),
-    make("td", {}, dateText(attempt.startedAt)),
+    make("td", {}, dateText(attempt.started_at)),
     make("td", {}, attempt.trainee === "" ? "not named" : attempt.trainee),
     make("td", {}, ...caseCell(attempt)),
     make("td", {}, procedureText(attempt.procedure)),
-    make("td", {}, attempt.inputDevice),
-    make("td.figure", {}, durationText(attempt.durationS)),
+    make("td", {}, attempt.input_device),
+    make("td.figure", {}, durationText(attempt.duration_s)),
     make(
       "td.figure",
       {},

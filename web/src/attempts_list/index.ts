@@ -3,10 +3,4 @@
 //
 // Past attempts.
 export { mountAttempts } from "./attempts_page";
-export {
-  dateText,
-  durationText,
-  parseAttempt,
-  procedureText,
-  type AttemptSummary,
-} from "./attempts_model";
+export { dateText, durationText, procedureText } from "./attempts_model";

@@ -104,8 +104,8 @@ export class CArmPanel {
   shoot(index: number): void {
     const view = this.views[index];
     if (view === undefined) return;
-    this.rotationDeg = view.rotationDeg;
-    this.tiltDeg = view.tiltDeg;
+    this.rotationDeg = view.rotation_deg;
+    this.tiltDeg = view.tilt_deg;
     this.shootFree();
   }
 

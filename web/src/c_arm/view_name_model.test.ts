@@ -6,8 +6,8 @@ import { describe, expect, it } from "vitest";
 import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
 const views = [
-  { id: "pa", label: "PA", rotationDeg: 0, tiltDeg: 0 },
-  { id: "sky", label: "SKY", rotationDeg: 0, tiltDeg: -60 },
+  { id: "pa", label: "PA", rotation_deg: 0, tilt_deg: 0 },
+  { id: "sky", label: "SKY", rotation_deg: 0, tilt_deg: -60 },
 ];
 
 describe("viewName", () => {

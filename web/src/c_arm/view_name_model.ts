@@ -14,8 +14,8 @@ export function viewName(
 ): string {
   const named = views.find(
     (view) =>
-      Math.abs(view.rotationDeg - rotationDeg) < SAME_DEG &&
-      Math.abs(view.tiltDeg - tiltDeg) < SAME_DEG,
+      Math.abs(view.rotation_deg - rotationDeg) < SAME_DEG &&
+      Math.abs(view.tilt_deg - tiltDeg) < SAME_DEG,
   );
   return named?.label ?? `${signed(rotationDeg)} / ${signed(tiltDeg)}`;
 }

@@ -2,8 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // HTTP questions to the host; every answer is checked before use.
-import { parseCaseDescription, type CaseDescription, type Json } from "../protocol";
-import { parseScrews, type Screw } from "./screws_model";
+import {
+  parseAttempt,
+  parseAttemptList,
+  parseCaseDescription,
+  parseScrewTray,
+  type Attempt,
+  type AttemptSummary,
+  type CaseDescription,
+  type Parsed,
+  type Screw,
+} from "../protocol";
 
 export class HostUnreachable extends Error {}
 /** The host is well and has no such thing: loading again does not help. */
@@ -23,21 +32,27 @@ async function getText(path: string): Promise<string> {
   return answer.text();
 }
 
-export async function fetchJson(path: string): Promise<Json> {
-  const text = await getText(path);
-  try {
-    return JSON.parse(text) as Json;
-  } catch {
-    throw new HostUnreachable(`The host's answer to ${path} is no JSON. Reload the page.`);
-  }
+async function ask<T>(path: string, parse: (text: string) => Parsed<T>): Promise<T> {
+  const parsed = parse(await getText(path));
+  if (parsed.ok) return parsed.value;
+  throw new HostUnreachable(
+    `The host's answer to ${path} cannot be read: ${parsed.reason}. Reload the page.`,
+  );
 }
 
-export async function fetchCase(): Promise<CaseDescription> {
-  const parsed = parseCaseDescription(await getText("/api/case"));
-  if (!parsed.ok) throw new HostUnreachable(`The case cannot be read: ${parsed.reason}`);
-  return parsed.value;
+export function fetchCase(): Promise<CaseDescription> {
+  return ask("/api/case", parseCaseDescription);
 }
 
-export async function fetchScrews(): Promise<Screw[]> {
-  return parseScrews(await fetchJson("/api/screws"));
+export async function fetchScrews(): Promise<readonly Screw[]> {
+  return (await ask("/api/screws", parseScrewTray)).screws;
+}
+
+/** Newest first. */
+export async function fetchAttempts(): Promise<readonly AttemptSummary[]> {
+  return (await ask("/api/attempts", parseAttemptList)).attempts;
+}
+
+export function fetchAttempt(id: number): Promise<Attempt> {
+  return ask(`/api/attempts/${id}`, parseAttempt);
 }

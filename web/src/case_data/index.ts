@@ -3,4 +3,3 @@
 //
 // What the host tells about the case, its screws and past attempts over HTTP.
 export * from "./case_client";
-export * from "./screws_model";

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The binary frame of one C-arm picture (protocol/README.md).
-import type { Parsed } from "./generated";
+import type { Parsed } from "./validator";
 
 export interface CArmPicture {
   readonly shot: number;

@@ -3,8 +3,7 @@
 //
 // What the report may say of the case of an attempt. The records hold attempts of several cases, the
 // station serves one: a placement drawn in another patient's scaphoid would be a lie.
-import type { AttemptSummary } from "../attempts_list";
-import type { CaseDescription } from "../protocol";
+import type { Attempt, CaseDescription } from "../protocol";
 
 export interface AttemptedCase {
   /** Stands in place of the pictures; empty where they may be drawn in the open case's bones. */
@@ -13,15 +12,15 @@ export interface AttemptedCase {
 }
 
 export function attemptedCase(
-  attempt: Pick<AttemptSummary, "caseName" | "caseIsOpen" | "caseSimulated"> | undefined,
+  attempt: Pick<Attempt, "case" | "case_is_open" | "case_simulated">,
   open: Pick<CaseDescription, "simulated">,
 ): AttemptedCase {
-  if (attempt?.caseIsOpen === true) {
-    return { notice: "", simulated: attempt.caseSimulated ?? open.simulated };
+  if (attempt.case_is_open) {
+    return { notice: "", simulated: attempt.case_simulated ?? open.simulated };
   }
-  const name = attempt === undefined || attempt.caseName === "" ? "" : `, ${attempt.caseName}`;
+  const name = attempt.case === "" ? "" : `, ${attempt.case}`;
   return {
     notice: `This attempt was made on another case${name}; open that case to see the placement.`,
-    simulated: attempt?.caseSimulated === true,
+    simulated: attempt.case_simulated === true,
   };
 }

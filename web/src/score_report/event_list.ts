@@ -4,21 +4,24 @@
 // The course of an attempt, for whoever goes through it afterwards.
 import { make } from "../dom";
 import { tickText } from "../operation";
-import type { AttemptEvent } from "./events_model";
+import type { LoggedEvent } from "../protocol";
 
-export function eventList(events: readonly AttemptEvent[]): HTMLElement {
+/** @param events  null where the log cannot be read */
+export function eventList(events: readonly LoggedEvent[] | null): HTMLElement {
   return make(
     "section.events",
     { "aria-labelledby": "events-title" },
     make("h2", { id: "events-title" }, "What happened"),
-    events.length === 0
-      ? make("p.secondary", {}, "Nothing was recorded.")
+    events === null || events.length === 0
+      ? make(
+          "p.secondary",
+          {},
+          events === null ? "The log cannot be read." : "Nothing was recorded.",
+        )
       : make(
           "ol",
           {},
-          ...events.map(({ tickMs, text }) =>
-            make("li", {}, make("time", {}, tickText(tickMs)), text),
-          ),
+          ...events.map(({ tick, text }) => make("li", {}, make("time", {}, tickText(tick)), text)),
         ),
   );
 }

@@ -5,7 +5,7 @@
 // axis, two rays for the angle, a bar for bone cover and lengths. Decoration for readers: the value
 // is in the table.
 import { makeSvg } from "../dom";
-import type { Grade, ScoreItem, ScoreReport } from "./score_model";
+import type { Grade, ScoreItem, ScoreReport } from "../protocol";
 
 const COLORS: Readonly<Record<Grade, string>> = {
   good: "var(--good)",
@@ -84,11 +84,11 @@ function cover(mm: number, color: string): SVGElement {
 }
 
 export function itemPicture(item: ScoreItem, report: ScoreReport): SVGElement | undefined {
-  if (item.value === undefined) return undefined;
+  if (item.value === null) return undefined;
   const color = COLORS[item.grade];
   if (item.id === "angle_to_central_axis_deg") return rays(item.value, color);
   if (item.id.endsWith("_offset_mm")) {
-    return target(item.value, report.cylinderRadiusMm ?? 5, color);
+    return target(item.value, report.central_cylinder_radius_mm, color);
   }
   if (item.id.endsWith("_cover_mm")) return cover(item.value, color);
   return undefined;

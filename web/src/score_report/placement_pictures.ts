@@ -6,7 +6,7 @@
 import * as THREE from "three";
 import { make } from "../dom";
 import { faceNames, makeFrameMap, towards, type AnatomicalSide, type FrameMap } from "../frames";
-import type { CaseDescription, Vec3 } from "../protocol";
+import type { CaseDescription, Placement, PlacedAxis, Side, Vec3 } from "../protocol";
 import {
   alignShaft,
   drawInstrument,
@@ -17,7 +17,6 @@ import {
   wireParts,
 } from "../theatre";
 import { normalized, subtract } from "../tool_placement";
-import type { Placement } from "./score_model";
 
 interface Look {
   readonly name: string;
@@ -61,7 +60,7 @@ export async function placementPictures(
   for (const child of patient.children) {
     if (child.name.startsWith("scaphoid")) box.expandByObject(child);
   }
-  const pictures = looks(placement, frames, description.side).map((look) =>
+  const pictures = looks(placement.central_axis, frames, description.side).map((look) =>
     picture(renderer, world, light, box, look),
   );
   light.dispose();
@@ -70,8 +69,8 @@ export async function placementPictures(
   return pictures;
 }
 
-function looks(placement: Placement, frames: FrameMap, side: "left" | "right"): Look[] {
-  const axis = normalized(subtract(placement.axisProximalMm, placement.axisDistalMm));
+function looks(central: PlacedAxis, frames: FrameMap, side: Side): Look[] {
+  const axis = normalized(subtract(central.proximal_mm, central.distal_mm));
   const along = new THREE.Vector3(...frames.directionToRenderer(axis));
   const names = faceNames(side);
   const to = (name: AnatomicalSide): THREE.Vector3 => new THREE.Vector3(...towards(name, names));
@@ -107,30 +106,29 @@ function picture(
 }
 
 function hardware(placement: Placement): THREE.Object3D[] {
-  const objects: THREE.Object3D[] = [axisLine(placement)];
+  const objects: THREE.Object3D[] = [axisLine(placement.central_axis)];
   const { wire, screw } = placement;
-  if (wire !== undefined) {
-    const shaft = normalized(subtract(wire.entryMm, wire.tipMm));
+  if (wire !== null) {
+    const shaft = normalized(subtract(wire.entry_mm, wire.tip_mm));
     // With 12 mm of what stands out, to show where it came in.
-    const lengthMm = Math.hypot(...subtract(wire.entryMm, wire.tipMm)) + 12;
+    const lengthMm = Math.hypot(...subtract(wire.entry_mm, wire.tip_mm)) + 12;
     const drawn = drawInstrument(wireParts(lengthMm));
-    alignShaft(drawn, wire.tipMm, shaft);
+    alignShaft(drawn, wire.tip_mm, shaft);
     objects.push(drawn);
   }
-  if (screw !== undefined) {
-    const lengthMm = Math.hypot(...subtract(screw.tailMm, screw.tipMm));
-    const { tipDiameterMm, tailDiameterMm } = screw;
-    const drawn = drawInstrument(screwParts({ lengthMm, tipDiameterMm, tailDiameterMm }));
-    alignShaft(drawn, screw.tipMm, normalized(subtract(screw.tailMm, screw.tipMm)));
+  if (screw !== null) {
+    const length_mm = Math.hypot(...subtract(screw.tail_mm, screw.tip_mm));
+    const drawn = drawInstrument(screwParts({ ...screw, length_mm }));
+    alignShaft(drawn, screw.tip_mm, normalized(subtract(screw.tail_mm, screw.tip_mm)));
     objects.push(drawn);
   }
   return objects;
 }
 
 /** The central axis, drawn 3 mm beyond both poles and over everything. */
-function axisLine(placement: Placement): THREE.Object3D {
-  const along = normalized(subtract(placement.axisProximalMm, placement.axisDistalMm));
-  const lengthMm = Math.hypot(...subtract(placement.axisProximalMm, placement.axisDistalMm)) + 6;
+function axisLine(axis: PlacedAxis): THREE.Object3D {
+  const along = normalized(subtract(axis.proximal_mm, axis.distal_mm));
+  const lengthMm = Math.hypot(...subtract(axis.proximal_mm, axis.distal_mm)) + 6;
   const geometry = new THREE.CylinderGeometry(0.18, 0.18, lengthMm, 12);
   geometry.rotateX(Math.PI / 2).translate(0, 0, lengthMm / 2);
   const material = new THREE.MeshBasicMaterial({
@@ -143,9 +141,9 @@ function axisLine(placement: Placement): THREE.Object3D {
   const mesh = new THREE.Mesh(geometry, material);
   mesh.renderOrder = 8;
   const start: Vec3 = [
-    placement.axisDistalMm[0] - 3 * along[0],
-    placement.axisDistalMm[1] - 3 * along[1],
-    placement.axisDistalMm[2] - 3 * along[2],
+    axis.distal_mm[0] - 3 * along[0],
+    axis.distal_mm[1] - 3 * along[1],
+    axis.distal_mm[2] - 3 * along[2],
   ];
   alignShaft(mesh, start, along);
   return mesh;

@@ -3,24 +3,15 @@
 //
 // The debrief of one attempt: the placement first, then the figures with target, reason and grade.
 // Prints on two pages.
-import { dateText, durationText, parseAttempt, procedureText } from "../attempts_list";
-import { fetchCase, fetchJson, NotThere } from "../case_data";
+import { dateText, durationText, procedureText } from "../attempts_list";
+import { fetchAttempt, fetchCase, NotThere } from "../case_data";
 import { button, make } from "../dom";
-import type { CaseDescription, Json } from "../protocol";
+import type { Attempt, CaseDescription, ScoreItem, ScoreReport } from "../protocol";
 import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
 import { eventList } from "./event_list";
-import { parseEvents } from "./events_model";
 import { itemPicture } from "./item_picture";
 import { placementPictures } from "./placement_pictures";
-import {
-  GRADE_SIGNS,
-  GRADE_WORDS,
-  longestLineText,
-  parseScore,
-  valueText,
-  type ScoreItem,
-  type ScoreReport,
-} from "./score_model";
+import { GRADE_SIGNS, GRADE_WORDS, longestLineText, valueText } from "./score_model";
 import "./score.css";
 
 export function mountScore(app: HTMLElement, attemptId: number): () => void {
@@ -29,11 +20,8 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
   app.replaceChildren(main);
   void (async () => {
     try {
-      const [json, description] = await Promise.all([
-        fetchJson(`/api/attempts/${attemptId}`),
-        fetchCase(),
-      ]);
-      if (!left) show(main, json, description);
+      const [attempt, description] = await Promise.all([fetchAttempt(attemptId), fetchCase()]);
+      if (!left) show(main, attempt, description);
     } catch (error) {
       if (left) return;
       const gone = error instanceof NotThere;
@@ -50,44 +38,26 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
   };
 }
 
-/** The report may be an object or, as it is stored, text. */
-function reportOf(json: Json): ScoreReport | undefined {
-  if (json === null || typeof json !== "object" || Array.isArray(json)) return undefined;
-  const fields = json as { readonly [key: string]: Json };
-  const report = fields["score"] ?? fields["report"];
-  if (typeof report !== "string") return parseScore(report);
-  try {
-    return parseScore(JSON.parse(report) as Json);
-  } catch {
-    return undefined;
-  }
-}
-
-function show(main: HTMLElement, json: Json, description: CaseDescription): void {
-  const fields = json as { readonly [key: string]: Json };
-  const attempt = parseAttempt(json) ?? parseAttempt(fields["summary"]);
-  const report = reportOf(json);
+function show(main: HTMLElement, attempt: Attempt, description: CaseDescription): void {
+  const report = attempt.score;
   const operated = attemptedCase(attempt, description);
-  const about =
-    attempt === undefined
-      ? ""
-      : [
-          attempt.trainee === "" ? "trainee not named" : attempt.trainee,
-          attempt.caseName,
-          procedureText(attempt.procedure),
-          dateText(attempt.startedAt),
-          durationText(attempt.durationS) === "" ? "" : `${durationText(attempt.durationS)} min`,
-          attempt.inputDevice,
-        ]
-          .filter((part) => part !== "")
-          .join(" · ");
+  const about = [
+    attempt.trainee === "" ? "trainee not named" : attempt.trainee,
+    attempt.case,
+    procedureText(attempt.procedure),
+    dateText(attempt.started_at),
+    `${durationText(attempt.duration_s)} min`,
+    attempt.input_device,
+  ]
+    .filter((part) => part !== "")
+    .join(" · ");
   const head = make(
     "header.page-head",
     {},
     make(
       "div",
       {},
-      make("p.secondary", {}, `Carpus · attempt ${attempt?.id ?? ""}`),
+      make("p.secondary", {}, `Carpus · attempt ${attempt.id}`),
       make("h1", {}, "Score"),
       make("p.secondary", {}, about, operated.simulated ? " " : "", simulatedBadge(operated)),
     ),
@@ -101,9 +71,12 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
       make("a.button-link.primary", { href: "#/" }, "Operate again"),
     ),
   );
-  if (report === undefined) {
-    const why = make("p", {}, "This attempt was not finished: there is no score.");
-    main.replaceChildren(head, why, eventList(parseEvents(json)));
+  if (report === null) {
+    const why =
+      attempt.outcome === "finished"
+        ? "The score of this attempt cannot be read."
+        : "This attempt was not finished: there is no score.";
+    main.replaceChildren(head, make("p", {}, why), eventList(attempt.events));
     return;
   }
   const pictures = make("div.placement", { role: "group", "aria-label": "Placement" });
@@ -111,14 +84,13 @@ function show(main: HTMLElement, json: Json, description: CaseDescription): void
     head,
     make("section.verdict-row", {}, verdict(report), pictures),
     table(report),
-    eventList(parseEvents(json)),
+    eventList(attempt.events),
     make(
       "p.secondary.score-foot",
       {},
       "Measured on the case's own geometry; simulated training, not a medical device.",
     ),
   );
-  if (report.placement === undefined) return;
   if (operated.notice !== "") {
     pictures.append(make("p.secondary", {}, operated.notice));
     return;
@@ -140,7 +112,7 @@ function simulatedBadge(operated: AttemptedCase): Node | string {
 
 function legend(report: ScoreReport): HTMLElement {
   const axis = make("span.legend-axis", {}, "central axis");
-  const length = report.axisLengthMm === undefined ? "" : ` ${report.axisLengthMm.toFixed(1)} mm`;
+  const length = ` ${report.central_axis_length_mm.toFixed(1)} mm`;
   return make(
     "p.secondary.legend",
     {},
@@ -152,8 +124,7 @@ function legend(report: ScoreReport): HTMLElement {
 function verdict(report: ScoreReport): HTMLElement {
   const figure = (term: string, value: string): Node[] =>
     value === "" ? [] : [make("dt", {}, term), make("dd", {}, value)];
-  const mm = (value: number | undefined): string =>
-    value === undefined ? "" : `${value.toFixed(1)} mm`;
+  const mm = (value: number | null): string => (value === null ? "" : `${value.toFixed(1)} mm`);
   return make(
     "div.verdict",
     {},
@@ -164,14 +135,16 @@ function verdict(report: ScoreReport): HTMLElement {
       make("span", {}, " of 100"),
     ),
     make(
-      `p.${report.acceptable ? "good" : "harm"}` as "p",
+      `p.${report.fixation_acceptable ? "good" : "harm"}` as "p",
       {},
-      report.acceptable ? "✓ The fixation is acceptable." : "✕ The fixation is not acceptable.",
+      report.fixation_acceptable
+        ? "✓ The fixation is acceptable."
+        : "✕ The fixation is not acceptable.",
     ),
     make(
       "ul.must-haves",
       {},
-      ...report.mustHaves.map((must) =>
+      ...report.must_haves.map((must) =>
         make(
           "li",
           {},
@@ -187,11 +160,11 @@ function verdict(report: ScoreReport): HTMLElement {
     make(
       "dl.lengths",
       {},
-      ...figure("True length along the wire", mm(report.trueLengthMm)),
-      ...figure("Gauge reading", mm(report.gaugeReadingMm)),
-      ...figure("Screw for that length", report.idealScrew),
-      ...figure("Screw chosen", report.chosenScrew),
-      ...figure("Stands out", report.penetrationAt),
+      ...figure("True length along the wire", mm(report.true_length_mm)),
+      ...figure("Gauge reading", mm(report.gauge_reading_mm)),
+      ...figure("Screw for that length", report.ideal_screw),
+      ...figure("Screw chosen", report.chosen_screw),
+      ...figure("Stands out", report.penetration_at),
     ),
   );
 }
@@ -219,9 +192,9 @@ function row(item: ScoreItem, report: ScoreReport): HTMLElement {
   const picture = itemPicture(item, report);
   const besides = item.id === "angle_to_central_axis_deg" ? longestLineText(report) : "";
   const points =
-    item.pointsPossible === 0
+    item.points_possible === 0
       ? ""
-      : `${item.points.toFixed(1)} / ${item.pointsPossible.toFixed(0)}`;
+      : `${item.points.toFixed(1)} / ${item.points_possible.toFixed(0)}`;
   return make(
     "tr",
     { "data-item": item.id },

@@ -77,7 +77,7 @@ describe("threadTurns", () => {
 });
 
 describe("the instruments", () => {
-  const shape = { lengthMm: 20, tipDiameterMm: 3.3, tailDiameterMm: 3.8 };
+  const shape = { length_mm: 20, tip_diameter_mm: 3.3, tail_diameter_mm: 3.8 };
   it.each([
     ["wire", wireParts(), 0, 150],
     ["screw", screwParts(shape), 0, 20],

@@ -3,6 +3,7 @@
 //
 // What dorsal scaphoid fixation is done with: guide wire, powered driver, headless compression screw
 // and its driver, as parts in frame Tool (instrument_model.ts).
+import type { Screw } from "../protocol";
 import { turned, type InstrumentPart, type ProfilePoint } from "./instrument_model";
 
 export const WIRE_DIAMETER_MM = 1.14;
@@ -15,11 +16,7 @@ const CHUCK_MM = 72;
 const TIP_PITCH_MM = 1.4;
 const TAIL_PITCH_MM = 0.9;
 
-export interface ScrewShape {
-  readonly lengthMm: number;
-  readonly tipDiameterMm: number;
-  readonly tailDiameterMm: number;
-}
+export type ScrewShape = Pick<Screw, "length_mm" | "tip_diameter_mm" | "tail_diameter_mm">;
 
 /** Double-pointed in truth; the point at the hand's end is hidden in the driver. */
 export function wireParts(lengthMm = WIRE_LENGTH_MM): InstrumentPart[] {
@@ -115,9 +112,9 @@ export function screwParts(shape: ScrewShape): InstrumentPart[] {
     {
       kind: "threaded",
       from_mm: 0,
-      to_mm: shape.lengthMm,
-      radius_mm: shape.tipDiameterMm / 2,
-      radius_end_mm: shape.tailDiameterMm / 2,
+      to_mm: shape.length_mm,
+      radius_mm: shape.tip_diameter_mm / 2,
+      radius_end_mm: shape.tail_diameter_mm / 2,
       pitch_mm: TIP_PITCH_MM,
       pitch_end_mm: TAIL_PITCH_MM,
       material: "titanium",

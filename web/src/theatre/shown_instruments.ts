@@ -45,7 +45,7 @@ export class ShownInstruments {
 
   /** Draws the screw with this shape from now on. @return whether it is another */
   setScrewShape(shape: ScrewShape): boolean {
-    const key = `${shape.lengthMm} ${shape.tipDiameterMm} ${shape.tailDiameterMm}`;
+    const key = `${shape.length_mm} ${shape.tip_diameter_mm} ${shape.tail_diameter_mm}`;
     if (key === this.screwKey) return false;
     this.screwKey = key;
     fillInstrument(this.screw, screwParts(shape));

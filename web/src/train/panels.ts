@@ -3,11 +3,10 @@
 //
 // All bars, lists and dialogs of the room. They show, and pass on what was asked for; they decide nothing.
 import { CArmPanel } from "../c_arm";
-import type { Screw } from "../case_data";
 import { make } from "../dom";
 import { HelpOverlay } from "../help_overlay";
 import type { OnceAction } from "../operation";
-import { parseViews, type CaseDescription } from "../protocol";
+import type { CaseDescription, Screw } from "../protocol";
 import { StartDialog, type StartChoice } from "../start_dialog";
 import type { ViewId } from "../theatre";
 import { BottomBar } from "./bottom_bar";
@@ -83,7 +82,7 @@ export function makePanels(
         wishes.act({ kind: "labels" });
       },
     }),
-    arm: new CArmPanel(parseViews(description.views), {
+    arm: new CArmPanel(description.views, {
       takeShot: (rotationDeg, tiltDeg) => {
         wishes.takeShot(rotationDeg, tiltDeg);
       },

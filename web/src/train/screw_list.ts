@@ -3,7 +3,7 @@
 //
 // The tray of screws. Choosing is the trainee's: nothing here says which one is right.
 import { button, make } from "../dom";
-import type { Screw } from "../case_data";
+import type { Screw } from "../protocol";
 
 export class ScrewList {
   readonly element: HTMLDialogElement;
@@ -77,7 +77,7 @@ export class ScrewList {
         input.addEventListener("change", () => {
           this.chosen = screw.index;
         });
-        const sizes = `tip ${screw.tipDiameterMm.toFixed(1)}, tail ${screw.tailDiameterMm.toFixed(1)} mm`;
+        const sizes = `tip ${screw.tip_diameter_mm.toFixed(1)}, tail ${screw.tail_diameter_mm.toFixed(1)} mm`;
         return make(
           "label",
           {},

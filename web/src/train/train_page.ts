@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
-import type { Screw } from "../case_data";
 import { faceNames, makeFrameMap } from "../frames";
-import type { CaseDescription, HostMessage, Vec3 } from "../protocol";
+import type { CaseDescription, HostMessage, Screw, Vec3 } from "../protocol";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
 import { Connection } from "./connection";

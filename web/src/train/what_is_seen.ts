@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The host's last snapshot, and all that shows it: the theatre at once, readings ten times a second.
-import type { Screw } from "../case_data";
 import { whyStuck } from "../operation";
-import type { SnapshotMessage } from "../protocol";
+import type { Screw, SnapshotMessage } from "../protocol";
 import type { Theatre } from "../theatre";
 import type { Hand } from "./hand";
 import type { Panels } from "./panels";

@@ -1,0 +1,58 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/attempt_messages.hpp"
+
+namespace carpus::server {
+
+namespace {
+
+// The enumeration of protocol.json is in the order of the records'.
+static_assert(static_cast<int>(protocol::Outcome::Finished) ==
+              static_cast<int>(records::Outcome::Finished));
+
+protocol::AttemptSummary summary_message(const records::AttemptSummary& attempt) {
+  protocol::AttemptSummary message;
+  message.id = attempt.id;
+  message.trainee = attempt.trainee;
+  message.case_ = attempt.case_name;
+  message.case_fingerprint = attempt.case_fingerprint;
+  message.case_simulated = attempt.case_simulated;
+  message.procedure = attempt.procedure;
+  message.input_device = attempt.input_device;
+  message.started_at = attempt.started_at;
+  message.ended_at = attempt.ended_at;
+  message.outcome = static_cast<protocol::Outcome>(attempt.outcome);
+  message.overall = attempt.overall;
+  message.duration_s = static_cast<double>(attempt.duration_ticks) / 1000.0;
+  message.state_hash = attempt.final_hash;
+  return message;
+}
+
+/// Nothing where it cannot be read.
+template <typename Value>
+std::optional<Value> readable(Result<Value> parsed) {
+  if (!parsed) return std::nullopt;
+  return std::move(*parsed);
+}
+
+}  // namespace
+
+protocol::AttemptList attempt_list(const std::vector<records::AttemptSummary>& attempts) {
+  protocol::AttemptList list;
+  for (const records::AttemptSummary& attempt : attempts) {
+    list.attempts.push_back(summary_message(attempt));
+  }
+  return list;
+}
+
+protocol::Attempt attempt_message(const records::Attempt& attempt,
+                                  const std::string& open_case_fingerprint) {
+  protocol::Attempt message{summary_message(attempt.summary), false, {}, {}, 0};
+  message.case_is_open = attempt.summary.case_fingerprint == open_case_fingerprint;
+  message.score = readable(protocol::parse_stored_score(attempt.score_json));
+  message.events = readable(protocol::parse_stored_events(attempt.events_json));
+  message.recording_bytes = static_cast<std::int64_t>(attempt.recording.size());
+  return message;
+}
+
+}  // namespace carpus::server

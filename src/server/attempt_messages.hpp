@@ -1,0 +1,24 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Attempts of the records as messages of the protocol.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/bodies.hpp"
+#include "records/attempt.hpp"
+
+namespace carpus::server {
+
+[[nodiscard]] protocol::AttemptList attempt_list(
+    const std::vector<records::AttemptSummary>& attempts);
+
+/// Score and log are absent where what is stored of them cannot be read.
+/// @param open_case_fingerprint  of the case that is served: places of an attempt mean nothing in
+/// another patient's bones.
+[[nodiscard]] protocol::Attempt attempt_message(const records::Attempt& attempt,
+                                                const std::string& open_case_fingerprint);
+
+}  // namespace carpus::server

@@ -1,0 +1,76 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/score_message.hpp"
+
+#include "procedure/screw_catalogue.hpp"
+
+namespace carpus::server {
+
+namespace {
+
+/// Of the report's form; it changes when a key changes its meaning.
+constexpr std::int64_t kScoreVersion = 1;
+
+// The enumeration of protocol.json is in the order of the procedure's.
+static_assert(static_cast<int>(protocol::Grade::NotMeasured) ==
+              static_cast<int>(procedure::Grade::NotMeasured));
+
+protocol::Placement placement_message(const procedure::PlacementPicture& picture) {
+  protocol::Placement placement;
+  placement.central_axis = {picture.central_axis.from, picture.central_axis.to};
+  placement.waist_mm = picture.waist;
+  if (picture.wire) placement.wire = protocol::PlacedWire{picture.wire->from, picture.wire->to};
+  if (picture.screw) {
+    placement.screw =
+        protocol::PlacedScrew{picture.screw->from, picture.screw->to, picture.screw_tip_diameter_mm,
+                              picture.screw_tail_diameter_mm};
+  }
+  return placement;
+}
+
+protocol::ScoreItem item_message(const procedure::ScoreItem& item) {
+  return {item.id,     item.label,           item.value,
+          item.unit,   item.target,          static_cast<protocol::Grade>(item.grade),
+          item.points, item.points_possible, item.reason};
+}
+
+}  // namespace
+
+protocol::ScoreReport score_message(const procedure::ScoreReport& report) {
+  protocol::ScoreReport message;
+  message.score_version = kScoreVersion;
+  message.overall = report.overall;
+  message.fixation_acceptable = report.is_fixation_acceptable;
+  for (const procedure::MustHave& must : report.must_haves) {
+    message.must_haves.push_back({must.id, must.label, must.fulfilled});
+  }
+  for (const procedure::ScoreItem& item : report.items) {
+    message.items.push_back(item_message(item));
+  }
+  message.central_axis_length_mm = report.central_axis_length_mm;
+  message.central_cylinder_radius_mm = report.central_cylinder_radius_mm;
+  message.longest_line_mm = report.longest_line_mm;
+  message.angle_to_longest_line_deg = report.angle_to_longest_line_deg;
+  message.true_length_mm = report.true_length_mm;
+  message.gauge_reading_mm = report.gauge_reading_mm;
+  message.ideal_screw_index = report.ideal_screw_index;
+  message.ideal_screw = report.ideal_screw;
+  message.chosen_screw_index = report.chosen_screw_index;
+  message.chosen_screw = report.chosen_screw;
+  message.penetration_at = report.penetration_at;
+  message.placement = placement_message(report.placement);
+  return message;
+}
+
+protocol::ScrewTray screw_tray() {
+  protocol::ScrewTray tray;
+  std::int64_t index = 0;
+  for (const procedure::Screw& screw : procedure::screw_catalogue()) {
+    tray.screws.push_back({index++, screw.name, screw.family, screw.length_mm,
+                           screw.tip_diameter_mm, screw.tail_diameter_mm,
+                           procedure::kWireDiameterMm, screw.confirmed});
+  }
+  return tray;
+}
+
+}  // namespace carpus::server
