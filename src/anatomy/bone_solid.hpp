@@ -7,6 +7,7 @@
 // fragments [serra1982morphology]; distances by the transform of [felzenszwalb2012distance].
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -64,7 +65,7 @@ class BoneSolid {
 
  private:
   std::vector<TriangleMesh> fragments_;
-  Grid<unsigned char> closed_;  ///< 1 inside
+  Grid<std::uint8_t> closed_;  ///< 1 inside
   std::vector<OuterPoint> outer_points_;
 };
 
