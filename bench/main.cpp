@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "bench/collision/command.hpp"
+#include "bench/fluoroscopy/command.hpp"
 #include "bench/hull/command.hpp"
 
 int main(int argc, char** argv) {
@@ -13,6 +14,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   carpus::bench::HullArguments hull;
   carpus::bench::add_hull(app, hull);
+  carpus::bench::FluoroscopyArguments fluoroscopy;
+  carpus::bench::add_fluoroscopy(app, fluoroscopy);
 #ifdef CARPUS_HAS_COLLISION_BENCH
   carpus::bench::CollisionArguments collision;
   carpus::bench::add_collision(app, collision);

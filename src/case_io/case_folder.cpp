@@ -12,6 +12,7 @@
 
 #include "case_io/detail/case_json.hpp"
 #include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/hull_from_mesh.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "case_io/glb.hpp"
@@ -25,6 +26,8 @@ namespace {
 
 /// A volume file may differ from case.json by its format's rounding, here over the whole grid [mm].
 constexpr double kSamePlaceMm = 1e-3;
+
+constexpr const char* kHandMotionFile = "hand_motion.json";
 
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
@@ -142,6 +145,9 @@ void write_case(const cases::CaseData& data,
     progress("saving", ++done / steps);
   }
   if (!data.skin.facets.empty()) write_ply(out.staging() / "skin.ply", data.skin);
+  if (!data.hand_motion.is_empty()) {
+    write_text(out.staging() / kHandMotionFile, hand_motion_text(data.hand_motion));
+  }
   write_text(out.staging() / "bones.glb", make_case_glb(data));
   write_volume<std::int16_t>(out.staging() / "ct.nii.gz", data.ct.view());
   progress("saving", ++done / steps);
@@ -162,6 +168,9 @@ cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
     progress("loading", ++done / steps);
   }
   if (fs::exists(folder / "skin.ply")) data.skin = read_ply(folder / "skin.ply");
+  if (const fs::path table = folder / kHandMotionFile; fs::exists(table)) {
+    data.hand_motion = parse_hand_motion(read_text(table), table);
+  }
   data.ct = read_grid<std::int16_t>(folder, "ct.nii.gz", header);
   progress("loading", ++done / steps);
   data.labels = read_grid<std::uint8_t>(folder, "labels.nii.gz", header);

@@ -52,6 +52,38 @@ cases::Bone octahedron(BoneId id, BonePart part, std::uint8_t label, const Vec3&
   return bone;
 }
 
+/// Two by two nodes with numbers that text could round.
+cases::HandMotion small_table() {
+  cases::HandMotion table;
+  table.limits = {{-1.0 / 3.0, 1.1}, {-0.7, 0.1 + 0.2}, {-1.5, 1.5}, {0, 100}};
+  table.scan = {0.2, 0.1, 0, 0};
+  table.flexion_rad = {-1.0 / 3.0, 1.1};
+  table.deviation_rad = {-0.7, 0.1 + 0.2};
+  table.nodes.resize(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const auto group : anatomy::kMovingGroups) {
+      auto& motion = table.nodes[i].groups[static_cast<std::size_t>(group)];
+      const double x = 0.01 * static_cast<double>(i) / 3.0;
+      motion = {{1, x, 0, -x}, {1.0 / 7.0, static_cast<double>(i), 0.3}};
+    }
+  }
+  for (const auto group : anatomy::kMovingGroups) {
+    table.reference[static_cast<std::size_t>(group)] = {1.0 / 9.0, 2, 3};
+    table.report.corrections[static_cast<std::size_t>(group)] = {0.1, 0.3, 1.0 / 3.0, 7};
+  }
+  table.hand_axis = {0, 0.6, -0.8};
+  table.radiocarpal_mm_per_n = 1.0 / 98;
+  table.midcarpal_mm_per_n = 2.0 / 98;
+  table.pronation_axis = {0, 0, 1};
+  table.pronation_centre = {1, 2.0 / 3.0, 3};
+  table.pronation_rad = {-1.5, 0, 1.5};
+  table.pronation_shift = {{0.1, 0.2, 0.3}, {}, {0.1 + 0.2, 0, 0}};
+  table.report.scan_overlap_mm = 0.01;
+  table.report.overlap_of_model_mm = 3.3;
+  table.report.cells_over_tenth_mm = 1.0 / 70;
+  return table;
+}
+
 cases::CaseData small_case() {
   cases::CaseData data;
   data.pseudonym = "wrist \"7\"";
@@ -78,6 +110,7 @@ cases::CaseData small_case() {
   data.scaphoid = {{{1, 2, 3}, {4, 5, 6}}, 3.25, {{7, 8, 9}, {1.0 / 3.0, 11, 12}}, {2, 3, 4}};
   data.operative_posture.flexion_from_scan_rad = 0.7;
   data.operative_posture.patient_from_forearm = {rotation_about({0, 1, 0}, 0.7), {0.1, 0.2, 0.3}};
+  data.hand_motion = small_table();
   return data;
 }
 
@@ -142,6 +175,7 @@ void expect_same_case(const cases::CaseData& a, const cases::CaseData& b) {
   EXPECT_EQ(a.scaphoid.longest_line.distal, b.scaphoid.longest_line.distal);
   EXPECT_EQ(a.scaphoid.central_radius_mm, b.scaphoid.central_radius_mm);
   EXPECT_EQ(a.scaphoid.waist, b.scaphoid.waist);
+  EXPECT_TRUE(a.hand_motion == b.hand_motion);
   expect_same_grid(a.ct, b.ct);
   expect_same_grid(a.labels, b.labels);
   EXPECT_EQ(a.skin.vertices, b.skin.vertices);
@@ -177,6 +211,43 @@ TEST_F(CaseFolder, GivesBackWhatWasWrittenBitForBit) {
       }
     }
   }
+}
+
+TEST_F(CaseFolder, OfAnOlderProgramHasNoTableOfHandMotion) {
+  cases::CaseData data = small_case();
+  data.hand_motion = {};
+  write_case(data, target());
+  EXPECT_FALSE(fs::exists(target() / "hand_motion.json"));
+  EXPECT_TRUE(read_case(target()).hand_motion.is_empty());
+}
+
+TEST_F(CaseFolder, WithADamagedTableOfHandMotionIsRefusedByThatFilesName) {
+  write_case(small_case(), target());
+  const fs::path file = target() / "hand_motion.json";
+  std::ifstream in(file);
+  const std::string whole{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto refused_with = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    std::ofstream(file) << text;
+    EXPECT_THAT(error_of<IoError>(target()),
+                AllOf(HasSubstr("hand_motion.json"), HasSubstr("made anew")))
+        << to;
+  };
+  refused_with("carpus hand motion", "something else");
+  refused_with("\"nodes\":[[", "\"nodes\":[");
+  refused_with("[[1.0,", "[[0.5,");  // no unit quaternion
+  refused_with("[[1.0,", "[[null,");
+  refused_with("[-0.3333333333333333,1.1]", "[1.1,-0.3333333333333333]");  // an axis that falls
+  refused_with("[-0.3333333333333333,1.1],\"radial", "[1.1],\"radial");
+  refused_with("1.5],\"shift_mm\":[[0.1,0.2,", "1.5],\"shift_mm\":[[0.1,");
+  refused_with(whole.substr(whole.size() / 2), "");
+  std::string newer = whole;
+  newer.replace(newer.find("\"schema_version\":1"), 18, "\"schema_version\":2");
+  std::ofstream(file) << newer;
+  EXPECT_THAT(error_of<SchemaError>(target()), HasSubstr("hand_motion.json"));
 }
 
 TEST_F(CaseFolder, IsReplacedOnlyOnDemand) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "anatomy/bone_id.hpp"
+#include "cases/hand_motion.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/pose.hpp"
@@ -79,6 +80,9 @@ struct CaseData {
   TriangleMesh skin;  ///< Patient [mm]; may be empty, may be open at the field of view's ends
   ScaphoidLandmarks scaphoid;
   Posture operative_posture;  ///< what posture.hpp applies before an operation
+  /// Where the bones are for any way the hand is held; empty in a case of an older program until
+  /// ensure_hand_motion (make_hand_motion.hpp).
+  HandMotion hand_motion;
 };
 
 /// The bone or part with this name, or nullptr.

@@ -23,6 +23,17 @@ constexpr double kLeastStepMm = 1e-7;
 /// Slower than this along an axis of the grid [cells/mm], the shaft stays in its layer of cells.
 constexpr double kLeastCellsPerMm = 1e-9;
 
+/// Where two fields cross, the smaller one may be taken for so long [mm]; the gap is off by as much
+/// at most, for they differ by less than 2 per mm.
+constexpr double kLeastSplitMm = 1e-4;
+
+/// Stops that crossings of two fields may take in a cell of the finer one; a dozen halvings each.
+constexpr int kStopsPerCutCell = 8;
+
+/// What lies so far beneath a surface found in a cut bone is tried as a proof of bone [mm].
+constexpr double kProofStepMm = 0.1;
+constexpr int kProofSteps = 6;
+
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kBisections = 24;  ///< a cell's 0.7 mm to less than 1e-7 mm
 
@@ -96,17 +107,36 @@ struct AxisPlace {
   double z = 0;
 };
 
+/// A bone as scanned.
+struct WholeBone {
+  static constexpr bool kIsCut = false;
+  const fields::ContactField& bone;
+  [[nodiscard]] double steepest() const noexcept { return bone.steepest(); }
+};
+
+/// A bone with cuts: the larger of two fields, whose cells nest.
+struct BoneWithCuts {
+  static constexpr bool kIsCut = true;
+  const fields::ContactField& bone;
+  const fields::CutField& cut;
+  [[nodiscard]] double steepest() const noexcept {
+    return std::max(bone.steepest(), cut.steepest());
+  }
+};
+
+template <typename Source>
 class AxisWalk {
  public:
-  AxisWalk(const fields::ContactField& field,
+  AxisWalk(const Source& source,
            const InstrumentShape& shape,
            const Pose<frame::Bone, frame::Tool>& bone_from_tool,
            double cap)
-      : field_(field), shape_(shape), pose_(bone_from_tool) {
+      : source_(source), field_(source.bone), shape_(shape), pose_(bone_from_tool) {
+    const fields::ContactField& field = field_;
     const Vec3 axis = pose_.rotation.column(2);
     front_ = field.cells_from_point(pose_.translation);
     along_ = axis * field.per_spacing();
-    steepest_ = field.steepest() * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
+    steepest_ = source.steepest() * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
     for (std::size_t a = 0; a < 3; ++a) {
       // An axis along which nothing moves is never left: its border lies far ahead.
       const bool moves = std::abs(along_[a]) >= kLeastCellsPerMm;
@@ -116,6 +146,7 @@ class AxisWalk {
     products_ = {along_.y * along_.z, along_.x * along_.z, along_.x * along_.y};
     const auto& cells = field.cell_count();
     steps_left_ = 64 + 4 * (cells[0] + cells[1] + cells[2]);
+    if (Source::kIsCut) steps_left_ *= kStopsPerCutCell * fields::kCutCellsPerCell;
     const auto& thread = shape.thread();
     core_level_ = thread ? -thread->depth_mm : -std::numeric_limits<double>::infinity();
     best_.gap = cap;
@@ -142,7 +173,7 @@ class AxisWalk {
   /// The field's gradient at a ball's centre [mm/mm].
   [[nodiscard]] Vec3 gradient_at(const AxisPlace& place) const noexcept {
     const Stop stop = stop_at(place.z, {place.z, place.z, 0, 0});
-    return stop.polynomial.slope(stop.place) * field_.per_spacing();
+    return stop.polynomial.slope(stop.place) * stop.per_spacing;
   }
   [[nodiscard]] Point<frame::Bone> surface_at(const AxisPlace& place,
                                               const Vec3& normal) const noexcept {
@@ -171,6 +202,7 @@ class AxisWalk {
     Vec3 place;         ///< in the cell, 0 to 1
     fields::CellPolynomial polynomial;
     GapCubic gap;
+    double per_spacing = 0;  ///< of the polynomial's grid
   };
 
   bool clip(Piece& piece) const noexcept {
@@ -225,21 +257,67 @@ class AxisWalk {
   }
 
   [[nodiscard]] Stop stop_at(double z, const Piece& piece) const noexcept {
+    Stop stop = stop_in<1>(z, piece, [&](const VoxelIndex& cell, fields::CellPolynomial& p) {
+      (void)field_.load(cell, p);
+    });
+    if constexpr (Source::kIsCut) {
+      bool is_near = false;
+      const Stop cut = stop_in<fields::kCutCellsPerCell>(
+          z, piece, [&](const VoxelIndex& cell, fields::CellPolynomial& p) {
+            is_near = source_.cut.load(cell, p);
+          });
+      // A brick of cuts holds whole cells of the bone's field.
+      const double step = is_near ? std::min(stop.step, cut.step) : stop.step;
+      stop = larger(stop, cut, step);
+    }
+    return stop;
+  }
+
+  /// In a grid that is Finer times as fine as the bone's.
+  template <int Finer, typename Load>
+  [[nodiscard]] Stop stop_in(double z, const Piece& piece, const Load& load) const noexcept {
     const auto& cells = field_.cell_count();
-    const Vec3 at = front_ + along_ * z;
-    const AxisCell x = axis_cell(at.x, cells[0] - 1, ahead_.x, per_along_.x);
-    const AxisCell y = axis_cell(at.y, cells[1] - 1, ahead_.y, per_along_.y);
-    const AxisCell w = axis_cell(at.z, cells[2] - 1, ahead_.z, per_along_.z);
+    const Vec3 along = along_ * Finer;
+    const Vec3 at = (front_ + along_ * z) * Finer;
+    constexpr double kPerFiner = 1.0 / Finer;
+    const AxisCell x = axis_cell(at.x, cells[0] * Finer - 1, ahead_.x, per_along_.x * kPerFiner);
+    const AxisCell y = axis_cell(at.y, cells[1] * Finer - 1, ahead_.y, per_along_.y * kPerFiner);
+    const AxisCell w = axis_cell(at.z, cells[2] * Finer - 1, ahead_.z, per_along_.z * kPerFiner);
     const double border = std::min(std::min(x.border, y.border), w.border);
     const Vec3 place{x.place, y.place, w.place};
     fields::CellPolynomial p;
-    (void)field_.load({x.cell, y.cell, w.cell}, p);
+    load({x.cell, y.cell, w.cell}, p);
     const double radius = piece.radius + piece.slope * (z - piece.from);
-    const GapCubic gap{p.value(place) - radius, dot(p.slope(place), along_) - piece.slope,
-                       p.yz * products_.x + p.xz * products_.y + p.xy * products_.z +
-                           p.xyz * dot(place, products_),
-                       p.xyz * products_.x * along_.x};
-    return {z, std::max(border, kLeastStepMm), radius, piece.slope, place, p, gap};
+    const Vec3 products = products_ * (Finer * Finer);
+    const GapCubic gap{
+        p.value(place) - radius, dot(p.slope(place), along) - piece.slope,
+        p.yz * products.x + p.xz * products.y + p.xy * products.z + p.xyz * dot(place, products),
+        p.xyz * products.x * along.x};
+    return {z,   std::max(border, kLeastStepMm), radius, piece.slope, place, p,
+            gap, field_.per_spacing() * Finer};
+  }
+
+  /// The larger of two gaps up to where the other may be; at most `step` far.
+  static Stop larger(const Stop& a, const Stop& b, double step) noexcept {
+    const GapCubic e{a.gap.c0 - b.gap.c0, a.gap.c1 - b.gap.c1, a.gap.c2 - b.gap.c2,
+                     a.gap.c3 - b.gap.c3};
+    bool is_a = true;
+    while (true) {
+      // Their difference lies between its Bernstein coefficients.
+      const double second = e.c0 + step * e.c1 / 3;
+      const double third = e.c0 + step * (2 * e.c1 + step * e.c2) / 3;
+      const double last = e.at(step);
+      is_a = e.c0 >= 0 && second >= 0 && third >= 0 && last >= 0;
+      if (is_a || (e.c0 <= 0 && second <= 0 && third <= 0 && last <= 0)) break;
+      if (!(step > kLeastSplitMm)) {
+        is_a = e.at(0.5 * step) >= 0;
+        break;
+      }
+      step *= 0.5;
+    }
+    Stop result = is_a ? a : b;
+    result.step = step;
+    return result;
   }
 
   /// By how much the gap may change before it concerns the answer.
@@ -324,6 +402,7 @@ class AxisWalk {
     patch_.stretch_count = static_cast<std::uint8_t>(count + 1);
   }
 
+  const Source source_;
   const fields::ContactField& field_;
   const InstrumentShape& shape_;
   const Pose<frame::Bone, frame::Tool>& pose_;
@@ -356,32 +435,34 @@ double lowest_gap_mm(const fields::ContactField& field,
   return field.lowest_distance(field_gap_mm + radius) - radius;
 }
 
-SurfaceContact find_contact(const fields::ContactField& field,
+namespace {
+
+/// All but highest_gap_mm and Buried.
+template <typename Source>
+SurfaceContact contact_with(const Source& source,
                             const InstrumentShape& shape,
                             const Pose<frame::Bone, frame::Tool>& bone_from_tool,
                             double within_mm) noexcept {
   SurfaceContact result;
+  const fields::ContactField& field = source.bone;
   const double greatest = greatest_gap_mm(field, shape);
   const bool is_pose_finite =
       is_finite(bone_from_tool.translation) && is_finite(bone_from_tool.rotation.column(2));
   if (!(greatest > 0 && is_pose_finite)) return result;
   const double cap = within_mm > 0 ? std::min(within_mm, greatest) : 0.0;
-  AxisWalk walk(field, shape, bone_from_tool, cap);
+  AxisWalk<Source> walk(source, shape, bone_from_tool, cap);
   if (!walk.run()) return result;
 
   const AxisPlace& best = walk.best();
   result.gap_mm = best.gap;
   result.lowest_gap_mm = lowest_gap_mm(field, shape, best.gap);
+  result.highest_gap_mm = std::numeric_limits<double>::infinity();
   if (!walk.found()) {
     result.outcome = ContactOutcome::Far;
     result.gap_mm = result.lowest_gap_mm;
-    result.highest_gap_mm = std::numeric_limits<double>::infinity();
     return result;
   }
   walk.finish();
-  const double radius = shape.radius_at(best.z);
-  const double sample = best.gap + radius;
-  result.highest_gap_mm = field.highest_distance(sample) - radius;
   result.z_mm = best.z;
   const Vec3 gradient = walk.gradient_at(best);
   result.normal = {normalized_or(gradient, {0, 0, 0})};
@@ -389,11 +470,57 @@ SurfaceContact find_contact(const fields::ContactField& field,
   result.steepness = length(gradient);
   result.patch = walk.patch();
   result.outcome = best.gap > 0 ? ContactOutcome::Near : ContactOutcome::Touching;
-  // Where the clamped distance may be the band itself, the true one may be any depth.
-  if (best.gap + shape.least_radius_mm() - field.error_mm() <= -field.band_mm()) {
-    result.outcome = ContactOutcome::Buried;
-    result.lowest_gap_mm = -std::numeric_limits<double>::infinity();
+  return result;
+}
+
+/// Where the clamped distance may be the deepest there is, the true one may be any depth.
+void name_buried(SurfaceContact& contact,
+                 const InstrumentShape& shape,
+                 double error_mm,
+                 double deepest_mm) noexcept {
+  if (contact.gap_mm + shape.least_radius_mm() - error_mm > -deepest_mm) return;
+  contact.outcome = ContactOutcome::Buried;
+  contact.lowest_gap_mm = -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+SurfaceContact find_contact(const fields::ContactField& field,
+                            const InstrumentShape& shape,
+                            const Pose<frame::Bone, frame::Tool>& bone_from_tool,
+                            double within_mm) noexcept {
+  SurfaceContact result = contact_with(WholeBone{field}, shape, bone_from_tool, within_mm);
+  if (result.outcome != ContactOutcome::Near && result.outcome != ContactOutcome::Touching) {
+    return result;
   }
+  const double radius = shape.radius_at(result.z_mm);
+  result.highest_gap_mm = field.highest_distance(result.gap_mm + radius) - radius;
+  name_buried(result, shape, field.error_mm(), field.band_mm());
+  return result;
+}
+
+SurfaceContact find_contact(const fields::CutBone& left,
+                            const InstrumentShape& shape,
+                            const Pose<frame::Bone, frame::Tool>& bone_from_tool,
+                            double within_mm) noexcept {
+  if (!left.cut.is_cut()) return find_contact(left.bone, shape, bone_from_tool, within_mm);
+  SurfaceContact result =
+      contact_with(BoneWithCuts{left.bone, left.cut}, shape, bone_from_tool, within_mm);
+  if (result.outcome != ContactOutcome::Near && result.outcome != ContactOutcome::Touching) {
+    return result;
+  }
+  // A place that is proven to be bone, no deeper than it must be. The distance changes by no more
+  // than the way to it.
+  const double radius = shape.radius_at(result.z_mm);
+  const Vec3 centre = (bone_from_tool * Point<frame::Tool>{{0, 0, result.z_mm}}).v;
+  const double to_surface = std::max(result.gap_mm + radius, 0.0);
+  for (int i = 0; i <= kProofSteps; ++i) {
+    const double way = i == 0 ? 0.0 : to_surface + kProofStepMm * i;
+    const double highest = left.highest_if_bone(centre - result.normal.v * way);
+    if (highest < 0)
+      result.highest_gap_mm = std::min(result.highest_gap_mm, highest + way - radius);
+  }
+  name_buried(result, shape, left.error_mm(), std::min(left.bone.band_mm(), fields::kCutDepthMm));
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "fields/contact_field.hpp"
+#include "fields/cut_bone.hpp"
 #include "geometry/instrument_shape.hpp"
 #include "geometry/pose.hpp"
 
@@ -94,6 +95,17 @@ struct SurfaceContact {
 /// elsewhere; at most 3 cells per spacing of the axis within the grid.
 /// Source: the strides are those of sphere tracing [hart1996sphere] §2, along a line.
 [[nodiscard]] SurfaceContact find_contact(const fields::ContactField& field,
+                                          const InstrumentShape& shape,
+                                          const Pose<frame::Bone, frame::Tool>& bone_from_tool,
+                                          double within_mm = 0) noexcept;
+
+/// The same for what is left of a bone that was cut. gap_mm is that of max(f_d, f_c), to 1e-4 mm
+/// (fields/cut_field.hpp); as before if nothing was cut, in every bit. lowest_gap_mm stands as it
+/// does for a whole bone. highest_gap_mm needs a place that is proven to be bone beneath the
+/// surface found; where what is left is too thin for that, or where the surface that the field
+/// tells of was drilled away, it is infinite. Buried begins at depths of fields::kCutDepthMm. Cost:
+/// within the cuts one more polynomial, cells half as wide.
+[[nodiscard]] SurfaceContact find_contact(const fields::CutBone& left,
                                           const InstrumentShape& shape,
                                           const Pose<frame::Bone, frame::Tool>& bone_from_tool,
                                           double within_mm = 0) noexcept;

@@ -107,6 +107,12 @@ void InstrumentScene::forget() noexcept {
   for (Memory& memory : memory_) memory.slack_mm = -1;
 }
 
+void InstrumentScene::set_cuts(std::span<const fields::CutField> cuts) noexcept {
+  CARPUS_CHECK(cuts.empty() || cuts.size() == bones_.size());
+  cuts_ = cuts;
+  forget();
+}
+
 void InstrumentScene::update(
     std::span<const Pose<frame::Patient, frame::Bone>> patient_from_bone,
     std::span<const Pose<frame::Patient, frame::Tool>> patient_from_tool) noexcept {
@@ -146,7 +152,7 @@ void InstrumentScene::update_pairs(
     }
     memory = {front_in_bone, back_in_bone, -1};
     if (is_finite_pose(tool) && is_finite_pose(bone_from_patient[b])) {
-      look_at(pair, bones_[b], shape, bone_from_patient[b] * tool);
+      look_at(pair, b, shape, bone_from_patient[b] * tool);
     } else {
       contacts_[pair] = {};
       ++counts_.not_known;
@@ -188,9 +194,10 @@ void InstrumentScene::set_far(std::size_t pair,
 }
 
 void InstrumentScene::look_at(std::size_t pair,
-                              const fields::ContactField& field,
+                              std::size_t bone,
                               const InstrumentShape& shape,
                               const Pose<frame::Bone, frame::Tool>& bone_from_tool) noexcept {
+  const fields::ContactField& field = bones_[bone];
   // A true gap that exceeds within_mm by the field's error is Far by the field as well.
   const double bound = bound_by_box_and_ball(field, memory_[pair]) - shape.greatest_radius_mm() -
                        field.error_mm() - options_.within_mm;
@@ -200,16 +207,23 @@ void InstrumentScene::look_at(std::size_t pair,
     return;
   }
   ++counts_.by_field;
+  const bool is_cut = !cuts_.empty() && cuts_[bone].is_cut();
+  const double look = options_.within_mm + options_.look_ahead_mm;
   SurfaceContact contact =
-      find_contact(field, shape, bone_from_tool, options_.within_mm + options_.look_ahead_mm);
+      is_cut ? find_contact(fields::CutBone{field, cuts_[bone]}, shape, bone_from_tool, look)
+             : find_contact(field, shape, bone_from_tool, look);
   if (contact.outcome == ContactOutcome::Far || contact.gap_mm > options_.within_mm) {
     // By the field's own steepness, or by the true distance, which changes no faster than the way.
     const double gap =
         contact.outcome == ContactOutcome::Far
             ? std::min(options_.within_mm + options_.look_ahead_mm, greatest_gap_mm(field, shape))
             : contact.gap_mm;
-    const double by_field = (gap - options_.within_mm) / (kSqrt3 * field.steepest());
-    const double by_distance = contact.lowest_gap_mm - field.error_mm() - options_.within_mm;
+    const double steepest =
+        is_cut ? std::max(field.steepest(), cuts_[bone].steepest()) : field.steepest();
+    const double by_field = (gap - options_.within_mm) / (kSqrt3 * steepest);
+    // With cuts the field is bound from below by max(d, -t), not by the true distance.
+    const double lowest = is_cut ? gap - field.error_mm() : contact.lowest_gap_mm;
+    const double by_distance = lowest - field.error_mm() - options_.within_mm;
     set_far(pair, field, shape, std::max(by_field, by_distance));
     return;
   }

@@ -11,6 +11,7 @@
 
 #include "contact/instrument_contact.hpp"
 #include "fields/contact_field.hpp"
+#include "fields/cut_field.hpp"
 #include "geometry/instrument_shape.hpp"
 #include "geometry/pose.hpp"
 
@@ -52,6 +53,11 @@ class InstrumentScene {
   InstrumentScene(std::span<const fields::ContactField> bones,
                   std::size_t places,
                   const InstrumentSceneOptions& options = {});
+
+  /// From now on contacts are with what these cuts leave of the bones; they are read at each
+  /// update. After anything that brings bone back (undo, a keyframe) call forget().
+  /// @param cuts  one for each bone, in the same order; they must outlive the scene. Empty: none.
+  void set_cuts(std::span<const fields::CutField> cuts) noexcept;
 
   [[nodiscard]] std::size_t bone_count() const noexcept { return bones_.size(); }
   [[nodiscard]] std::size_t instrument_count() const noexcept { return instruments_.size(); }
@@ -112,7 +118,7 @@ class InstrumentScene {
                     InstrumentBonePair* alerts,
                     std::size_t& count) noexcept;
   void look_at(std::size_t pair,
-               const fields::ContactField& field,
+               std::size_t bone,
                const InstrumentShape& shape,
                const Pose<frame::Bone, frame::Tool>& bone_from_tool) noexcept;
   [[nodiscard]] double bound_by_box_and_ball(const fields::ContactField& field,
@@ -123,6 +129,7 @@ class InstrumentScene {
                double slack_mm) noexcept;
 
   std::span<const fields::ContactField> bones_;
+  std::span<const fields::CutField> cuts_;
   std::vector<InstrumentShape> instruments_;
   InstrumentSceneOptions options_;
   std::vector<Memory> memory_;

@@ -7,8 +7,8 @@ namespace carpus::fields {
 CutField::CutField(const ContactField& bone, const CutBrick* bricks)
     : spacing_(bone.spacing_mm() / kCutCellsPerCell),
       per_spacing_(bone.per_spacing() * kCutCellsPerCell),
-      error_(kFieldErrorPerSpacing * spacing_ + kCutUnitMm / 2 + kCutRoundingMm),
-      steepest_(1 + (kCutUnitMm + 2 * kCutRoundingMm) * per_spacing_),
+      error_(kFieldErrorPerSpacing * spacing_ + kCutRoundingMm),
+      steepest_(1 + 2 * kCutRoundingMm * per_spacing_),
       origin_(bone.origin()),
       bricks_(bricks) {
   std::size_t count = 1;
@@ -22,7 +22,7 @@ CutField::CutField(const ContactField& bone, const CutBrick* bricks)
 
 double CutField::lowest_distance(double sample) const noexcept {
   const double by_way = sample - error_;
-  const double f = sample - kCutUnitMm / 2 - kCutRoundingMm;
+  const double f = sample - kCutRoundingMm;
   const double rest = f * f - 0.75 * spacing_ * spacing_;
   return f > 0 && rest > 0 ? std::max(by_way, std::sqrt(rest)) : by_way;
 }

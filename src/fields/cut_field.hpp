@@ -46,8 +46,9 @@ inline constexpr double kCutReachMm = 4.0;
 inline constexpr double kCutUnitMm = 0x1p-12;
 /// Cells of the cut field in one of the bone's field, by axis.
 inline constexpr int kCutCellsPerCell = 2;
-/// Rounding of nodes' distances, which are computed in float: below 60 mm from the tool's origin.
-inline constexpr double kCutRoundingMm = 4e-5;
+/// A node may be off by this: half a step, a step that is not worth a change (a tool back in its
+/// own track changes nothing), and distances in float, up to 60 mm from the tool's origin.
+inline constexpr double kCutRoundingMm = 1.5 * kCutUnitMm + 4e-5;
 
 /// Nodes of 4 x 4 x 4 cells, borders with their neighbours' included, x fastest; in kCutUnitMm.
 struct alignas(64) CutBrick {

@@ -173,7 +173,7 @@ Removal CutTissue::remove(std::size_t body, const SweptTool& tool) noexcept {
   return result;
 }
 
-/// False: the brick's nodes were as deep already.
+/// False: the brick's nodes were as deep already, but for a step.
 bool CutTissue::deepen(std::size_t body,
                        std::uint32_t brick,
                        const detail::SweepNodes& sweep) noexcept {
@@ -189,7 +189,9 @@ bool CutTissue::deepen(std::size_t body,
   const CutBrick uncut;
   const CutBrick& before = at == CutField::kNoBrick ? uncut : bricks_[at - 1U];
   int deeper = 0;
-  for (std::size_t n = 0; n < depth.size(); ++n) deeper += depth[n] > before.node[n] ? 1 : 0;
+  for (std::size_t n = 0; n < depth.size(); ++n) {
+    deeper += depth[n] > before.node[n] + 1 ? 1 : 0;
+  }
   if (deeper == 0) return false;
   save(body, brick, at);
   if (at == CutField::kNoBrick) at = allocate(body, brick);

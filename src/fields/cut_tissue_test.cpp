@@ -99,7 +99,7 @@ TEST(CutTissue, IsTheSameInAdvancesAsInOneGo) {
   Rng rng(2);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p{rng.uniform(-8, 8), rng.uniform(-8, 8), rng.uniform(-8, 8)};
-    ASSERT_NEAR(slow.field(0).sample(p), fast.field(0).sample(p), 2 * kCutUnitMm);
+    ASSERT_NEAR(slow.field(0).sample(p), fast.field(0).sample(p), 2 * kCutRoundingMm);
   }
   // The same tool again, once it went through.
   const Removal again = slow.remove(0, SweptTool::advance(wire, {turn, shaft * 2.0}, 0.05));

@@ -17,11 +17,6 @@
 namespace carpus::fluoroscopy {
 namespace {
 
-/// HU above which a voxel on the scan's border is part of a limb that goes on beyond it.
-constexpr std::int16_t kTissueHu = -300;
-/// A border cuts a limb when more of it than this is tissue.
-constexpr double kCutFraction = 0.02;
-
 struct Range {
   double low;
   double high;
@@ -41,10 +36,7 @@ void clip(Range& range, double offset, double slope, double last) noexcept {
 
 }  // namespace
 
-CtProjector::CtProjector(const GridView<const std::int16_t>& ct) : ct_(ct) {
-  mark_blocks();
-  find_cuts();
-}
+CtProjector::CtProjector(const GridView<const std::int16_t>& ct) : ct_(ct) { mark_blocks(); }
 
 void CtProjector::mark_blocks() {
   const auto& size = ct_.geometry().size;
@@ -75,27 +67,6 @@ void CtProjector::spread_blocks(std::size_t axis) {
     const std::size_t along = i / stride % count;
     if (along > 0) occupied_[i - stride] = 1;
     if (along + 1 < count) occupied_[i + stride] = 1;
-  }
-}
-
-void CtProjector::find_cuts() {
-  const auto& size = ct_.geometry().size;
-  if (ct_.geometry().voxel_count() == 0) return;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t across = (axis + 1) % 3;
-    const std::size_t along = (axis + 2) % 3;
-    for (std::size_t end = 0; end < 2; ++end) {
-      std::size_t tissue = 0;
-      std::array<int, 3> v{};
-      v[axis] = end == 0 ? 0 : size[axis] - 1;
-      for (v[along] = 0; v[along] < size[along]; ++v[along]) {
-        for (v[across] = 0; v[across] < size[across]; ++v[across]) {
-          if (ct_[VoxelIndex{v[0], v[1], v[2]}] > kTissueHu) ++tissue;
-        }
-      }
-      const double face = static_cast<double>(size[across]) * size[along];
-      cut_[axis * 2 + end] = static_cast<double>(tissue) > kCutFraction * face;
-    }
   }
 }
 

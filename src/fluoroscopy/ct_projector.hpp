@@ -45,23 +45,16 @@ class CtProjector {
 
   [[nodiscard]] const GridGeometry& geometry() const noexcept { return ct_.geometry(); }
 
-  /// Whether tissue is cut off by the scan's border at the low (0) or high (1) end of an axis.
-  [[nodiscard]] bool is_cut_at(std::size_t axis, std::size_t end) const noexcept {
-    return cut_[axis * 2 + end];
-  }
-
  private:
   static constexpr int kBlock = 8;
 
   [[nodiscard]] std::size_t block_of(const std::array<int, 3>& voxel) const noexcept;
   void mark_blocks();
   void spread_blocks(std::size_t axis);
-  void find_cuts();
 
   GridView<const std::int16_t> ct_;
   std::array<int, 3> blocks_{};
   std::vector<std::uint8_t> occupied_;  ///< per block: it or a neighbour holds more than air
-  std::array<bool, 6> cut_{};
 };
 
 }  // namespace carpus::fluoroscopy

@@ -129,20 +129,6 @@ TEST(CtProjector, MeetsNothingOutsideTheGridOrInDegenerateOnes) {
   EXPECT_EQ(CtProjector(one.view()).line_integral({0, 0, -5}, {0, 0, 5}), 0.0F);
 }
 
-TEST(CtProjector, TellsWhereALimbIsCutByTheScan) {
-  Grid<std::int16_t> ct(grid_of(20, 20, 20, {1, 1, 1}), kAir);
-  for (int z = 0; z < 20; ++z) {
-    for (int y = 5; y < 15; ++y) {
-      for (int x = 5; x < 15; ++x) ct[VoxelIndex{x, y, z}] = 40;
-    }
-  }
-  const CtProjector projector(ct.view());
-  EXPECT_TRUE(projector.is_cut_at(2, 0) && projector.is_cut_at(2, 1));
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    EXPECT_FALSE(projector.is_cut_at(axis, 0) || projector.is_cut_at(axis, 1));
-  }
-}
-
 TEST(Attenuation, IsNilInAirExactInWaterAndNeverFalls) {
   EXPECT_EQ(attenuation_per_mm(-1024), 0.0);
   EXPECT_DOUBLE_EQ(attenuation_per_mm(0), kWaterPerMm);

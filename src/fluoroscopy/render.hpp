@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "fluoroscopy/c_arm.hpp"
 #include "fluoroscopy/ct_projector.hpp"
 #include "fluoroscopy/detector.hpp"
 #include "fluoroscopy/metal.hpp"
+#include "fluoroscopy/scan_cuts.hpp"
 
 namespace carpus::fluoroscopy {
 
@@ -33,6 +35,7 @@ class FluoroscopyRenderer {
 
  private:
   CtProjector ct_;
+  std::vector<ScanCut> cuts_;
 };
 
 }  // namespace carpus::fluoroscopy

@@ -74,6 +74,14 @@ SweptTool SweptTool::advance(const InstrumentShape& shape,
   return tool;
 }
 
+SweptTool SweptTool::widened(double by_mm) const noexcept {
+  SweptTool wider = *this;
+  for (std::size_t i = 0; i < count_; ++i) wider.knots_[i].radius_mm += by_mm;
+  wider.check();
+  wider.is_sound_ = wider.is_sound_ && is_sound_ && by_mm >= 0;
+  return wider;
+}
+
 double SweptTool::greatest_radius_mm() const noexcept {
   double greatest = 0;
   for (const AxisKnot& knot : knots()) greatest = std::max(greatest, knot.radius_mm);

@@ -45,6 +45,11 @@ class SweptTool {
                                          const Pose<frame::Bone, frame::Tool>& bone_from_tool,
                                          double travel_mm) noexcept;
 
+  /// Wider by the same way everywhere, ends too: a turning tool wobbles and cuts its hole a little
+  /// wider than itself. Every ball of this tool then is free in the hole by that way.
+  /// @param by_mm  0 or more.
+  [[nodiscard]] SweptTool widened(double by_mm) const noexcept;
+
   /// False if a number that it was made of was not finite, or a radius or way less than 0.
   [[nodiscard]] bool is_sound() const noexcept { return is_sound_; }
   /// Where z is 0, and the unit direction in which it grows; both in frame Bone.

@@ -91,6 +91,19 @@ TEST(SweptTool, IsTheHullOfTwoBalls) {
   }
 }
 
+TEST(SweptTool, GrowsBySameWayEverywhereWhenWidened) {
+  Rng rng(5);
+  for (const InstrumentShape& shape : shapes()) {
+    const SweptTool tool = SweptTool::advance(shape, pose_along(direction(rng), {1, 1, 1}), 0.5);
+    for (int n = 0; n < 100; ++n) {
+      const Vec3 p = direction(rng) * rng.uniform(0, 10);
+      ASSERT_NEAR(tool.widened(0.2).signed_distance(p), tool.signed_distance(p) - 0.2, 1e-12);
+    }
+    EXPECT_TRUE(tool.widened(0.2).is_back_known());
+    EXPECT_FALSE(tool.widened(-0.1).is_sound());
+  }
+}
+
 TEST(SweptTool, LiesInItsBox) {
   Rng rng(4);
   for (const InstrumentShape& shape : shapes()) {

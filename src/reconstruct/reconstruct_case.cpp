@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "anatomy/bone_naming.hpp"
+#include "cases/make_hand_motion.hpp"
 #include "cases/posture.hpp"
 #include "cases/scaphoid_landmarks.hpp"
 #include "core/error.hpp"
@@ -276,6 +277,8 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   data.scaphoid = cases::find_scaphoid_landmarks(data);
   stage("posture", 0.97);
   data.operative_posture = cases::choose_operative_posture(data);
+  stage("hand motion", 0.98);
+  data.hand_motion = cases::make_hand_motion(data);
   clock.end();
   result.stages = clock.stages();
   options.progress("done", 1.0);

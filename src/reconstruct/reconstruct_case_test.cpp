@@ -106,6 +106,10 @@ void expect_whole_case(const Reconstruction& r,
     EXPECT_FALSE(bone.distance_field.values().empty());
   }
   EXPECT_EQ(found, expected);
+  ASSERT_FALSE(r.data.hand_motion.is_empty());
+  EXPECT_LE(r.data.hand_motion.report.overlap_at_nodes_mm, 0.1);
+  EXPECT_LE(r.data.hand_motion.report.overlap_between_nodes_mm, 0.1);
+  EXPECT_LE(r.data.hand_motion.report.overlap_in_pronation_mm, 0.1);
   EXPECT_NEAR(r.data.wrist_from_patient.rotation.determinant(), 1.0, 1e-9);
   EXPECT_GT(r.data.scaphoid.central_radius_mm, 1.5);
   const double axis =

@@ -13,6 +13,7 @@
 #include "cli/bench_tick_command.hpp"
 #include "cli/collide_command.hpp"
 #include "cli/hull_command.hpp"
+#include "cli/kinematics_command.hpp"
 #include "cli/parallel_executor.hpp"
 #include "cli/phantom_command.hpp"
 #include "cli/reconstruct_command.hpp"
@@ -32,6 +33,7 @@ void add_commands(CLI::App& app) {
   using namespace carpus::cli;
   add_phantom_command(app);
   add_reconstruct_command(app);
+  add_kinematics_command(app);
   add_hull_command(app);
   add_collide_command(app);
   add_serve_command(app);

@@ -3,7 +3,7 @@
 //
 // In float, over whole arrays of 128, so that the compiler works on four nodes at once
 // (CMakeLists.txt gives this file the options for it; they change no result). Distances are off by
-// less than kCutRoundingMm: coordinates are taken from the tool's origin, at most 60 mm away, each
+// less than 4e-5 mm: coordinates are taken from the tool's origin, at most 60 mm away, each
 // rounded once (2e-6 mm), and half a dozen operations follow. The axis must be the tool's own to
 // 1e-6.
 #include "fields/detail/sweep_nodes.hpp"

@@ -81,15 +81,16 @@ function cut(shader: Shader): void {
     );
 }
 
-/** Makes a bone's material leave out what was drilled away. */
+/** Makes a bone's material, matt or glass, leave out what was drilled away. */
 export function withTracks(material: THREE.Material, tracks: TrackUniforms): void {
   const before = material.onBeforeCompile.bind(material);
+  const key = `${material.type} with tracks`;
   material.onBeforeCompile = (shader, renderer) => {
     before(shader, renderer);
     Object.assign(shader.uniforms, tracks);
     cut(shader);
   };
-  material.customProgramCacheKey = () => "bone with tracks";
+  material.customProgramCacheKey = () => key;
   material.needsUpdate = true;
 }
 
@@ -134,7 +135,9 @@ diffuseColor.rgb = mix(cortex, spongy, within) * mix(0.14, 1.0, vDepths.x);`,
 const SHELL_VERTEX = /* glsl */ `
 varying vec3 vNormalView;
 varying vec3 vToEye;
+varying vec3 vBoneMm;
 void main() {
+  vBoneMm = position;
   vec4 inView = modelViewMatrix * vec4(position, 1.0);
   vNormalView = normalMatrix * normal;
   vToEye = -inView.xyz;
@@ -148,6 +151,7 @@ uniform float opacity;
 uniform float rim;
 varying vec3 vNormalView;
 varying vec3 vToEye;
+varying vec3 vBoneMm;
 void main() {
   vec3 n = normalize(vNormalView);
   float facing = abs(dot(n, normalize(vToEye)));

@@ -19,6 +19,7 @@ uniform vec4 handReal;
 uniform vec4 handDual;
 varying vec3 vNormalView;
 varying vec3 vToEye;
+varying vec3 vBoneMm;
 vec3 turnedBy(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
@@ -31,6 +32,7 @@ void main() {
   dual /= size;
   vec3 moved = turnedBy(real, position)
     + 2.0 * (real.w * dual.xyz - dual.w * real.xyz + cross(real.xyz, dual.xyz));
+  vBoneMm = position;
   vec4 inView = modelViewMatrix * vec4(moved, 1.0);
   vNormalView = normalMatrix * turnedBy(real, normal);
   vToEye = -inView.xyz;

@@ -48,6 +48,7 @@ describe("tunnelWall", () => {
   ])("lies on a %s track and nowhere outside the bone", (_, one) => {
     const wall = tunnelWall(one, slab);
     expect(wall.index.length).toBeGreaterThan(300);
+    expect(Math.max(...wall.index)).toBe(wall.positions.length / 3 - 1);
     for (const p of points(wall.positions)) {
       expect(p[2]).toBeLessThan(1e-4);
       expect(p[2]).toBeGreaterThan(-10 - 1e-4);
@@ -86,6 +87,16 @@ describe("tunnelWall", () => {
     const atSurface = open.filter((edge) => / 0 to .* 0$/.test(edge));
     expect(atSurface.length).toBeGreaterThan(60);
     expect(open.filter((edge) => !atSurface.includes(edge))).toEqual([]);
+  });
+
+  it("is closed where the track begins within the bone", () => {
+    const within = tunnelWall(track([0, 0, -8], { from_mm: [0, 0, -5] }), slab);
+    const z = points(within.positions).map((p) => p[2]);
+    const faces = (sign: number): number =>
+      points(within.normals).filter((n, i) => sign * n[2] > 0.99 && z[i] === (sign > 0 ? -8 : -2))
+        .length;
+    expect(faces(1)).toBeGreaterThan(60);
+    expect(faces(-1)).toBeGreaterThan(60);
   });
 
   it("turns its triangles and normals to the axis", () => {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The inner wall of what was drilled. Method: 1. lines run along the track's side and across its
-// bottom; 2. each is clipped to where it lies within the bone; 3. strips between neighbours, so that the
+// ends; 2. each is clipped to where it lies within the bone; 3. strips between neighbours, so that the
 // wall ends exactly on the bone's surface; 4. each point knows how far the nearest opening is: there light
 // comes in, and the bone is hard.
 import type { Vec3 } from "../protocol";
@@ -132,12 +132,22 @@ export function tunnelWall(track: Track, clip: Clip): TunnelWall {
     const radius = Math.max(track.radius_start_mm, track.radius_end_mm);
     const sideLight = (line: Line, at: number): [number, number] => openness(line, at, radius);
     strips(grid, sides, radius, sideLight);
-    const bottom = bottomLines(track, clip);
-    const lights = sides.map((line) => sideLight(line, line.lengthMm));
-    const mean = (pick: 0 | 1): number =>
-      lights.reduce((sum, light) => sum + light[pick], 0) / lights.length;
-    const light: [number, number] = [mean(0), mean(1)];
-    strips(grid, bottom, radius, () => light);
+    const { start, startRadius } = mouth(track);
+    const ends = [
+      // Within the bone only where the track does not begin at its surface.
+      { lines: endLines(track, start, startRadius, 1, clip), at: (): number => 0 },
+      {
+        lines: endLines(track, track.to_mm, track.radius_end_mm, -1, clip),
+        at: (line: Line): number => line.lengthMm,
+      },
+    ];
+    for (const { lines, at } of ends) {
+      const lights = sides.map((line) => sideLight(line, at(line)));
+      const mean = (pick: 0 | 1): number =>
+        lights.reduce((sum, light) => sum + light[pick], 0) / lights.length;
+      const light: [number, number] = [mean(0), mean(1)];
+      strips(grid, lines, radius, () => light);
+    }
   }
   return {
     positions: new Float32Array(grid.positions),
@@ -147,19 +157,26 @@ export function tunnelWall(track: Track, clip: Clip): TunnelWall {
   };
 }
 
-function sideLines(track: Track, clip: Clip): Line[] {
+/** Where the track begins with its mouth. */
+function mouth(track: Track): { readonly start: Vec3; readonly startRadius: number } {
   const { radius_start_mm: r0, radius_end_mm: r1 } = track;
-  const trackMm = Math.hypot(...minus(track.to_mm, track.from_mm));
+  const axis = minus(track.to_mm, track.from_mm);
+  const mouthMm = MOUTH_RADII * r0;
+  return {
+    start: along(track.from_mm, unit(axis), -mouthMm),
+    startRadius: Math.max(0, r0 - ((r1 - r0) * mouthMm) / Math.hypot(...axis)),
+  };
+}
+
+function sideLines(track: Track, clip: Clip): Line[] {
   const axis = unit(minus(track.to_mm, track.from_mm));
   const [u, v] = across(axis);
-  const mouthMm = MOUTH_RADII * r0;
-  const mouthRadius = Math.max(0, r0 - ((r1 - r0) * mouthMm) / trackMm);
-  const start = along(track.from_mm, axis, -mouthMm);
+  const { start, startRadius } = mouth(track);
   return Array.from({ length: LINES }, (_, i) => {
     const angle = (2 * Math.PI * i) / LINES;
     const out = along(along([0, 0, 0], u, Math.cos(angle)), v, Math.sin(angle));
-    const origin = along(start, out, mouthRadius);
-    const reach = minus(along(track.to_mm, out, r1), origin);
+    const origin = along(start, out, startRadius);
+    const reach = minus(along(track.to_mm, out, track.radius_end_mm), origin);
     const lengthMm = Math.hypot(...reach);
     const direction = unit(reach);
     return {
@@ -173,42 +190,38 @@ function sideLines(track: Track, clip: Clip): Line[] {
   });
 }
 
-function bottomLines(track: Track, clip: Clip): Line[] {
+/** Across one end of the track. @param facing 1 along the axis, -1 against it */
+function endLines(track: Track, centre: Vec3, radius: number, facing: 1 | -1, clip: Clip): Line[] {
   const axis = unit(minus(track.to_mm, track.from_mm));
   const [u, v] = across(axis);
-  const lengthMm = track.radius_end_mm;
-  if (!(lengthMm > 0)) return [];
+  if (!(radius > 0)) return [];
   return Array.from({ length: LINES }, (_, i) => {
-    const angle = (2 * Math.PI * i) / LINES;
-    // From the rim inwards, so that strips turn to the opening as those of the side do to the axis.
+    const angle = (-facing * 2 * Math.PI * i) / LINES;
+    // From the rim inwards, the way round that turns the strips to where the end faces.
     const direction = along(along([0, 0, 0], u, -Math.cos(angle)), v, -Math.sin(angle));
-    const origin = along(track.to_mm, direction, -lengthMm);
+    const origin = along(centre, direction, -radius);
     return {
       origin,
       direction,
-      lengthMm,
-      normal: [-axis[0], -axis[1], -axis[2]],
-      stretches: clip(origin, direction, lengthMm),
+      lengthMm: radius,
+      normal: along([0, 0, 0], axis, facing),
+      stretches: clip(origin, direction, radius),
     };
   });
 }
 
 /** Light and distance of the nearest opening at `at` on the line. */
 function openness(line: Line, at: number, radius: number): [number, number] {
-  let light = 0;
   let nearest = Infinity;
   for (const [from, to] of line.stretches) {
     if (at < from - END_MM || at > to + END_MM) continue;
-    const openings: number[] = [];
-    if (from > END_MM) openings.push(at - from);
-    if (to < line.lengthMm - END_MM) openings.push(to - at);
-    for (const mm of openings) {
-      const far = (LIGHT_FALL * Math.max(0, mm)) / radius;
-      light = Math.max(light, 1 / (1 + far * far));
-      nearest = Math.min(nearest, Math.max(0, mm));
-    }
+    if (from > END_MM) nearest = Math.min(nearest, at - from);
+    if (to < line.lengthMm - END_MM) nearest = Math.min(nearest, to - at);
   }
-  return [light, Number.isFinite(nearest) ? nearest : line.lengthMm];
+  if (nearest === Infinity) return [0, line.lengthMm];
+  const mm = Math.max(0, nearest);
+  const far = (LIGHT_FALL * mm) / radius;
+  return [1 / (1 + far * far), mm];
 }
 
 /** Strips between neighbouring lines, wherever stretches of both run side by side. */
@@ -221,36 +234,38 @@ function strips(
   // The same everywhere: neighbouring strips share all points of the line between them.
   const longest = Math.max(0, ...lines.flatMap((l) => l.stretches.map(([from, to]) => to - from)));
   const steps = Math.min(MAX_STEPS, Math.max(1, Math.ceil(longest / (STEP_RADII * radius))));
+  const firsts = lines.map((line) =>
+    line.stretches.map((stretch) => layPoints(grid, line, stretch, steps, light)),
+  );
   lines.forEach((line, i) => {
-    const next = lines[(i + 1) % lines.length];
-    if (next === undefined) return;
-    for (const a of line.stretches) {
-      for (const b of next.stretches) {
-        if (Math.min(a[1], b[1]) <= Math.max(a[0], b[0])) continue;
-        strip(grid, [line, next], [a, b], steps, light);
-      }
-    }
+    const j = (i + 1) % lines.length;
+    line.stretches.forEach((a, k) => {
+      lines[j]?.stretches.forEach((b, l) => {
+        if (Math.min(a[1], b[1]) <= Math.max(a[0], b[0])) return;
+        const [here, there] = [firsts[i]?.[k] ?? 0, firsts[j]?.[l] ?? 0];
+        for (let step = 0; step < steps; ++step) {
+          const [p, q] = [here + step, there + step];
+          grid.index.push(p, p + 1, q, q, p + 1, q + 1);
+        }
+      });
+    });
   });
 }
 
-function strip(
+/** @return index of the first of `steps + 1` points */
+function layPoints(
   grid: Grid,
-  lines: readonly [Line, Line],
-  stretches: readonly [readonly [number, number], readonly [number, number]],
+  line: Line,
+  [from, to]: readonly [number, number],
   steps: number,
   light: (line: Line, at: number) => [number, number],
-): void {
+): number {
   const first = grid.positions.length / 3;
   for (let k = 0; k <= steps; ++k) {
-    lines.forEach((line, side) => {
-      const [from, to] = stretches[side] ?? [0, 0];
-      const at = from + ((to - from) * k) / steps;
-      grid.positions.push(...along(line.origin, line.direction, at));
-      grid.normals.push(...line.normal);
-      grid.depths.push(...light(line, at));
-    });
-    if (k === steps) continue;
-    const a = first + 2 * k;
-    grid.index.push(a, a + 2, a + 1, a + 1, a + 2, a + 3);
+    const at = from + ((to - from) * k) / steps;
+    grid.positions.push(...along(line.origin, line.direction, at));
+    grid.normals.push(...line.normal);
+    grid.depths.push(...light(line, at));
   }
+  return first;
 }
