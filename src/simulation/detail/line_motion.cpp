@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "contact/track_pull.hpp"
 #include "instruments/drilling_resistance.hpp"
 #include "simulation/detail/world_state.hpp"
 
@@ -25,8 +26,8 @@ constexpr double kScratchMm = 0.3;    // deeper, a bone counts as entered
 constexpr double kFarExitMm = 0.3;    // beyond the far surface, past what is doubtful
 constexpr double kNearBoneMm = 1.5;   // as far as a CT blurs a bone's density around it
 constexpr double kSoftTissueHu = 40.0;
+constexpr double kStiffLengthMm = 10.0;  // of a wire in bone, over which it gives way [E]
 constexpr double kCutStepMm = 0.05;      // removed at once: a fifth of a voxel
-constexpr double kGreatestSteer = 0.02;  // of its way a tip is drawn aside into an old track [E]
 
 }  // namespace
 
@@ -56,7 +57,7 @@ void World::State::engage(const Model& model, std::uint8_t hand, const Touched& 
   item.origin_in_bone = (inverses[body] * Point<frame::Patient>{item.tip}).v;
   item.direction_in_bone = (inverses[body] * Direction<frame::Patient>{-item.shaft}).v;
   item.travel_mm = 0.0;
-  item.entry_at_mm = 0.0;
+  item.entry_at_mm = -way_back_to_surface(body, item);
   item.chord_mm = 0.0;
   item.cut_to_mm = 0.0;
   item.in_target = false;
@@ -70,12 +71,30 @@ void World::State::engage(const Model& model, std::uint8_t hand, const Touched& 
   }
   ++spent.pass_count;
   emit(EventKind::EnteredBone, now.held[hand], body, 0.0);
-  if ((model.kinds.target & bit_of(body)) != 0) enter_target(model, item, body);
+  if ((model.kinds.target & bit_of(body)) != 0) {
+    enter_target(model, item, body, item.entry_at_mm);
+  }
+}
+
+/// How far back along the shaft the bone's surface is where a tip starts in an older hole [mm].
+double World::State::way_back_to_surface(std::uint8_t body, const Item& item) const noexcept {
+  constexpr double kStepMm = 0.1;
+  constexpr int kSteps = 600;
+  double back = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 p = item.origin_in_bone - item.direction_in_bone * back;
+    if (!tissue.is_near(body, p) || !(tissue.untouched_distance_mm(body, p) < -kStepMm)) break;
+    back += kStepMm;
+  }
+  return back;
 }
 
 /// From here on the line is the target's: a wire that came through another bone keeps to the target
 /// when the wrist moves, and what is measured of it is measured there.
-void World::State::enter_target(const Model& model, Item& item, std::uint8_t body) noexcept {
+void World::State::enter_target(const Model& model,
+                                Item& item,
+                                std::uint8_t body,
+                                double entry_at_mm) noexcept {
   if (item.body != body) {
     const detail::BodyPose& from = poses[item.body];
     item.origin_in_bone = (inverses[body] * (from * Point<frame::Bone>{item.origin_in_bone})).v;
@@ -85,7 +104,7 @@ void World::State::enter_target(const Model& model, Item& item, std::uint8_t bod
     item.track = kNoTrack;  // the hole goes on in another bone's frame
   }
   item.in_target = true;
-  item.entry_at_mm = item.travel_mm;
+  item.entry_at_mm = entry_at_mm;
   item.chord_mm = model.target.front().way_inside_mm(entry_in_bone(item), item.direction_in_bone);
 }
 
@@ -180,15 +199,24 @@ void World::State::cut(const Model& model, Item& item) noexcept {
 /// The way of least resistance: a tip beside an older hole is drawn into it.
 void World::State::steer(const Model& model, Item& item, double advanced_mm) noexcept {
   if (!(advanced_mm > 0.0)) return;
-  const instruments::Instrument& kind = kind_of(model, item);
-  const Vec3 ahead = item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
-  const Vec3 pull =
-      tissue.pull_to_removed(item.body, ahead, item.direction_in_bone, kind.cut_tip_radius_mm);
-  if (!(squared_length(pull) > 0.0)) return;
-  // The tip goes aside by a share of its way; the line turns about its entry.
-  const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm +
-                   pull * (kGreatestSteer * advanced_mm);
-  item.direction_in_bone = normalized_or(tip - item.origin_in_bone, item.direction_in_bone);
+  const double radius = kind_of(model, item).cut_tip_radius_mm;
+  // Looked at before its own front, which has taken the bone around the tip on all sides.
+  const Vec3 ahead =
+      item.origin_in_bone + item.direction_in_bone * (item.travel_mm + radius + kLookAheadMm);
+  const contact::TrackPull pull = contact::track_pull(tissue.cuts().field(item.body), {ahead},
+                                                      {-item.direction_in_bone}, radius);
+  if (!(pull.strength > 0.0)) return;
+  // The tip goes aside by a share of its way; what is in bone behind it bends by no more than that
+  // over a stiff length.
+  const double aside = pull.strength * contact::kPullPerMm * advanced_mm;
+  const double lever = std::max(item.travel_mm, kStiffLengthMm);
+  const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
+  item.direction_in_bone = normalized_or(
+      item.direction_in_bone + pull.direction.v * (aside / lever), item.direction_in_bone);
+  // The line turns about the middle of that length behind the tip.
+  const double behind = std::min(item.travel_mm, 0.5 * kStiffLengthMm);
+  const Vec3 held = tip + pull.direction.v * (aside * behind / lever);
+  item.origin_in_bone = held - item.direction_in_bone * item.travel_mm;
 }
 
 /// What the tip has come into or out of.
@@ -205,7 +233,7 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
     const double depth = -tissue.untouched_distance_mm(b, local);
     if (!(depth > 0.0)) continue;
     const bool is_target = (model.kinds.target & bit_of(b)) != 0;
-    if (is_target && !item.in_target) enter_target(model, item, b);
+    if (is_target && !item.in_target) enter_target(model, item, b, item.travel_mm);
     if (depth > kScratchMm) pass.bodies_entered |= bit_of(b);
     const bool is_wrong = !is_target && (model.kinds.allowed & bit_of(b)) == 0;
     if (is_wrong && depth > kScratchMm && (item.told_bodies & bit_of(b)) == 0) {
@@ -252,15 +280,27 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
   spent.hands[hand].touched_body = kNoBody;
 }
 
+double World::State::holding_share_of(const Model& model, const Item& item) const noexcept {
+  const instruments::Instrument& kind = kind_of(model, item);
+  const auto& thread = kind.shape.thread();
+  if (!thread) return 1.0;
+  const double crest = kind.shape.greatest_radius_mm();
+  const ThreadedCylinderShape screw{crest - thread->depth_mm, crest, thread->pitch_mm,
+                                    kind.length_mm};
+  const Vec3 z = -item.direction_in_bone;
+  const Vec3 x = any_perpendicular(z);
+  const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
+  return tissue.holding_share(model.data.ct.view(), item.body, screw,
+                              {Mat3::from_columns(x, cross(z, x), z), tip});
+}
+
 /// A screw whose tail comes level with the surface, and how it holds there.
 void World::State::seat(const Model& model, std::uint8_t index) noexcept {
   Item& item = now.items[index];
   const double buried = buried_mm(model, item);
   if (buried >= 0.0 && !item.told_seated) {
     item.told_seated = true;
-    now.holding_share =
-        tissue.holding_share(model.data.ct.view(), item.body, entry_in_bone(item),
-                             item.direction_in_bone, item.depth_mm(), kind_of(model, item));
+    now.holding_share = holding_share_of(model, item);
     emit(EventKind::Seated, index, item.instrument, buried);
   }
   if (buried < 0.0) item.told_seated = false;

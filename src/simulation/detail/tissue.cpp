@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/detail/tissue.hpp"
 
-#include <algorithm>
 #include <array>
 
+#include "contact/screw_hold.hpp"
 #include "geometry/trilinear.hpp"
 
 namespace carpus::simulation::detail {
@@ -12,17 +12,6 @@ namespace {
 
 constexpr double kVoxelMm = 0.4;  // a share of removed bone is told over this width
 constexpr double kSoftTissueHu = 40.0;
-
-/// Eight directions around an axis, by halves and quarters of a turn: no sine is needed.
-constexpr double kHalfRoot = 0.70710678118654752;
-constexpr std::array<std::array<double, 2>, 8> kAround{{{1, 0},
-                                                        {kHalfRoot, kHalfRoot},
-                                                        {0, 1},
-                                                        {-kHalfRoot, kHalfRoot},
-                                                        {-1, 0},
-                                                        {-kHalfRoot, -kHalfRoot},
-                                                        {0, -1},
-                                                        {kHalfRoot, -kHalfRoot}}};
 
 }  // namespace
 
@@ -52,56 +41,13 @@ double Tissue::density_hu(const CtView& ct, std::uint8_t body, const Vec3& point
   return removed > 0.0 ? hu + (kSoftTissueHu - hu) * removed : hu;
 }
 
-Vec3 Tissue::pull_to_removed(std::uint8_t body,
-                             const Vec3& tip,
-                             const Vec3& direction,
-                             double radius_mm) const noexcept {
-  const fields::CutField& cut = cuts_.field(body);
-  if (!cut.is_cut()) return {};
-  const Vec3 a = any_perpendicular(direction);
-  const Vec3 b = cross(direction, a);
-  const double own = cut.removed_share(tip, kVoxelMm);
-  Vec3 pull;
-  for (const auto& [x, y] : kAround) {
-    const Vec3 aside = a * x + b * y;
-    // Just beyond what the tip itself takes away.
-    const double there = cut.removed_share(tip + aside * (1.5 * radius_mm), kVoxelMm);
-    if (there > own) pull += aside * (there - own);
-  }
-  constexpr double kShareOfAll = 1.0 / kAround.size();
-  return pull * (4.0 * kShareOfAll);
-}
-
 double Tissue::holding_share(const CtView& ct,
                              std::uint8_t body,
-                             const Vec3& entry,
-                             const Vec3& direction,
-                             double depth_mm,
-                             const instruments::Instrument& screw) const noexcept {
-  constexpr int kStations = 48;
-  constexpr int kRadii = 3;
-  constexpr double kOutside = 0.0;
-  const Vec3 a = any_perpendicular(direction);
-  const Vec3 b = cross(direction, a);
-  const double length = screw.length_mm;
-  const double crest = screw.shape.greatest_radius_mm();
-  const double core = std::max(screw.cut_tip_radius_mm, screw.cut_tail_radius_mm);
-  double left = 0;
-  double stood = 0;
-  for (int i = 0; i < kStations; ++i) {
-    const Vec3 on_axis = entry + direction * (depth_mm - length * (i + 0.5) / kStations);
-    for (const auto& [x, y] : kAround) {
-      for (int k = 0; k < kRadii; ++k) {
-        const double radius = core + (crest - core) * (k + 0.5) / kRadii;
-        const Vec3 p = on_axis + (a * x + b * y) * radius;
-        if (!is_near(body, p) || untouched_distance_mm(body, p) > kOutside) continue;
-        const double bone = std::max(0.0, sample_at(ct, p, kSoftTissueHu) - kSoftTissueHu);
-        stood += bone;
-        left += bone * (1.0 - cuts_.field(body).removed_share(p, kVoxelMm));
-      }
-    }
-  }
-  return stood > 0 ? left / stood : 1.0;
+                             const ThreadedCylinderShape& screw,
+                             const Pose<frame::Bone, frame::Tool>& pose) const noexcept {
+  const contact::ScrewHold hold =
+      contact::screw_hold({bones_[body], cuts_.field(body)}, ct, screw, pose);
+  return hold.whole_mm3 > 0 ? hold.share() : 1.0;
 }
 
 }  // namespace carpus::simulation::detail

@@ -15,8 +15,9 @@
 #include "fields/contact_field.hpp"
 #include "fields/cut_tissue.hpp"
 #include "geometry/grid.hpp"
+#include "geometry/instrument_shape.hpp"
+#include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
-#include "instruments/instrument.hpp"
 
 namespace carpus::simulation::detail {
 
@@ -47,21 +48,12 @@ class Tissue {
   fields::Removal remove(std::uint8_t body, const SweptTool& swept) noexcept {
     return cuts_.remove(body, swept);
   }
-  /// Towards where bone beside a tip was removed: a vector across `direction` of length 0 to 1;
-  /// zero in untouched bone.
-  [[nodiscard]] Vec3 pull_to_removed(std::uint8_t body,
-                                     const Vec3& tip,
-                                     const Vec3& direction,
-                                     double radius_mm) const noexcept;
-  /// How a screw holds: bone left between the thread's core and crest, weighted by its density, as
-  /// a share of what stood there in the untouched body [1]. 1 where nothing stood.
-  /// @param entry, direction  the screw's line; its tip lies `depth_mm` along it.
+  /// Bone between a screw's core and crest that is left, as a share of what stood there [1]
+  /// (contact/screw_hold.hpp). 1 where nothing stood.
   [[nodiscard]] double holding_share(const CtView& ct,
                                      std::uint8_t body,
-                                     const Vec3& entry,
-                                     const Vec3& direction,
-                                     double depth_mm,
-                                     const instruments::Instrument& screw) const noexcept;
+                                     const ThreadedCylinderShape& screw,
+                                     const Pose<frame::Bone, frame::Tool>& pose) const noexcept;
 
  private:
   std::span<const fields::ContactField> bones_;

@@ -108,13 +108,20 @@ struct World::State {
 
   // line_motion.cpp
   void engage(const Model& model, std::uint8_t hand, const Touched& surface) noexcept;
-  void enter_target(const Model& model, detail::Item& item, std::uint8_t body) noexcept;
+  [[nodiscard]] double way_back_to_surface(std::uint8_t body,
+                                           const detail::Item& item) const noexcept;
+  void enter_target(const Model& model,
+                    detail::Item& item,
+                    std::uint8_t body,
+                    double entry_at_mm) noexcept;
   void drive(const Model& model, std::uint8_t hand) noexcept;
   void note_tip(const Model& model, std::uint8_t index) noexcept;
   void cut(const Model& model, detail::Item& item) noexcept;
   void steer(const Model& model, detail::Item& item, double advanced_mm) noexcept;
   void come_out(const Model& model, std::uint8_t hand) noexcept;
   void seat(const Model& model, std::uint8_t index) noexcept;
+  [[nodiscard]] double holding_share_of(const Model& model,
+                                        const detail::Item& item) const noexcept;
   void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
   [[nodiscard]] detail::BodyPose shifted_pose(std::uint8_t body, const Vec3& shift) const noexcept;
   [[nodiscard]] bool is_fragment_inside_another(const Model& model,
