@@ -168,7 +168,7 @@ class Course {
     if (edge_count(first_) * edge_count(second_) > kMostEdgePairs || is_singular(pose_.rotation)) {
       return;
     }
-    const Verdict by_axes = carpus::convex::lp_test::verdict_by_all_axes(first_, second_, pose_);
+    const Verdict by_axes = carpus::test::verdict_by_all_axes(first_, second_, pose_);
     if (by_axes != expected_) fail("all axes: " + name_of(by_axes));
   }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/allocation_test_support.hpp"
+#include "core/amount_test_support.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/exact_surface.hpp"
 #include "fields/surface_test_support.hpp"
@@ -14,7 +15,7 @@
 namespace carpus::contact {
 namespace {
 
-using fields::test::amount;
+using carpus::test::amount;
 using ToolPose = Pose<frame::Bone, frame::Tool>;
 
 TEST(ContactOnTriangles, PutsTheContactOnTheTrianglesAndKeepsTheBounds) {

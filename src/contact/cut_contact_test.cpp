@@ -14,6 +14,7 @@
 #include "contact/instrument_contact.hpp"
 #include "contact/instrument_scene.hpp"
 #include "core/allocation_test_support.hpp"
+#include "core/amount_test_support.hpp"
 #include "fields/cut_tissue.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/surface_test_support.hpp"
@@ -21,10 +22,10 @@
 namespace carpus::contact {
 namespace {
 
+using carpus::test::amount;
 using fields::CutBone;
 using fields::CutTissue;
 using fields::RemovalOutcome;
-using fields::test::amount;
 using fields::test::random_direction;
 using fields::test::random_shift;
 using fields::test::turned_to;

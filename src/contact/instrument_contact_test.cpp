@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/allocation_test_support.hpp"
+#include "core/amount_test_support.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/exact_surface.hpp"
 #include "fields/surface_test_support.hpp"
@@ -17,7 +18,7 @@
 namespace carpus::contact {
 namespace {
 
-using fields::test::amount;
+using carpus::test::amount;
 using ToolPose = Pose<frame::Bone, frame::Tool>;
 
 const std::vector<InstrumentShape>& instruments() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/allocation_test_support.hpp"
+#include "core/amount_test_support.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/surface_test_support.hpp"
@@ -17,7 +18,7 @@
 namespace carpus::contact {
 namespace {
 
-using fields::test::amount;
+using carpus::test::amount;
 using BonePose = Pose<frame::Patient, frame::Bone>;
 using ToolPose = Pose<frame::Patient, frame::Tool>;
 

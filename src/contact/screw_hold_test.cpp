@@ -21,7 +21,7 @@ constexpr ThreadedCylinderShape kScrew{.core_radius_mm = 1.2,
                                        .crest_radius_mm = 2.0,
                                        .pitch_mm = 1.0,
                                        .length_mm = 12};
-constexpr double kRingMm2 = fields::test::kPi * (2.0 * 2.0 - 1.2 * 1.2);
+constexpr double kRingMm2 = kPi * (2.0 * 2.0 - 1.2 * 1.2);
 
 /// A block 16 mm wide of 520 HU, half of full weight.
 struct Block {

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/amount_test_support.hpp"
 #include "fields/cut_tissue.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/surface_test_support.hpp"
@@ -13,8 +14,8 @@
 namespace carpus::contact {
 namespace {
 
+using carpus::test::amount;
 using fields::CutTissue;
-using fields::test::amount;
 
 constexpr double kRadius = 0.57;
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "convex/growth/test_bodies.hpp"
+#include "convex/bodies_test_support.hpp"
 #include "core/rng.hpp"
 #include "geometry/exact_number.hpp"
 
@@ -23,19 +23,19 @@ std::vector<std::pair<std::string, ConvexBody>> many_bodies() {
   Rng rng(7);
   std::vector<std::pair<std::string, ConvexBody>> bodies;
   for (const int points : {4, 6, 20, 150, 500}) {
-    bodies.emplace_back("pebble " + std::to_string(points), lp_test::pebble(rng, points));
+    bodies.emplace_back("pebble " + std::to_string(points), test::pebble(rng, points));
   }
-  bodies.emplace_back("cube", lp_test::box({4, 4, 4}));
-  bodies.emplace_back("bar", lp_test::box({0.5, 0.7, 40}));
-  bodies.emplace_back("octahedron", lp_test::octahedron(5));
-  bodies.emplace_back("prism", lp_test::prism(32, 3, 5));
-  bodies.emplace_back("lattice ball", lp_test::lattice_ball(5));
+  bodies.emplace_back("cube", test::box({4, 4, 4}));
+  bodies.emplace_back("bar", test::box({0.5, 0.7, 40}));
+  bodies.emplace_back("octahedron", test::octahedron(5));
+  bodies.emplace_back("prism", test::prism(32, 3, 5));
+  bodies.emplace_back("lattice ball", test::lattice_ball(5));
   return bodies;
 }
 
 /// Random directions, and lattice ones that hit faces, edges and corners of symmetric solids.
 Vec3 any_query(Rng& rng) {
-  if (rng.below(2) == 0) return lp_test::any_direction(rng) * rng.uniform(0.1, 30);
+  if (rng.below(2) == 0) return test::random_direction(rng) * rng.uniform(0.1, 30);
   const auto c = [&] { return static_cast<double>(rng.below(7)) - 3; };
   return {c(), c(), c()};
 }
@@ -97,7 +97,7 @@ TEST(PolarGraph, BoundsTheGaugeFromTheVertices) {
 }
 
 TEST(PolarGraph, StartsSomewhereForWhatIsNoDirection) {
-  const ConvexBody body = lp_test::box({1, 2, 3});
+  const ConvexBody body = test::box({1, 2, 3});
   const PolarGraph graph(body);
   for (const double c : {0.0, 1e-310, 1e300, HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     EXPECT_LT(graph.top({c, c, c}).face, 6U);
@@ -106,7 +106,7 @@ TEST(PolarGraph, StartsSomewhereForWhatIsNoDirection) {
 }
 
 TEST(PolarGraph, KnowsBallsInsideAndAroundTheBody) {
-  const ConvexBody bar = lp_test::box({1, 2, 30});
+  const ConvexBody bar = test::box({1, 2, 30});
   const PolarGraph graph(bar);
   EXPECT_LE(graph.inner_radius_mm(), 1);
   EXPECT_NEAR(graph.inner_radius_mm(), 1, 1e-12);
@@ -115,13 +115,13 @@ TEST(PolarGraph, KnowsBallsInsideAndAroundTheBody) {
 }
 
 TEST(PolarGraph, SaysWhichBodiesAreTooThinForDoubles) {
-  const ConvexBody sheet = lp_test::box({10, 10, 1e-13});
+  const ConvexBody sheet = test::box({10, 10, 1e-13});
   EXPECT_FALSE(PolarGraph(sheet).is_usable());
-  const ConvexBody far = lp_test::body_of(
-      {{1e15, 0, 0}, {1e15 + 1, 0, 0}, {1e15, 1, 0}, {1e15, 0, 1}, {1e15 + 1, 1, 1}});
+  const ConvexBody far =
+      test::body_of({{1e15, 0, 0}, {1e15 + 1, 0, 0}, {1e15, 1, 0}, {1e15, 0, 1}, {1e15 + 1, 1, 1}});
   const PolarGraph far_graph(far);  // corners are what they are: a small body far away
   EXPECT_TRUE(far_graph.is_usable());
-  const ConvexBody tiny = lp_test::box({1e-60, 1e-60, 1e-60});
+  const ConvexBody tiny = test::box({1e-60, 1e-60, 1e-60});
   EXPECT_FALSE(PolarGraph(tiny).is_usable());
 }
 
@@ -152,7 +152,7 @@ double share_stuck(const std::vector<Plane>& planes,
   int stuck = 0;
   constexpr int kWalks = 2000;
   for (int i = 0; i < kWalks; ++i) {
-    const Vec3 d = lp_test::any_direction(rng) * rng.uniform(1, 12);
+    const Vec3 d = test::random_direction(rng) * rng.uniform(1, 12);
     std::vector<double> value;
     for (const Plane& p : planes) {
       const double height = p.offset - dot(p.normal, origin);
@@ -172,7 +172,7 @@ std::vector<std::vector<std::uint32_t>> of_facets(const ConvexPolytope& p) {
 
 TEST(PolarGraphPitfall, WalksStickOnRowsThatAreNotScaledToOne) {
   Rng rng(19);
-  const ConvexBody body = lp_test::pebble(rng, 300);
+  const ConvexBody body = test::pebble(rng, 300);
   const ConvexPolytope& p = body.polytope();
   EXPECT_GT(share_stuck(p.planes, of_facets(p), body.interior_point(), false), 0.02);
   EXPECT_EQ(share_stuck(p.planes, of_facets(p), body.interior_point(), true), 0);
@@ -180,8 +180,8 @@ TEST(PolarGraphPitfall, WalksStickOnRowsThatAreNotScaledToOne) {
 
 TEST(PolarGraphPitfall, WalksStickOnTrianglesOfOneFace) {
   std::vector<std::pair<std::string, ConvexBody>> solids;
-  solids.emplace_back("prism", lp_test::prism(32, 3, 5));
-  solids.emplace_back("lattice ball", lp_test::lattice_ball(6));
+  solids.emplace_back("prism", test::prism(32, 3, 5));
+  solids.emplace_back("lattice ball", test::lattice_ball(6));
   for (const auto& [name, body] : solids) {
     const ConvexPolytope& p = body.polytope();
     EXPECT_GT(share_stuck(p.planes, of_facets(p), body.interior_point(), true), 0.1) << name;

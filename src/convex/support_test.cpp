@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/solids_test_support.hpp"
+#include "convex/bodies_test_support.hpp"
 #include "geometry/exact_number.hpp"
 #include "geometry/tolerance.hpp"
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/amount_test_support.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/exact_surface.hpp"
@@ -16,7 +17,7 @@
 namespace carpus::fields {
 namespace {
 
-using test::amount;
+using carpus::test::amount;
 
 ContactField contact_field(const TriangleMesh& mesh, const DistanceFieldOptions& options) {
   return {build_distance_field(mesh, options), mesh};

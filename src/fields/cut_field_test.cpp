@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/amount_test_support.hpp"
 #include "fields/cut_bone.hpp"
 #include "fields/cut_tissue.hpp"
 #include "fields/distance_field.hpp"
@@ -22,7 +23,7 @@
 namespace carpus::fields {
 namespace {
 
-using test::amount;
+using carpus::test::amount;
 
 struct Body {
   explicit Body(const TriangleMesh& surface)

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/allocation_test_support.hpp"
+#include "core/amount_test_support.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/surface_test_support.hpp"
@@ -20,8 +21,7 @@
 namespace carpus::fields {
 namespace {
 
-using test::amount;
-using test::kPi;
+using carpus::test::amount;
 
 ContactField field_of(const TriangleMesh& mesh) {
   return {build_distance_field(mesh, {.spacing_mm = 0.4, .band_mm = 4}), mesh};

@@ -7,13 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/amount_test_support.hpp"
 #include "core/error.hpp"
 #include "fields/surface_test_support.hpp"
 
 namespace carpus::fields {
 namespace {
 
-using test::amount;
+using carpus::test::amount;
 
 TEST(ExactSurface, MeasuresASegmentToATriangleAsAScanDoes) {
   Rng rng(1);

@@ -6,27 +6,15 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/rng.hpp"
+#include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace carpus::fields::test {
-
-inline constexpr double kPi = 3.14159265358979323846;
-
-/// How much a test does: `quick` with CARPUS_QUICK=1, `much` with CARPUS_LONG=1, else `usual`.
-[[nodiscard]] inline int amount(int quick, int usual, int much) {
-  const auto is_set = [](const char* name) {
-    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-    return value != nullptr && std::string_view(value) == "1";
-  };
-  return is_set("CARPUS_LONG") ? much : (is_set("CARPUS_QUICK") ? quick : usual);
-}
 
 /// A ring about z: the hole takes a wire, the saddle inside it touches it on two sides.
 [[nodiscard]] inline TriangleMesh torus(double ring_radius_mm, double tube_radius_mm, int n) {

@@ -8,11 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <string>
 #include <tuple>
 #include <vector>
 
+#include "core/amount_test_support.hpp"
 #include "core/rng.hpp"
 #include "hull/detail/all_algorithms.hpp"
 #include "hull/detail/degenerate_points.hpp"
@@ -22,10 +21,7 @@
 namespace carpus::hull {
 namespace {
 
-std::uint64_t case_count() {
-  const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)
-  return value != nullptr && std::string(value) == "1" ? 100'000 : 2000;
-}
+std::uint64_t case_count() { return carpus::test::amount<std::uint64_t>(2000, 2000, 100'000); }
 
 /// Points of one plane, of one line, one point many times, few points.
 std::vector<Vec3> flat_points(Rng& rng) {

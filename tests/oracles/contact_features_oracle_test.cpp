@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/growth/proof_body.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "convex/polar_graph.hpp"
 #include "core/rng.hpp"
 #include "survey/closest/active_set.hpp"
@@ -24,7 +24,7 @@ struct Pair {
   ProofBody second_proofs{second};
 
   Pair(Rng& rng, int points)
-      : first(lp_test::pebble(rng, points)), second(lp_test::pebble(rng, points)) {}
+      : first(test::pebble(rng, points)), second(test::pebble(rng, points)) {}
 
   [[nodiscard]] RelativePose relative(const PairPose& pose) const {
     RelativePose result;
@@ -43,8 +43,8 @@ struct Pair {
   /// Along the line between the interior points, so that the surfaces are `gap` apart or, below
   /// zero, that deep.
   [[nodiscard]] PairPose at_gap(Rng& rng, double gap) {
-    const Vec3 way = lp_test::any_direction(rng);
-    PairPose pose{lp_test::any_rotation(rng), {}};
+    const Vec3 way = test::random_direction(rng);
+    PairPose pose{test::random_rotation(rng), {}};
     pose.translation = first.interior_point() - pose.rotation * second.interior_point() + way * 40;
     survey::ClosestActiveSet method(first, second);
     for (int i = 0; i < 60; ++i) {
@@ -64,7 +64,7 @@ TEST(ContactFeatures, AreTheNearestOnesFromAnywhereOnBodiesThatAreApart) {
   Rng rng(3);
   for (int i = 0; i < 300; ++i) {
     const Pair bodies(rng, i % 2 == 0 ? 12 : 200);
-    const PairPose pose{lp_test::any_rotation(rng), lp_test::any_direction(rng) * 45};
+    const PairPose pose{test::random_rotation(rng), test::random_direction(rng) * 45};
     survey::ClosestActiveSet method(bodies.first, bodies.second);
     const auto expected = method.closest(pose);
     if (!expected || expected->distance_mm < 0.1) continue;
@@ -93,7 +93,7 @@ TEST(ContactFeatures, FollowASmallMotionInAFewSteps) {
     FeaturePair features{Feature::vertex(0), Feature::vertex(0)};
     for (int walks = 0; walks < 20; ++walks) (void)bodies.walk(pose, features);
     for (int tick = 0; tick < 20; ++tick) {
-      pose.rotation = rotation_about(lp_test::any_direction(rng), 0.001) * pose.rotation;
+      pose.rotation = rotation_about(test::random_direction(rng), 0.001) * pose.rotation;
       if (bodies.walk(pose, features).kind == ContactEnd::Kind::Apart) ++apart;
     }
   }
@@ -148,7 +148,7 @@ TEST(ContactFeatures, EndOnAnyMatrixWhatever) {
   for (int i = 0; i < 2000; ++i) {
     RelativePose pose;
     for (Vec3& row : pose.rotation.rows) row = {rng.normal(), rng.normal(), rng.normal()};
-    pose.offset = lp_test::any_direction(rng) * rng.uniform(0, 20);
+    pose.offset = test::random_direction(rng) * rng.uniform(0, 20);
     if (i % 10 == 0) pose.offset.x = std::nan("");
     if (i % 10 == 1) pose.rotation = Mat3{};
     FeaturePair features{Feature::face(0), Feature::vertex(1)};

@@ -8,14 +8,14 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 #include "convex/pair_query.hpp"
+#include "core/amount_test_support.hpp"
 #include "oracles/exhaustive_distance.hpp"
 #include "survey/methods.hpp"
 
@@ -30,10 +30,7 @@ using survey::Method;
 
 constexpr std::array kNames{"lin_canny", "v_clip", "swift", "q_collide"};
 
-std::uint64_t pair_count() {
-  const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)
-  return value != nullptr && std::string(value) == "1" ? 5000 : 60;
-}
+std::uint64_t pair_count() { return test::amount<std::uint64_t>(60, 60, 5000); }
 
 /// A bone-sized move, a jump on the lattice, or a step that ends near touching.
 class Poses {
@@ -45,17 +42,17 @@ class Poses {
 
   PairPose next() {
     const std::uint64_t kind = rng_.below(4);
-    const Vec3 axis = normalized_or(convex::test::random_vector(rng_), {1, 0, 0});
+    const Vec3 axis = normalized_or(test::random_vector(rng_), {1, 0, 0});
     if (kind == 0) {
       rotation_ = Mat3::identity();
       const auto c = [&] { return static_cast<double>(rng_.below(30)) - 15; };
       translation_ = {c(), c(), c()};
     } else if (kind == 1) {
-      rotation_ = convex::test::random_rotation(rng_);
-      translation_ = convex::test::random_vector(rng_) * 5.0;
+      rotation_ = test::random_rotation(rng_);
+      translation_ = test::random_vector(rng_) * 5.0;
     } else if (kind == 2) {
       rotation_ = rotation_about(axis, 0.02 * rng_.normal()) * rotation_;
-      translation_ += convex::test::random_vector(rng_) * 0.1;
+      translation_ += test::random_vector(rng_) * 0.1;
     } else {
       rotation_ = rotation_about(axis, tiny(17)) * rotation_;
       const long double target = rng_.below(3) == 0 ? -tiny(9) : tiny(9);
@@ -109,8 +106,8 @@ TEST(FeatureMethodsOracle, AgreeWithAllAxesAndAllPairsOfFeatures) {
   std::array<int, 2> seen{};
   for (std::uint64_t seed = 0; seed < pair_count(); ++seed) {
     Rng rng(seed + 77'000);
-    const convex::ConvexBody first = convex::test::random_body(rng);
-    const convex::ConvexBody second = convex::test::random_body(rng);
+    const convex::ConvexBody first = test::random_body(rng);
+    const convex::ConvexBody second = test::random_body(rng);
     std::vector<std::unique_ptr<PairQuery>> queries;
     for (const char* name : kNames) {
       queries.push_back(survey::find_method(name)->make(first, second));

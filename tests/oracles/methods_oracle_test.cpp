@@ -8,13 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "convex/pair_query.hpp"
+#include "core/amount_test_support.hpp"
 #include "oracles/exact_meet.hpp"
 #include "oracles/pair_generator.hpp"
 #include "oracles/separating_axes.hpp"
@@ -33,14 +32,7 @@ using survey::Method;
 
 constexpr std::uint64_t kPosesPerPair = 10;
 
-bool is_set(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value != nullptr && std::string(value) == "1";
-}
-std::uint64_t pair_count() {
-  if (is_set("CARPUS_LONG")) return 100'000;
-  return is_set("CARPUS_QUICK") ? 30 : 300;
-}
+std::uint64_t pair_count() { return test::amount<std::uint64_t>(30, 300, 100'000); }
 
 struct Tally {
   std::uint64_t asked = 0;

@@ -8,11 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <string_view>
 #include <vector>
 
+#include "core/amount_test_support.hpp"
 #include "core/rng.hpp"
 #include "oracles/sample_bodies.hpp"
 #include "oracles/separating_axes.hpp"
@@ -102,10 +101,7 @@ class Oracle {
 };
 
 /// CARPUS_LONG=1 runs 25 times as many bodies.
-std::uint64_t times_long(std::uint64_t count) {
-  const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)
-  return value != nullptr && std::string_view(value) == "1" ? 25 * count : count;
-}
+std::uint64_t times_long(std::uint64_t count) { return test::amount(count, count, 25 * count); }
 
 struct Tally {
   std::array<int, 7> seen{};  ///< by outcome

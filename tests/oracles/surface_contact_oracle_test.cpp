@@ -17,6 +17,7 @@
 
 #include "contact/instrument_contact.hpp"
 #include "contact/instrument_scene.hpp"
+#include "core/amount_test_support.hpp"
 #include "fields/cut_tissue.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/exact_surface.hpp"
@@ -25,7 +26,7 @@
 namespace carpus::contact {
 namespace {
 
-using fields::test::amount;
+using carpus::test::amount;
 
 /// A bone of the reference wrist as 32-bit floats give it; empty where that is absent
 /// ($CARPUS_REFERENCE_WRIST, default ../shared/reference-wrist). Reads what those files hold and no

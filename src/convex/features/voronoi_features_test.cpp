@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 #include "convex/features/placement.hpp"
 #include "convex/features/regions.hpp"

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/growth/growth_start.hpp"
 #include "convex/growth/rows_proof.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::convex {
@@ -22,8 +22,8 @@ bool is_same(const Feature& a, const Feature& b) {
 
 struct GrowthFeatures : testing::Test {
   Rng rng{9};
-  ConvexBody first = lp_test::pebble(rng, 80);
-  ConvexBody second = lp_test::pebble(rng, 80);
+  ConvexBody first = test::pebble(rng, 80);
+  ConvexBody second = test::pebble(rng, 80);
   ProofBody first_proofs{first};
   ProofBody second_proofs{second};
   RelativePose pose;
@@ -31,7 +31,7 @@ struct GrowthFeatures : testing::Test {
 
   void SetUp() override {
     ASSERT_TRUE(relative_pose(*first_proofs.facets, *second_proofs.facets,
-                              {lp_test::any_rotation(rng), {20, 3, -2}}, pose));
+                              {test::random_rotation(rng), {20, 3, -2}}, pose));
   }
   Feature any_edge(const VoronoiFeatures& body) {
     const auto face = static_cast<std::uint32_t>(rng.below(body.face_count()));

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/exact_meeting.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::convex {
@@ -19,8 +19,8 @@ TEST(GrowthProgram, DecidesByPivotsAloneWhatExactNumbersDecide) {
   int unknown = 0;
   int meets = 0;
   for (int k = 0; k < 20; ++k) {
-    const ConvexBody first = lp_test::pebble(rng, 10 + 20 * k);
-    const ConvexBody second = lp_test::pebble(rng, 10 + 20 * k);
+    const ConvexBody first = test::pebble(rng, 10 + 20 * k);
+    const ConvexBody second = test::pebble(rng, 10 + 20 * k);
     const ProofBody first_proofs(first);
     const ProofBody second_proofs(second);
     const GrowthProgram program(first_proofs, second_proofs);
@@ -28,8 +28,8 @@ TEST(GrowthProgram, DecidesByPivotsAloneWhatExactNumbersDecide) {
     PairPose pose{Mat3::identity(), {13, 3, -4}};
     for (int tick = 0; tick < 200; ++tick) {
       const double step = tick % 10 == 0 ? 3 : 0.3;
-      pose = {rotation_about(lp_test::any_direction(rng), 0.05 * step) * pose.rotation,
-              pose.translation + lp_test::any_direction(rng) * rng.uniform(0, step)};
+      pose = {rotation_about(test::random_direction(rng), 0.05 * step) * pose.rotation,
+              pose.translation + test::random_direction(rng) * rng.uniform(0, step)};
       pose.translation *= length(pose.translation) > 20 ? 0.8 : 1.0;
       RelativePose relative;
       ASSERT_TRUE(relative_pose(program.first(), program.second(), pose, relative));
@@ -54,8 +54,8 @@ TEST(GrowthProgram, DecidesByPivotsAloneWhatExactNumbersDecide) {
 
 TEST(GrowthProgram, GoesOnAtItsRowsAfterPivotsAndWithoutThem) {
   Rng rng(13);
-  const ConvexBody first = lp_test::pebble(rng, 200);
-  const ConvexBody second = lp_test::pebble(rng, 200);
+  const ConvexBody first = test::pebble(rng, 200);
+  const ConvexBody second = test::pebble(rng, 200);
   const ProofBody first_proofs(first);
   const ProofBody second_proofs(second);
   const GrowthProgram program(first_proofs, second_proofs);
@@ -80,7 +80,7 @@ TEST(GrowthProgram, GoesOnAtItsRowsAfterPivotsAndWithoutThem) {
 }
 
 TEST(GrowthProgram, OfOneOriginHasNothingToGoOnFrom) {
-  const ConvexBody cube = lp_test::box({1, 1, 1});
+  const ConvexBody cube = test::box({1, 1, 1});
   const ProofBody proofs(cube);
   const GrowthProgram program(proofs, proofs);
   GrowthMemory memory;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/exact_meeting.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 
@@ -24,16 +24,16 @@ Verdict exact_verdict(const ConvexBody& first, const ConvexBody& second, const P
 }
 
 PairPose moved(const PairPose& pose, Rng& rng, double step_mm, double angle_rad) {
-  return {rotation_about(lp_test::any_direction(rng), rng.uniform(-angle_rad, angle_rad)) *
+  return {rotation_about(test::random_direction(rng), rng.uniform(-angle_rad, angle_rad)) *
               pose.rotation,
-          pose.translation + lp_test::any_direction(rng) * rng.uniform(0, step_mm)};
+          pose.translation + test::random_direction(rng) * rng.uniform(0, step_mm)};
 }
 
 TEST(Growth, StaysExactAlongTrajectoriesOfBoneLikeBodies) {
   Rng rng(1);
   for (const int points : {30, 400}) {
-    const ConvexBody first = lp_test::pebble(rng, points);
-    const ConvexBody second = lp_test::pebble(rng, points);
+    const ConvexBody first = test::pebble(rng, points);
+    const ConvexBody second = test::pebble(rng, points);
     GrowthQuery warm(first, second);
     GrowthQuery cold(first, second);
     int meets = 0;
@@ -64,18 +64,18 @@ TEST(Growth, StaysExactAlongTrajectoriesOfBoneLikeBodies) {
 TEST(Growth, GivesTheSameVerdictForSwappedBodiesAndMovedFrames) {
   Rng rng(2);
   for (int i = 0; i < 300; ++i) {
-    const ConvexBody first = lp_test::pebble(rng, 40);
-    const ConvexBody second = lp_test::pebble(rng, 25);
-    const PairPose pose{lp_test::any_rotation(rng),
-                        lp_test::any_direction(rng) * rng.uniform(0, 25)};
+    const ConvexBody first = test::pebble(rng, 40);
+    const ConvexBody second = test::pebble(rng, 25);
+    const PairPose pose{test::random_rotation(rng),
+                        test::random_direction(rng) * rng.uniform(0, 25)};
     const Verdict verdict = GrowthQuery(first, second).meets(pose);
     const Mat3 back = pose.rotation.transposed();
     EXPECT_EQ(GrowthQuery(second, first).meets({back, -(back * pose.translation)}), verdict);
-    const Mat3 turn = lp_test::any_rotation(rng);
+    const Mat3 turn = test::random_rotation(rng);
     const Vec3 shift{100, -50, 30};
     std::vector<Vec3> corners;
     for (const Vec3& v : first.vertices()) corners.push_back(turn * v + shift);
-    const ConvexBody turned = lp_test::body_of(corners);
+    const ConvexBody turned = test::body_of(corners);
     EXPECT_EQ(
         GrowthQuery(turned, second).meets({turn * pose.rotation, turn * pose.translation + shift}),
         verdict);
@@ -84,10 +84,10 @@ TEST(Growth, GivesTheSameVerdictForSwappedBodiesAndMovedFrames) {
 
 TEST(Growth, HoldsOnSymmetricSolidsWithWarmChains) {
   std::vector<ConvexBody> solids;
-  solids.push_back(lp_test::box({2, 2, 2}));
-  solids.push_back(lp_test::octahedron(3));
-  solids.push_back(lp_test::prism(32, 2, 3));
-  solids.push_back(lp_test::lattice_ball(3));
+  solids.push_back(test::box({2, 2, 2}));
+  solids.push_back(test::octahedron(3));
+  solids.push_back(test::prism(32, 2, 3));
+  solids.push_back(test::lattice_ball(3));
   Rng rng(3);
   std::uint64_t exact = 0;
   std::uint64_t queries = 0;
@@ -109,7 +109,7 @@ TEST(Growth, HoldsOnSymmetricSolidsWithWarmChains) {
 }
 
 TEST(Growth, CountsHowQueriesWereDecided) {
-  const ConvexBody cube = lp_test::box({1, 1, 1});
+  const ConvexBody cube = test::box({1, 1, 1});
   GrowthQuery query(cube, cube);
   EXPECT_EQ(query.meets({Mat3::identity(), {40, 0, 0}}), Verdict::Apart);
   EXPECT_EQ(query.counts().by_spheres, 1U);
@@ -129,10 +129,10 @@ TEST(Growth, StartsColdNearFeaturesThatTouch) {
   std::uint64_t queries = 0;
   std::uint64_t pivots = 0;
   for (int k = 0; k < 200; ++k) {
-    const ConvexBody first = lp_test::pebble(rng, 400);
-    const ConvexBody second = lp_test::pebble(rng, 400);
+    const ConvexBody first = test::pebble(rng, 400);
+    const ConvexBody second = test::pebble(rng, 400);
     GrowthQuery query(first, second);
-    PairPose pose{lp_test::any_rotation(rng), lp_test::any_direction(rng) * 40};
+    PairPose pose{test::random_rotation(rng), test::random_direction(rng) * 40};
     const auto answer = query.growth(pose);
     ASSERT_TRUE(answer.has_value());
     // With the origins this much nearer the bodies all but touch.
@@ -150,7 +150,7 @@ TEST(Growth, StartsColdNearFeaturesThatTouch) {
 }
 
 TEST(Growth, GivesTheFactorAtWhichBodiesTouch) {
-  const ConvexBody cube = lp_test::box({1, 1, 1});
+  const ConvexBody cube = test::box({1, 1, 1});
   GrowthQuery query(cube, cube);
   for (const double distance : {0.0, 0.25, 1.0, 2.0, 3.0, 20.0}) {
     const auto answer = query.growth({Mat3::identity(), {distance, 0.1 * distance, 0}});
@@ -168,10 +168,10 @@ TEST(Growth, GivesTheFactorAtWhichBodiesTouch) {
 TEST(Growth, FindsAFactorThatGrownBodiesConfirm) {
   Rng rng(4);
   for (int i = 0; i < 40; ++i) {
-    const ConvexBody first = lp_test::pebble(rng, 60);
-    const ConvexBody second = lp_test::pebble(rng, 60);
-    const PairPose pose{lp_test::any_rotation(rng),
-                        lp_test::any_direction(rng) * rng.uniform(1, 30)};
+    const ConvexBody first = test::pebble(rng, 60);
+    const ConvexBody second = test::pebble(rng, 60);
+    const PairPose pose{test::random_rotation(rng),
+                        test::random_direction(rng) * rng.uniform(1, 30)};
     GrowthQuery query(first, second);
     const double growth = query.growth(pose)->growth;
     const auto grown = [](const ConvexBody& body, double factor) {
@@ -179,7 +179,7 @@ TEST(Growth, FindsAFactorThatGrownBodiesConfirm) {
       for (const Vec3& v : body.vertices()) {
         corners.push_back(body.interior_point() + (v - body.interior_point()) * factor);
       }
-      return lp_test::body_of(corners);
+      return test::body_of(corners);
     };
     for (const double factor : {growth * (1 - 1e-9), growth * (1 + 1e-9)}) {
       const ConvexBody a = grown(first, factor);
@@ -191,8 +191,8 @@ TEST(Growth, FindsAFactorThatGrownBodiesConfirm) {
 
 TEST(Growth, DoesNotAllocateInAQuery) {
   Rng rng(5);
-  const ConvexBody first = lp_test::pebble(rng, 100);
-  const ConvexBody cube = lp_test::box({1, 1, 1});
+  const ConvexBody first = test::pebble(rng, 100);
+  const ConvexBody cube = test::box({1, 1, 1});
   GrowthQuery pebbles(first, first);
   GrowthQuery cubes(cube, cube);
   carpus::test::start_counting_allocations();

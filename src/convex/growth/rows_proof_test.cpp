@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/exact_meeting.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "convex/polar_graph.hpp"
 #include "core/rng.hpp"
 
@@ -39,8 +39,8 @@ std::array<GrowthRow, 4> any_rows(const PolarGraph& first,
 
 TEST(RowsProof, GivesTheBasisWeightsAndBoundUpToAFactor) {
   Rng rng(5);
-  const ConvexBody first_body = lp_test::pebble(rng, 40);
-  const ConvexBody second_body = lp_test::pebble(rng, 40);
+  const ConvexBody first_body = test::pebble(rng, 40);
+  const ConvexBody second_body = test::pebble(rng, 40);
   const PolarGraph first(first_body);
   const PolarGraph second(second_body);
   std::array<int, 4> usable{};
@@ -49,7 +49,7 @@ TEST(RowsProof, GivesTheBasisWeightsAndBoundUpToAFactor) {
     std::array<GrowthRow, 4> rows = any_rows(first, second, first_rows, rng);
     const RelativePose pose =
         placed(first, second,
-               {lp_test::any_rotation(rng), lp_test::any_direction(rng) * rng.uniform(1, 40)});
+               {test::random_rotation(rng), test::random_direction(rng) * rng.uniform(1, 40)});
     GrowthBasis basis(rows);
     basis.place(pose);
     if (!basis.solve()) continue;
@@ -76,7 +76,7 @@ TEST(RowsProof, GivesTheBasisWeightsAndBoundUpToAFactor) {
 }
 
 TEST(RowsProof, TellsAGapFromATouchAndFromAnOverlap) {
-  const ConvexBody cube = lp_test::box({1, 1, 1});
+  const ConvexBody cube = test::box({1, 1, 1});
   const PolarGraph graph(cube);
   const auto face_along = [&](const Vec3& d) { return graph.top(d).face; };
   const auto row = [&](const Vec3& d, bool is_second) {
@@ -110,12 +110,12 @@ TEST(RowsProof, NeverPartsBodiesThatMeet) {
   Rng rng(6);
   int proofs = 0;
   for (int i = 0; i < 3000; ++i) {
-    const ConvexBody first_body = lp_test::pebble(rng, 6);
-    const ConvexBody second_body = lp_test::pebble(rng, 6);
+    const ConvexBody first_body = test::pebble(rng, 6);
+    const ConvexBody second_body = test::pebble(rng, 6);
     const PolarGraph first(first_body);
     const PolarGraph second(second_body);
-    const PairPose pose{lp_test::any_rotation(rng),
-                        lp_test::any_direction(rng) * rng.uniform(5, 25)};
+    const PairPose pose{test::random_rotation(rng),
+                        test::random_direction(rng) * rng.uniform(5, 25)};
     const RelativePose relative = placed(first, second, pose);
     bool is_apart = false;
     for (int k = 0; k < 30; ++k) {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "convex/growth/test_bodies.hpp"
+#include "convex/bodies_test_support.hpp"
 #include "core/rng.hpp"
 #include "geometry/exact_number.hpp"
 
@@ -34,7 +34,7 @@ struct Placed {
       left -= of_body.shares[i];
     }
     is_turned = rng.below(3) != 0;
-    if (is_turned) rotation = lp_test::any_rotation(rng);
+    if (is_turned) rotation = test::random_rotation(rng);
     translation = in_cube(rng, 8 * size);
   }
   [[nodiscard]] SplitPoint split(double size) const {

@@ -14,14 +14,14 @@
 #include "convex/pair_query.hpp"
 #include "geometry/exact_number.hpp"
 
-namespace carpus::convex::lp_test {
+namespace carpus::test {
 
 struct ExactBody {
   std::vector<ExactVec3> vertices;
   std::vector<ExactVec3> normals;
   std::vector<ExactVec3> edges;
 
-  ExactBody(const ConvexBody& body, const Mat3& rotation, const Vec3& translation) {
+  ExactBody(const convex::ConvexBody& body, const Mat3& rotation, const Vec3& translation) {
     for (const Vec3& v : body.vertices()) {
       const auto component = [&](std::size_t i) {
         return dot(ExactVec3(rotation.rows[i]), ExactVec3(v)) + ExactNumber(translation[i]);
@@ -57,20 +57,20 @@ struct ExactBody {
   return is_beyond(a, b) || is_beyond(b, a);
 }
 
-[[nodiscard]] inline Verdict verdict_by_all_axes(const ConvexBody& first,
-                                                 const ConvexBody& second,
-                                                 const PairPose& pose) {
+[[nodiscard]] inline convex::Verdict verdict_by_all_axes(const convex::ConvexBody& first,
+                                                         const convex::ConvexBody& second,
+                                                         const convex::PairPose& pose) {
   const ExactBody a(first, Mat3::identity(), {});
   const ExactBody b(second, pose.rotation, pose.translation);
   const auto separates = [&](const ExactVec3& axis) { return is_separating(axis, a, b); };
-  if (std::any_of(a.normals.begin(), a.normals.end(), separates)) return Verdict::Apart;
-  if (std::any_of(b.normals.begin(), b.normals.end(), separates)) return Verdict::Apart;
+  if (std::any_of(a.normals.begin(), a.normals.end(), separates)) return convex::Verdict::Apart;
+  if (std::any_of(b.normals.begin(), b.normals.end(), separates)) return convex::Verdict::Apart;
   for (const ExactVec3& e : a.edges) {
     for (const ExactVec3& f : b.edges) {
-      if (separates(cross(e, f))) return Verdict::Apart;
+      if (separates(cross(e, f))) return convex::Verdict::Apart;
     }
   }
-  return Verdict::Meet;
+  return convex::Verdict::Meet;
 }
 
-}  // namespace carpus::convex::lp_test
+}  // namespace carpus::test

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/voronoi_features.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "convex/growth/test_oracle.hpp"
 #include "core/rng.hpp"
 
@@ -50,8 +50,8 @@ Vec3 middle_of(const ConvexBody& body, const Feature& feature) {
 /// together, a few units in the last place apart.
 Touching touching(const ConvexBody& first, const ConvexBody& second, Rng& rng) {
   Touching t;
-  t.pose.rotation = lp_test::any_rotation(rng);
-  const Vec3 n = lp_test::any_direction(rng);  // from the first body to the second
+  t.pose.rotation = test::random_rotation(rng);
+  const Vec3 n = test::random_direction(rng);  // from the first body to the second
   const std::uint32_t a = top(first, n);
   const std::uint32_t b = top(second, t.pose.rotation.transposed() * -n);
   constexpr std::array kKinds{FeatureKind::Vertex, FeatureKind::Edge, FeatureKind::Face};
@@ -76,13 +76,13 @@ TEST(TouchingFeatures, AreNeverWrongAndTellWhatTouchesFromOutside) {
   int supporting = 0;
   int meets = 0;
   for (int i = 0; i < 120; ++i) {
-    const ConvexBody first = lp_test::pebble(rng, 9);
-    const ConvexBody second = lp_test::pebble(rng, 9, {-4, 1e3, 2});
+    const ConvexBody first = test::pebble(rng, 9);
+    const ConvexBody second = test::pebble(rng, 9, {-4, 1e3, 2});
     for (int k = 0; k < 6; ++k) {
       const Touching t = touching(first, second, rng);
       const Verdict verdict = look(first, second, t);
       if (verdict != Verdict::Unknown) {
-        EXPECT_EQ(verdict, lp_test::verdict_by_all_axes(first, second, t.pose)) << i << " " << k;
+        EXPECT_EQ(verdict, test::verdict_by_all_axes(first, second, t.pose)) << i << " " << k;
         ++decided;
         meets += verdict == Verdict::Meet ? 1 : 0;
       }
@@ -92,7 +92,7 @@ TEST(TouchingFeatures, AreNeverWrongAndTellWhatTouchesFromOutside) {
                           first.interior_point()) *
                          1e-3;
       away.translation += shift;
-      supporting += lp_test::verdict_by_all_axes(first, second, away) == Verdict::Apart ? 1 : 0;
+      supporting += test::verdict_by_all_axes(first, second, away) == Verdict::Apart ? 1 : 0;
     }
   }
   // Two random features of random bodies mostly do not face each other; those that do are told.
@@ -106,11 +106,11 @@ TEST(TouchingFeatures, AreSeenAlikeFromAThirdFrame) {
   Rng rng(32);
   int decided = 0;
   for (int i = 0; i < 300; ++i) {
-    const ConvexBody first = lp_test::pebble(rng, 12);
-    const ConvexBody second = lp_test::pebble(rng, 12);
+    const ConvexBody first = test::pebble(rng, 12);
+    const ConvexBody second = test::pebble(rng, 12);
     const Touching t = touching(first, second, rng);
-    const Mat3 turn = lp_test::any_rotation(rng);
-    const Vec3 shift = lp_test::any_direction(rng) * 50;
+    const Mat3 turn = test::random_rotation(rng);
+    const Vec3 shift = test::random_direction(rng) * 50;
     const PlacedBody a{&first, turn, shift};
     PlacedBody b{&second, turn * t.pose.rotation, turn * t.pose.translation + shift};
     // Rounded, this is another pose: apart or not is decided anew.
@@ -129,9 +129,8 @@ TEST(TouchingFeatures, AreNeverWrongForNeedlesAndMatricesThatAreNoRotations) {
   for (int i = 0; i < 600; ++i) {
     const double thin = std::pow(10.0, -static_cast<double>(rng.below(13)));
     const ConvexBody first =
-        rng.below(2) == 0 ? lp_test::pebble(rng, 8) : lp_test::box({3, thin, thin * 2});
-    const ConvexBody second =
-        rng.below(2) == 0 ? lp_test::pebble(rng, 8) : lp_test::prism(5, 2, thin);
+        rng.below(2) == 0 ? test::pebble(rng, 8) : test::box({3, thin, thin * 2});
+    const ConvexBody second = rng.below(2) == 0 ? test::pebble(rng, 8) : test::prism(5, 2, thin);
     Touching t = touching(first, second, rng);
     constexpr std::array kScales{1.0, 1 + 1e-9, 0.5, 1.0001, -1.0, 3.0};
     const double scale = kScales[rng.below(kScales.size())];
@@ -141,13 +140,13 @@ TEST(TouchingFeatures, AreNeverWrongForNeedlesAndMatricesThatAreNoRotations) {
     const Verdict verdict = look(first, second, t);
     if (verdict == Verdict::Unknown) continue;
     ++decided;
-    EXPECT_EQ(verdict, lp_test::verdict_by_all_axes(first, second, t.pose)) << i;
+    EXPECT_EQ(verdict, test::verdict_by_all_axes(first, second, t.pose)) << i;
   }
   EXPECT_GT(decided, 20);
 }
 
 TEST(TouchingFeatures, SayNothingWhereTheyAreLevelOrBeyondBounds) {
-  const ConvexBody cube = lp_test::box({1, 1, 1});
+  const ConvexBody cube = test::box({1, 1, 1});
   const auto& features = cube.derived<VoronoiFeatures>();
   const PlacedBody still{&cube, Mat3::identity(), {}};
   const auto verdict = [&](const PlacedBody& other, const FeaturePair& pair) {

@@ -31,11 +31,11 @@ void judge_query(const test::Judge& judge, convex::PairQuery& query, const conve
 
 TEST(ClosestActiveSet, AgreesWithTheOraclesOnAllSolids) {
   Rng rng(21);
-  const auto& solids = convex::test::small_solids();
-  for (std::uint64_t i = 0; i < convex::test::cases(600); ++i) {
-    const convex::test::Solid& first = solids[rng.below(solids.size())];
-    const convex::test::Solid& second = solids[rng.below(solids.size())];
-    const convex::PairPose pose = convex::test::random_pose(rng, 5);
+  const auto& solids = test::small_solids();
+  for (std::uint64_t i = 0; i < test::cases(600); ++i) {
+    const test::Solid& first = solids[rng.below(solids.size())];
+    const test::Solid& second = solids[rng.below(solids.size())];
+    const convex::PairPose pose = test::random_pose(rng, 5);
     SCOPED_TRACE(first.name + " on " + second.name + ", case " + std::to_string(i));
     ClosestActiveSet query(first.body, second.body);
     judge_query({first.body, second.body, pose, kToleranceMm}, query, pose);
@@ -45,13 +45,12 @@ TEST(ClosestActiveSet, AgreesWithTheOraclesOnAllSolids) {
 TEST(ClosestActiveSet, IsExactFarFromTheOrigin) {
   Rng rng(22);
   const Vec3 far{1e6, -7e5, 3e5};
-  for (const convex::test::Solid& solid : convex::test::small_solids()) {
+  for (const test::Solid& solid : test::small_solids()) {
     SCOPED_TRACE(solid.name);
-    const convex::ConvexBody first = convex::test::shifted(solid.body, far);
-    const convex::ConvexBody second =
-        convex::test::shifted(convex::test::small_solids()[0].body, -far);
-    for (std::uint64_t i = 0; i < convex::test::cases(20); ++i) {
-      convex::PairPose pose = convex::test::random_pose(rng, 4);
+    const convex::ConvexBody first = test::shifted(solid.body, far);
+    const convex::ConvexBody second = test::shifted(test::small_solids()[0].body, -far);
+    for (std::uint64_t i = 0; i < test::cases(20); ++i) {
+      convex::PairPose pose = test::random_pose(rng, 4);
       pose.translation += far + pose.rotation * far;
       ClosestActiveSet query(first, second);
       const test::Judge judge(first, second, pose, kToleranceMm);
@@ -67,16 +66,14 @@ TEST(ClosestActiveSet, IsExactFarFromTheOrigin) {
 
 TEST(ClosestActiveSet, AnswersWarmAsColdAndChangesNoFasterThanTheBodiesMove) {
   Rng rng(23);
-  const convex::ConvexBody first =
-      convex::test::body_of(convex::test::round_points(rng, 300, {20, 12, 10}));
-  const convex::ConvexBody second =
-      convex::test::body_of(convex::test::round_points(rng, 200, {8, 9, 15}));
+  const convex::ConvexBody first = test::body_of(test::round_points(rng, 300, {20, 12, 10}));
+  const convex::ConvexBody second = test::body_of(test::round_points(rng, 200, {8, 9, 15}));
   ClosestActiveSet warm(first, second);
   ClosestActiveSet cold(first, second);
   double last = std::numeric_limits<double>::quiet_NaN();
   convex::PairPose last_pose;
-  for (std::uint64_t i = 0; i < convex::test::cases(2000); ++i) {
-    const convex::PairPose pose = convex::test::pose_on_a_course(0.01 * static_cast<double>(i), 25);
+  for (std::uint64_t i = 0; i < test::cases(2000); ++i) {
+    const convex::PairPose pose = test::pose_on_a_course(0.01 * static_cast<double>(i), 25);
     cold.forget();
     const auto a = cold.closest(pose);
     const auto b = warm.closest(pose);
@@ -97,12 +94,12 @@ TEST(ClosestActiveSet, AnswersWarmAsColdAndChangesNoFasterThanTheBodiesMove) {
 
 TEST(ClosestActiveSet, IsSymmetricAndKnowsNoFrame) {
   Rng rng(24);
-  const auto& solids = convex::test::small_solids();
-  for (std::uint64_t i = 0; i < convex::test::cases(1000); ++i) {
+  const auto& solids = test::small_solids();
+  for (std::uint64_t i = 0; i < test::cases(1000); ++i) {
     const convex::ConvexBody& first = solids[rng.below(solids.size())].body;
     const convex::ConvexBody& second = solids[rng.below(solids.size())].body;
-    const convex::PairPose pose{convex::test::random_rotation(rng),
-                                convex::test::random_direction(rng) * rng.uniform(1, 9)};
+    const convex::PairPose pose{test::random_rotation(rng),
+                                test::random_direction(rng) * rng.uniform(1, 9)};
     const auto inverse = pose.inverse();
     ClosestActiveSet query(first, second);
     ClosestActiveSet swapped(second, first);
@@ -116,7 +113,7 @@ TEST(ClosestActiveSet, IsSymmetricAndKnowsNoFrame) {
 }
 
 TEST(ClosestActiveSet, FindsTheDistanceOfBoxesInEveryRelation) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::box_points({1, 1, 1}));
+  const convex::ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
   ClosestActiveSet query(body, body);
   const auto at = [&](const Vec3& t) {
     return query.closest({Mat3::identity(), t}).value_or(convex::Closest{}).distance_mm;
@@ -132,13 +129,13 @@ TEST(ClosestActiveSet, FindsTheDistanceOfBoxesInEveryRelation) {
 
 TEST(ClosestActiveSet, IsRightForBladesWhoseEdgesAreAllButParallelInBothPrecisions) {
   // The facet of the difference that two such edges span is a sliver.
-  const convex::ConvexBody blade = convex::test::body_of(convex::test::box_points({50, 0.5, 0.02}));
+  const convex::ConvexBody blade = test::body_of(test::box_points({50, 0.5, 0.02}));
   const convex::SupportGraph& graph = blade.derived<convex::SupportGraph>();
   Rng rng(25);
-  for (std::uint64_t i = 0; i < convex::test::cases(200); ++i) {
+  for (std::uint64_t i = 0; i < test::cases(200); ++i) {
     convex::PairPose pose;
     pose.rotation =
-        rotation_about(convex::test::random_direction(rng), std::pow(10.0, rng.uniform(-14, -3)));
+        rotation_about(test::random_direction(rng), std::pow(10.0, rng.uniform(-14, -3)));
     pose.translation = {rng.uniform(-1, 1), rng.uniform(-3, 3), rng.uniform(-0.5, 0.5)};
     ClosestActiveSet query(blade, blade);
     const test::Judge judge(blade, blade, pose, kToleranceMm);
@@ -152,12 +149,12 @@ TEST(ClosestActiveSet, IsRightForBladesWhoseEdgesAreAllButParallelInBothPrecisio
 }
 
 TEST(ClosestActiveSet, DoesNotAllocateInAQuery) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::lattice_ball_points(5));
+  const convex::ConvexBody body = test::body_of(test::lattice_ball_points(5));
   ClosestActiveSet query(body, body);
   Rng rng(26);
   carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
-    const convex::PairPose pose = convex::test::random_pose(rng, 12);
+    const convex::PairPose pose = test::random_pose(rng, 12);
     (void)query.meets(pose);
     (void)query.closest(pose);
   }
@@ -165,7 +162,7 @@ TEST(ClosestActiveSet, DoesNotAllocateInAQuery) {
 }
 
 TEST(ClosestActiveSet, SaysUnknownForAPoseThatIsNotANumber) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::box_points({1, 1, 1}));
+  const convex::ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
   ClosestActiveSet query(body, body);
   convex::PairPose pose;
   pose.translation.x = std::numeric_limits<double>::quiet_NaN();

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/solids_test_support.hpp"
+#include "convex/bodies_test_support.hpp"
 
 namespace carpus::survey {
 namespace {
@@ -24,7 +24,7 @@ convex::Verdict verdict_at(const convex::ConvexBody& body, const convex::PairPos
 }
 
 TEST(CertainVerdict, TellsTheLastBitOfAGap) {
-  const convex::ConvexBody box = convex::test::body_of(convex::test::box_points({1, 2, 3}));
+  const convex::ConvexBody box = test::body_of(test::box_points({1, 2, 3}));
   const double infinity = std::numeric_limits<double>::infinity();
   const Mat3 same = Mat3::identity();
   EXPECT_EQ(verdict_at(box, {same, {2, 0, 0}}), convex::Verdict::Meet);    // faces
@@ -38,8 +38,7 @@ TEST(CertainVerdict, TellsTheLastBitOfAGap) {
 
 TEST(CertainVerdict, TellsItFarFromTheOriginToo) {
   const Vec3 far{0x1p20, -0x1p21, 0x1p19};
-  const convex::ConvexBody box =
-      convex::test::shifted(convex::test::body_of(convex::test::box_points({1, 2, 3})), far);
+  const convex::ConvexBody box = test::shifted(test::body_of(test::box_points({1, 2, 3})), far);
   const double last = 0x1p-32;  // more than a unit in the last place out there
   EXPECT_EQ(verdict_at(box, {Mat3::identity(), {2, 1, 1}}), convex::Verdict::Meet);
   EXPECT_EQ(verdict_at(box, {Mat3::identity(), {2 + last, 1, 1}}), convex::Verdict::Apart);
@@ -50,23 +49,23 @@ TEST(CertainVerdict, TrustsNoTetrahedronWhoseVolumeIsRounding) {
   // A needle 5e11 mm long ends beside a plate; the walk begins with corners of an earlier pose,
   // which make a tetrahedron so thin that on one of its faces even the side of the fourth corner
   // is lost.
-  const convex::ConvexBody plate = convex::test::body_of({{0.25, 0.5, 0},
-                                                          {0, 0.25, 0.000125},
-                                                          {0, 0.375, 0.000375},
-                                                          {0.25, 0.125, 0.000375},
-                                                          {0.375, 0.5, 0.000125},
-                                                          {0.125, 0.5, 0.000375},
-                                                          {0.25, 0.25, 0.0005},
-                                                          {0.5, 0.25, 0.000125}});
-  const convex::ConvexBody needle = convex::test::body_of({{-1.578125, -0.078125, -0.28125},
-                                                           {1.90625, 1.90625, -1.84375},
-                                                           {0.796875, -1.609375, -1.453125},
-                                                           {0.53125, 1.296875, 1.53125},
-                                                           {1.0625, 1.453125, 0.859375},
-                                                           {-1.703125, -0.828125, -549755813888},
-                                                           {0.09375, -1.796875, 1.609375},
-                                                           {-0.578125, 1.609375, 1.78125},
-                                                           {-1.984375, -1.953125, 0.09375}});
+  const convex::ConvexBody plate = test::body_of({{0.25, 0.5, 0},
+                                                  {0, 0.25, 0.000125},
+                                                  {0, 0.375, 0.000375},
+                                                  {0.25, 0.125, 0.000375},
+                                                  {0.375, 0.5, 0.000125},
+                                                  {0.125, 0.5, 0.000375},
+                                                  {0.25, 0.25, 0.0005},
+                                                  {0.5, 0.25, 0.000125}});
+  const convex::ConvexBody needle = test::body_of({{-1.578125, -0.078125, -0.28125},
+                                                   {1.90625, 1.90625, -1.84375},
+                                                   {0.796875, -1.609375, -1.453125},
+                                                   {0.53125, 1.296875, 1.53125},
+                                                   {1.0625, 1.453125, 0.859375},
+                                                   {-1.703125, -0.828125, -549755813888},
+                                                   {0.09375, -1.796875, 1.609375},
+                                                   {-0.578125, 1.609375, 1.78125},
+                                                   {-1.984375, -1.953125, 0.09375}});
   const convex::PairPose pose{
       {{Vec3{-0.52715460359354349, -0.69576692721551103, -0.48786925185260366},
         Vec3{0.19226474469596999, -0.65688762562176395, 0.72906303928535166},
@@ -80,7 +79,7 @@ TEST(CertainVerdict, TrustsNoTetrahedronWhoseVolumeIsRounding) {
 }
 
 TEST(CertainVerdict, IsUnknownForWhatIsNotANumber) {
-  const convex::ConvexBody box = convex::test::body_of(convex::test::box_points({1, 2, 3}));
+  const convex::ConvexBody box = test::body_of(test::box_points({1, 2, 3}));
   convex::PairPose pose;
   pose.rotation.rows[2].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(verdict_at(box, pose), convex::Verdict::Unknown);

@@ -31,12 +31,12 @@ void judge_query(const test::Judge& judge, convex::PairQuery& query, const conve
 
 TEST(DepthExact, AgreesWithTheOracleOnAllSolids) {
   Rng rng(41);
-  const auto& solids = convex::test::small_solids();
-  for (std::uint64_t i = 0; i < convex::test::cases(600); ++i) {
-    const convex::test::Solid& first = solids[rng.below(solids.size())];
-    const convex::test::Solid& second = solids[rng.below(solids.size())];
+  const auto& solids = test::small_solids();
+  for (std::uint64_t i = 0; i < test::cases(600); ++i) {
+    const test::Solid& first = solids[rng.below(solids.size())];
+    const test::Solid& second = solids[rng.below(solids.size())];
     const convex::PairPose pose =
-        convex::test::random_pose(rng, 2);  // most meet, many are nested or concentric
+        test::random_pose(rng, 2);  // most meet, many are nested or concentric
     SCOPED_TRACE(first.name + " on " + second.name + ", case " + std::to_string(i));
     const test::Judge judge(first.body, second.body, pose, kToleranceMm);
     DepthExact query(first.body, second.body);
@@ -54,11 +54,11 @@ TEST(DepthExact, AgreesWithTheOracleOnAllSolids) {
 
 TEST(DepthExact, IsExactWhereAllFacetsTie) {
   Rng rng(42);
-  const convex::ConvexBody ball = convex::test::body_of(convex::test::lattice_ball_points(3));
-  const convex::ConvexBody prism = convex::test::body_of(convex::test::prism_points(24, 3, 3));
+  const convex::ConvexBody ball = test::body_of(test::lattice_ball_points(3));
+  const convex::ConvexBody prism = test::body_of(test::prism_points(24, 3, 3));
   for (const convex::ConvexBody* second : {&ball, &prism}) {
     for (const Vec3& offset : {Vec3{}, Vec3{1e-13, 0, 0}, Vec3{0.25, 0, 0}}) {
-      const convex::PairPose pose{convex::test::lattice_rotation(rng), offset};
+      const convex::PairPose pose{test::lattice_rotation(rng), offset};
       const test::Judge judge(ball, *second, pose, kToleranceMm);
       DepthExact query(ball, *second);
       judge_query(judge, query, pose);
@@ -68,12 +68,10 @@ TEST(DepthExact, IsExactWhereAllFacetsTie) {
 
 TEST(DepthExact, GoesThroughAllFacetsWhereThePolytopeIsFull) {
   Rng rng(43);
-  const convex::ConvexBody round =
-      convex::test::body_of(convex::test::round_points(rng, 400, {10, 10, 10}));
-  const convex::ConvexBody small =
-      convex::test::body_of(convex::test::round_points(rng, 300, {6, 6, 6}));
+  const convex::ConvexBody round = test::body_of(test::round_points(rng, 400, {10, 10, 10}));
+  const convex::ConvexBody small = test::body_of(test::round_points(rng, 300, {6, 6, 6}));
   DepthExact query(round, small);
-  const convex::PairPose concentric{convex::test::random_rotation(rng), {}};
+  const convex::PairPose concentric{test::random_rotation(rng), {}};
   const PosedPair pair(round.derived<convex::SupportGraph>(), small.derived<convex::SupportGraph>(),
                        concentric);
   const auto answer = query.penetration(concentric);
@@ -100,15 +98,13 @@ void expect_parts(const convex::ConvexBody& first,
 
 TEST(DepthExact, PartsRoundBodiesOnACourseWarmAsCold) {
   Rng rng(44);
-  const convex::ConvexBody first =
-      convex::test::body_of(convex::test::round_points(rng, 300, {20, 12, 10}));
-  const convex::ConvexBody second =
-      convex::test::body_of(convex::test::round_points(rng, 200, {8, 9, 15}));
+  const convex::ConvexBody first = test::body_of(test::round_points(rng, 300, {20, 12, 10}));
+  const convex::ConvexBody second = test::body_of(test::round_points(rng, 200, {8, 9, 15}));
   DepthExact warm(first, second);
   DepthExact cold(first, second);
   std::uint64_t meeting = 0;
-  for (std::uint64_t i = 0; i < convex::test::cases(2000); ++i) {
-    const convex::PairPose pose = convex::test::pose_on_a_course(0.01 * static_cast<double>(i), 18);
+  for (std::uint64_t i = 0; i < test::cases(2000); ++i) {
+    const convex::PairPose pose = test::pose_on_a_course(0.01 * static_cast<double>(i), 18);
     cold.forget();
     const auto a = cold.penetration(pose);
     const auto b = warm.penetration(pose);
@@ -126,15 +122,14 @@ TEST(DepthExact, PartsRoundBodiesOnACourseWarmAsCold) {
 
 TEST(DepthExact, IsSymmetricAndExactFarFromTheOrigin) {
   Rng rng(45);
-  const auto& solids = convex::test::small_solids();
+  const auto& solids = test::small_solids();
   const Vec3 far{1e6, -7e5, 3e5};
-  for (const convex::test::Solid& solid : solids) {
+  for (const test::Solid& solid : solids) {
     SCOPED_TRACE(solid.name);
-    const convex::ConvexBody first = convex::test::shifted(solid.body, far);
-    const convex::ConvexBody second = convex::test::shifted(solids[4].body, -far);
-    for (std::uint64_t i = 0; i < convex::test::cases(10); ++i) {
-      convex::PairPose pose{convex::test::random_rotation(rng),
-                            convex::test::random_direction(rng)};
+    const convex::ConvexBody first = test::shifted(solid.body, far);
+    const convex::ConvexBody second = test::shifted(solids[4].body, -far);
+    for (std::uint64_t i = 0; i < test::cases(10); ++i) {
+      convex::PairPose pose{test::random_rotation(rng), test::random_direction(rng)};
       pose.translation += far + pose.rotation * far;
       const test::Judge judge(first, second, pose, kToleranceMm);
       if (!judge.is_meeting()) continue;
@@ -152,7 +147,7 @@ TEST(DepthExact, IsSymmetricAndExactFarFromTheOrigin) {
 }
 
 TEST(DepthExact, FindsTheDepthOfBoxes) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::box_points({1, 1, 1}));
+  const convex::ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
   DepthExact query(body, body);
   const auto at = [&](const Vec3& t) {
     return query.penetration({Mat3::identity(), t}).value_or(convex::Penetration{-1, {}, {}, {}});
@@ -165,13 +160,13 @@ TEST(DepthExact, FindsTheDepthOfBoxes) {
 }
 
 TEST(DepthExact, DoesNotAllocateInAQuery) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::lattice_ball_points(5));
+  const convex::ConvexBody body = test::body_of(test::lattice_ball_points(5));
   DepthExact query(body, body);
   Epa epa(body, body);
   Rng rng(46);
   carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
-    const convex::PairPose pose = convex::test::random_pose(rng, 6);
+    const convex::PairPose pose = test::random_pose(rng, 6);
     (void)query.penetration(pose);
     (void)epa.penetration(pose);
   }
@@ -179,7 +174,7 @@ TEST(DepthExact, DoesNotAllocateInAQuery) {
 }
 
 TEST(DepthExact, GivesNoAnswerForAPoseThatIsNotANumber) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::box_points({1, 1, 1}));
+  const convex::ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
   DepthExact query(body, body);
   EXPECT_TRUE(query.penetration({}).has_value());
   convex::PairPose pose;
@@ -191,12 +186,11 @@ TEST(DepthExact, GivesNoAnswerForAPoseThatIsNotANumber) {
 
 TEST(Epa, ComesNearTheDepth) {
   Rng rng(47);
-  const auto& solids = convex::test::small_solids();
-  for (std::uint64_t i = 0; i < convex::test::cases(200); ++i) {
+  const auto& solids = test::small_solids();
+  for (std::uint64_t i = 0; i < test::cases(200); ++i) {
     const convex::ConvexBody& first = solids[rng.below(solids.size())].body;
     const convex::ConvexBody& second = solids[rng.below(solids.size())].body;
-    const convex::PairPose pose{convex::test::random_rotation(rng),
-                                convex::test::random_direction(rng)};
+    const convex::PairPose pose{test::random_rotation(rng), test::random_direction(rng)};
     Epa query(first, second);
     DepthExact exact(first, second);
     const auto a = query.penetration(pose);

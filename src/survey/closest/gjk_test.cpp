@@ -32,11 +32,11 @@ void judge(const test::Judge& judge,
 
 TEST(Gjk, AgreesWithTheOraclesOnAllSolids) {
   Rng rng(11);
-  const auto& solids = convex::test::small_solids();
-  for (std::uint64_t i = 0; i < convex::test::cases(600); ++i) {
-    const convex::test::Solid& first = solids[rng.below(solids.size())];
-    const convex::test::Solid& second = solids[rng.below(solids.size())];
-    const convex::PairPose pose = convex::test::random_pose(rng, 5);
+  const auto& solids = test::small_solids();
+  for (std::uint64_t i = 0; i < test::cases(600); ++i) {
+    const test::Solid& first = solids[rng.below(solids.size())];
+    const test::Solid& second = solids[rng.below(solids.size())];
+    const convex::PairPose pose = test::random_pose(rng, 5);
     SCOPED_TRACE(first.name + " on " + second.name + ", case " + std::to_string(i));
     judge({first.body, second.body, pose, kToleranceMm}, first.body, second.body, pose);
   }
@@ -44,15 +44,13 @@ TEST(Gjk, AgreesWithTheOraclesOnAllSolids) {
 
 void expect_warm_as_cold(ClimbStart start) {
   Rng rng(12);
-  const convex::ConvexBody first =
-      convex::test::body_of(convex::test::round_points(rng, 300, {20, 12, 10}));
-  const convex::ConvexBody second =
-      convex::test::body_of(convex::test::round_points(rng, 200, {8, 9, 15}));
+  const convex::ConvexBody first = test::body_of(test::round_points(rng, 300, {20, 12, 10}));
+  const convex::ConvexBody second = test::body_of(test::round_points(rng, 200, {8, 9, 15}));
   Gjk warm(first, second, start);
   Gjk warm_verdicts(first, second, start);
   Gjk cold(first, second, start);
-  for (std::uint64_t i = 0; i < convex::test::cases(2000); ++i) {
-    const convex::PairPose pose = convex::test::pose_on_a_course(0.01 * static_cast<double>(i), 24);
+  for (std::uint64_t i = 0; i < test::cases(2000); ++i) {
+    const convex::PairPose pose = test::pose_on_a_course(0.01 * static_cast<double>(i), 24);
     cold.forget();
     const convex::Verdict verdict = cold.meets(pose);
     EXPECT_EQ(warm_verdicts.meets(pose), verdict);
@@ -67,12 +65,12 @@ TEST(Gjk, AnswersWarmAsCold) {
 }
 
 TEST(Gjk, DoesNotAllocateInAQuery) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::lattice_ball_points(5));
+  const convex::ConvexBody body = test::body_of(test::lattice_ball_points(5));
   Gjk query(body, body, ClimbStart::Table);
   Rng rng(13);
   carpus::test::start_counting_allocations();
   for (int i = 0; i < 200; ++i) {
-    const convex::PairPose pose = convex::test::random_pose(rng, 12);
+    const convex::PairPose pose = test::random_pose(rng, 12);
     (void)query.meets(pose);
     (void)query.closest(pose);
   }
@@ -80,7 +78,7 @@ TEST(Gjk, DoesNotAllocateInAQuery) {
 }
 
 TEST(Gjk, SaysUnknownForAPoseThatIsNotANumberAndRecovers) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::box_points({1, 1, 1}));
+  const convex::ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
   Gjk query(body, body, ClimbStart::LastCorner);
   convex::PairPose pose;
   pose.translation.x = std::numeric_limits<double>::quiet_NaN();
@@ -93,7 +91,7 @@ TEST(Gjk, SaysUnknownForAPoseThatIsNotANumberAndRecovers) {
 }
 
 TEST(Gjk, GivesNoDistanceOfAnEarlierPose) {
-  const convex::ConvexBody body = convex::test::body_of(convex::test::box_points({1, 1, 1}));
+  const convex::ConvexBody body = test::body_of(test::box_points({1, 1, 1}));
   const convex::PairPose beside{Mat3::identity(), {5, 0, 0}};
   convex::PairPose none;
   none.translation.x = std::numeric_limits<double>::quiet_NaN();

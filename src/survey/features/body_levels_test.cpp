@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 
 namespace carpus::survey {
@@ -11,8 +12,8 @@ namespace {
 
 TEST(BodyLevels, ShrinkToAFewVerticesWithinTheFinerOnes) {
   Rng rng(1);
-  for (const std::size_t count : {20U, 100U, 400U}) {
-    const BodyLevels levels(convex::test::round_body(rng, count));
+  for (const int count : {20, 100, 400}) {
+    const BodyLevels levels(test::round_body(rng, count));
     EXPECT_LE(levels[levels.size() - 1].features.vertex_count(), 20U);
     for (std::size_t k = 1; k < levels.size(); ++k) {
       const convex::VoronoiFeatures& fine = levels[k - 1].features;
@@ -30,7 +31,7 @@ TEST(BodyLevels, ShrinkToAFewVerticesWithinTheFinerOnes) {
 
 TEST(BodyLevels, DeviateFromTheBodyByWhatTheySay) {
   Rng rng(2);
-  const BodyLevels levels(convex::test::round_body(rng, 300));
+  const BodyLevels levels(test::round_body(rng, 300));
   EXPECT_EQ(levels[0].deviation_mm, 0);
   double before = 0;
   for (std::size_t k = 1; k < levels.size(); ++k) {
@@ -48,7 +49,7 @@ TEST(BodyLevels, DeviateFromTheBodyByWhatTheySay) {
 }
 
 TEST(BodyLevels, OfABodyWithFewVerticesAreOne) {
-  EXPECT_EQ(BodyLevels(convex::test::box_body({1, 2, 3})).size(), 1U);
+  EXPECT_EQ(BodyLevels(test::box({1, 2, 3})).size(), 1U);
 }
 
 }  // namespace

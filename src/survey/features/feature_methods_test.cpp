@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 #include "convex/pair_query.hpp"
 #include "core/allocation_test_support.hpp"
@@ -27,17 +28,17 @@ class FeatureMethods : public testing::TestWithParam<const char*> {
 TEST_P(FeatureMethods, GiveNearestPointsOnBothBodiesAlongTrajectories) {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     Rng rng(seed);
-    const convex::ConvexBody first = convex::test::random_body(rng);
-    const convex::ConvexBody second = convex::test::random_body(rng);
+    const convex::ConvexBody first = test::random_body(rng);
+    const convex::ConvexBody second = test::random_body(rng);
     const auto query = method().make(first, second);
-    convex::test::Trajectory trajectory(seed + 1000);
+    test::Trajectory trajectory(seed + 1000);
     for (int step = 0; step < 40; ++step) {
       const convex::PairPose pose = trajectory.next(8);
       const convex::Verdict verdict = query->meets(pose);
       const std::optional<convex::Closest> closest = query->closest(pose);
       ASSERT_EQ(closest.has_value(), method().gives_distance && verdict == convex::Verdict::Apart);
       if (closest && closest->distance_mm > 1e-6) {
-        convex::test::expect_nearest(first, second, pose, *closest);
+        test::expect_nearest(first, second, pose, *closest);
       }
     }
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
@@ -46,11 +47,11 @@ TEST_P(FeatureMethods, GiveNearestPointsOnBothBodiesAlongTrajectories) {
 
 TEST_P(FeatureMethods, AnswerTheSameWarmAndCold) {
   Rng rng(7);
-  const convex::ConvexBody first = convex::test::round_body(rng, 120);
-  const convex::ConvexBody second = convex::test::round_body(rng, 90);
+  const convex::ConvexBody first = test::round_body(rng, 120);
+  const convex::ConvexBody second = test::round_body(rng, 90);
   const auto warm = method().make(first, second);
   const auto cold = method().make(first, second);
-  convex::test::Trajectory trajectory(8);
+  test::Trajectory trajectory(8);
   int apart = 0;
   for (int step = 0; step < 600; ++step) {
     const convex::PairPose pose = trajectory.next(14);
@@ -73,10 +74,9 @@ TEST_P(FeatureMethods, AnswerTheSameWarmAndCold) {
 TEST_P(FeatureMethods, AreSymmetricAndBlindToTheFrame) {
   Rng rng(3);
   for (int sample = 0; sample < 200; ++sample) {
-    const convex::ConvexBody first = convex::test::random_body(rng);
-    const convex::ConvexBody second = convex::test::random_body(rng);
-    const convex::PairPose pose{convex::test::random_rotation(rng),
-                                convex::test::random_vector(rng) * 8.0};
+    const convex::ConvexBody first = test::random_body(rng);
+    const convex::ConvexBody second = test::random_body(rng);
+    const convex::PairPose pose{test::random_rotation(rng), test::random_vector(rng) * 8.0};
     const auto forward = method().make(first, second);
     const auto backward = method().make(second, first);
     const Pose<convex::pair_frame::Second, convex::pair_frame::First> swapped = pose.inverse();
@@ -95,13 +95,13 @@ TEST_P(FeatureMethods, AreSymmetricAndBlindToTheFrame) {
 TEST_P(FeatureMethods, ChangeTheDistanceNoMoreThanTheBodyMoves) {
   if (!method().gives_distance) GTEST_SKIP() << "verdicts only";
   Rng rng(5);
-  const convex::ConvexBody first = convex::test::round_body(rng, 60);
-  const convex::ConvexBody second = convex::test::box_body({2, 5, 3});
+  const convex::ConvexBody first = test::round_body(rng, 60);
+  const convex::ConvexBody second = test::box({2, 5, 3});
   const auto query = method().make(first, second);
-  convex::PairPose pose{convex::test::random_rotation(rng), {25, 0, 0}};
+  convex::PairPose pose{test::random_rotation(rng), {25, 0, 0}};
   double before = -1;
   for (int step = 0; step < 2000; ++step) {
-    const Vec3 move = convex::test::random_vector(rng) * 0.3;
+    const Vec3 move = test::random_vector(rng) * 0.3;
     pose.translation += move;
     const std::optional<convex::Closest> closest = query->closest(pose);
     const double now = closest ? closest->distance_mm : 0;
@@ -113,7 +113,7 @@ TEST_P(FeatureMethods, ChangeTheDistanceNoMoreThanTheBodyMoves) {
 }
 
 TEST_P(FeatureMethods, CallTouchingMeeting) {
-  const convex::ConvexBody cube = convex::test::box_body({4, 4, 4});
+  const convex::ConvexBody cube = test::box({4, 4, 4});
   const auto query = method().make(cube, cube);
   for (const Vec3& t : {Vec3{8, 0, 0}, Vec3{8, 8, 8}, Vec3{0, -8, 8}, Vec3{3, 2, 8}}) {
     EXPECT_EQ(query->meets({Mat3::identity(), t}), convex::Verdict::Meet);
@@ -123,8 +123,8 @@ TEST_P(FeatureMethods, CallTouchingMeeting) {
 }
 
 TEST_P(FeatureMethods, FindANestedBody) {
-  const convex::ConvexBody big = convex::test::box_body({10, 10, 10});
-  const convex::ConvexBody small = convex::test::box_body({1, 2, 1});
+  const convex::ConvexBody big = test::box({10, 10, 10});
+  const convex::ConvexBody small = test::box({1, 2, 1});
   for (const bool swap : {false, true}) {
     const auto query = swap ? method().make(small, big) : method().make(big, small);
     for (const Vec3& t : {Vec3{}, Vec3{5, 6, -7}, Vec3{-8, 1, 0}}) {
@@ -134,7 +134,7 @@ TEST_P(FeatureMethods, FindANestedBody) {
 }
 
 TEST_P(FeatureMethods, TakeThePoseAsGivenWhereItIsNoRotation) {
-  const convex::ConvexBody cube = convex::test::box_body({1, 1, 1});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
   const auto query = method().make(cube, cube);
   Mat3 shear;
   shear.rows[0] = {1, 0.25, 0};  // x grows with y: the far corner comes 0.25 mm nearer
@@ -148,7 +148,7 @@ TEST_P(FeatureMethods, TakeThePoseAsGivenWhereItIsNoRotation) {
 }
 
 TEST_P(FeatureMethods, DoNotAnswerForAPoseThatIsNotFinite) {
-  const convex::ConvexBody cube = convex::test::box_body({1, 1, 1});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
   const auto query = method().make(cube, cube);
   convex::PairPose pose;
   pose.translation.y = std::numeric_limits<double>::quiet_NaN();
@@ -168,10 +168,10 @@ TEST_P(FeatureMethods, DoNotAnswerForAPoseThatIsNotFinite) {
 
 TEST_P(FeatureMethods, AllocateNothingInQueries) {
   Rng rng(11);
-  const convex::ConvexBody first = convex::test::round_body(rng, 200);
-  const convex::ConvexBody second = convex::test::round_body(rng, 150);
+  const convex::ConvexBody first = test::round_body(rng, 200);
+  const convex::ConvexBody second = test::round_body(rng, 150);
   const auto query = method().make(first, second);
-  convex::test::Trajectory trajectory(12);
+  test::Trajectory trajectory(12);
   carpus::test::start_counting_allocations();
   for (int step = 0; step < 300; ++step) {
     const convex::PairPose pose = trajectory.next(14);

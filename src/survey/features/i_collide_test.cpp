@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 #include "core/allocation_test_support.hpp"
 
@@ -16,19 +17,19 @@ namespace {
 
 std::vector<convex::ConvexBody> some_bodies(Rng& rng) {
   std::vector<convex::ConvexBody> bodies;
-  for (int i = 0; i < 9; ++i) bodies.push_back(convex::test::round_body(rng, 40));
+  for (int i = 0; i < 9; ++i) bodies.push_back(test::round_body(rng, 40));
   return bodies;
 }
 
 BodyPose random_place(Rng& rng) {
-  return {convex::test::random_rotation(rng), convex::test::random_vector(rng) * 18.0};
+  return {test::random_rotation(rng), test::random_vector(rng) * 18.0};
 }
 
 void step(std::vector<BodyPose>& poses, Rng& rng) {
   for (BodyPose& pose : poses) {
-    const Vec3 axis = normalized_or(convex::test::random_vector(rng), {1, 0, 0});
+    const Vec3 axis = normalized_or(test::random_vector(rng), {1, 0, 0});
     pose.rotation = rotation_about(axis, 0.03 * rng.normal()) * pose.rotation;
-    pose.translation += convex::test::random_vector(rng) * 0.3;
+    pose.translation += test::random_vector(rng) * 0.3;
     if (rng.below(40) == 0) pose = random_place(rng);
   }
 }

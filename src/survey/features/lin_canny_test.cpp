@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 #include "survey/features/detail/lin_canny_steps.hpp"
 #include "survey/features/detail/walk.hpp"
@@ -13,10 +14,10 @@ namespace {
 
 TEST(LinCanny, TakesOneStepWhereTheLastFeaturesAreStillTheNearest) {
   Rng rng(1);
-  const convex::VoronoiFeatures a(convex::test::round_body(rng, 100));
-  const convex::VoronoiFeatures b(convex::test::round_body(rng, 100));
+  const convex::VoronoiFeatures a(test::round_body(rng, 100));
+  const convex::VoronoiFeatures b(test::round_body(rng, 100));
   const convex::FixedBody first{&a};
-  convex::PairPose pose{convex::test::random_rotation(rng), {30, 2, 1}};
+  convex::PairPose pose{test::random_rotation(rng), {30, 2, 1}};
   convex::FeaturePair pair;
   const convex::MovedBody second(a, b, pose);
   ASSERT_EQ(detail::walk(first, second, pair, 1000, detail::LinCannySteps::step).kind,
@@ -33,12 +34,11 @@ TEST(LinCanny, FailsOnlyOnOverlapAndSaysSo) {
   int overlapping = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Rng rng(seed);
-    const convex::ConvexBody first = convex::test::round_body(rng, 40);
-    const convex::ConvexBody second = convex::test::round_body(rng, 40);
+    const convex::ConvexBody first = test::round_body(rng, 40);
+    const convex::ConvexBody second = test::round_body(rng, 40);
     const auto query = make_lin_canny(first, second);
     for (int step = 0; step < 40; ++step) {
-      const convex::PairPose pose{convex::test::random_rotation(rng),
-                                  convex::test::random_vector(rng) * 9.0};
+      const convex::PairPose pose{test::random_rotation(rng), test::random_vector(rng) * 9.0};
       const convex::Verdict verdict = query->meets(pose);
       // The ellipsoids around the bodies keep away beyond 26 mm, those inside meet within 10 mm.
       const double between = length(pose.translation);

@@ -4,13 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 
 namespace carpus::survey {
 namespace {
 
 TEST(QCollide, TellsParallelFacesApartDownToTheTolerance) {
-  const convex::ConvexBody cube = convex::test::box_body({4, 4, 4});
+  const convex::ConvexBody cube = test::box({4, 4, 4});
   const auto query = make_q_collide(cube, cube);
   Rng rng(1);
   for (int sample = 0; sample < 300; ++sample) {
@@ -23,22 +24,21 @@ TEST(QCollide, TellsParallelFacesApartDownToTheTolerance) {
 }
 
 TEST(QCollide, GivesNoDistance) {
-  const convex::ConvexBody cube = convex::test::box_body({4, 4, 4});
+  const convex::ConvexBody cube = test::box({4, 4, 4});
   EXPECT_FALSE(make_q_collide(cube, cube)->closest({Mat3::identity(), {20, 0, 0}}));
 }
 
 /// A vector kept from before the bodies passed each other points the wrong way.
 TEST(QCollide, FindsANewVectorAfterTheBodiesChangeSides) {
   Rng rng(2);
-  const convex::ConvexBody first = convex::test::round_body(rng, 80);
-  const convex::ConvexBody second = convex::test::round_body(rng, 80);
+  const convex::ConvexBody first = test::round_body(rng, 80);
+  const convex::ConvexBody second = test::round_body(rng, 80);
   const auto query = make_q_collide(first, second);
   for (int sample = 0; sample < 100; ++sample) {
-    const Vec3 side = normalized_or(convex::test::random_vector(rng), {1, 0, 0}) * 28.0;
-    EXPECT_EQ(query->meets({convex::test::random_rotation(rng), side}), convex::Verdict::Apart);
-    EXPECT_EQ(query->meets({convex::test::random_rotation(rng), -side}), convex::Verdict::Apart);
-    EXPECT_EQ(query->meets({convex::test::random_rotation(rng), side * 0.1}),
-              convex::Verdict::Meet);
+    const Vec3 side = normalized_or(test::random_vector(rng), {1, 0, 0}) * 28.0;
+    EXPECT_EQ(query->meets({test::random_rotation(rng), side}), convex::Verdict::Apart);
+    EXPECT_EQ(query->meets({test::random_rotation(rng), -side}), convex::Verdict::Apart);
+    EXPECT_EQ(query->meets({test::random_rotation(rng), side * 0.1}), convex::Verdict::Meet);
   }
 }
 

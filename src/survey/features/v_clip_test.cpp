@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/features/feature_test_support.hpp"
 #include "survey/features/detail/v_clip_steps.hpp"
 #include "survey/features/detail/walk.hpp"
@@ -21,7 +22,7 @@ using detail::VClipSteps;
 using detail::WalkEnd;
 
 TEST(VClip, GivesTheDistancesOfTwoCubesByEveryPairOfFeatures) {
-  const convex::ConvexBody cube = convex::test::box_body({1, 1, 1});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
   const auto query = make_v_clip(cube, cube);
   const auto distance_at = [&](const Mat3& rotation, const Vec3& t) {
     const std::optional<convex::Closest> closest = query->closest({rotation, t});
@@ -39,8 +40,8 @@ TEST(VClip, GivesTheDistancesOfTwoCubesByEveryPairOfFeatures) {
 /// A vertex deep below the face it is paired with, in that face's prism, while the body it seems
 /// to be in is a thin plate: the local minimum of [mirtich1998vclip]
 TEST(VClip, LeavesTheLocalMinimumBelowAPlate) {
-  const convex::ConvexBody plate = convex::test::box_body({10, 10, 0.1});
-  const convex::ConvexBody cube = convex::test::box_body({1, 1, 1});
+  const convex::ConvexBody plate = test::box({10, 10, 0.1});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
   const convex::VoronoiFeatures of_plate(plate);
   const convex::VoronoiFeatures of_cube(cube);
   std::uint32_t top = 0;
@@ -60,10 +61,9 @@ TEST(VClip, LeavesTheLocalMinimumBelowAPlate) {
 TEST(VClip, EndsFromEveryPairOfFeaturesToStartFrom) {
   Rng rng(4);
   for (int sample = 0; sample < 12; ++sample) {
-    const convex::VoronoiFeatures a(convex::test::random_body(rng));
-    const convex::VoronoiFeatures b(convex::test::random_body(rng));
-    const convex::PairPose pose{convex::test::random_rotation(rng),
-                                convex::test::random_vector(rng) * 8.0};
+    const convex::VoronoiFeatures a(test::random_body(rng));
+    const convex::VoronoiFeatures b(test::random_body(rng));
+    const convex::PairPose pose{test::random_rotation(rng), test::random_vector(rng) * 8.0};
     const convex::FixedBody first{&a};
     const convex::MovedBody second(a, b, pose);
     double known = -1;

@@ -8,16 +8,16 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/exact_meeting.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "convex/growth/test_oracle.hpp"
 #include "convex/pair_query.hpp"
+#include "core/amount_test_support.hpp"
 #include "core/rng.hpp"
 #include "survey/methods.hpp"
 
@@ -27,26 +27,18 @@ namespace {
 /// By name in the list of methods; each promises the exact verdict.
 constexpr std::array kExactMethods{"lp_growth", "lp_scan", "lp_partial", "lp_walk", "seidel"};
 
-bool is_set(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value != nullptr && std::string(value) == "1";
-}
-
-int case_count(int usual) {
-  if (is_set("CARPUS_LONG")) return usual * 20;
-  return is_set("CARPUS_QUICK") ? usual / 5 + 1 : usual;
-}
+int case_count(int usual) { return test::amount(usual / 5 + 1, usual, usual * 20); }
 
 convex::ConvexBody small_body(Rng& rng) {
   switch (rng.below(7)) {
     case 0:
-      return convex::lp_test::box({4, 4, 4});
+      return test::box({4, 4, 4});
     case 1:
-      return convex::lp_test::octahedron(5);
+      return test::octahedron(5);
     case 2:
-      return convex::lp_test::box({0.01, 0.5, 20});  // a strip
+      return test::box({0.01, 0.5, 20});  // a strip
     case 3:
-      return convex::lp_test::prism(6, 2, 3);
+      return test::prism(6, 2, 3);
     case 4: {  // lattice corners: parallel faces, coplanar corners
       while (true) {
         std::vector<Vec3> points;
@@ -59,7 +51,7 @@ convex::ConvexBody small_body(Rng& rng) {
       }
     }
     default:
-      return convex::lp_test::pebble(rng, 4 + static_cast<int>(rng.below(7)));
+      return test::pebble(rng, 4 + static_cast<int>(rng.below(7)));
   }
 }
 
@@ -84,7 +76,7 @@ convex::PairPose touching_pose(const convex::ConvexBody& first,
                                Rng& rng) {
   convex::PairPose pose;
   if (rng.below(3) != 0)
-    pose.rotation = rng.below(2) == 0 ? axis_rotation(rng) : convex::lp_test::any_rotation(rng);
+    pose.rotation = rng.below(2) == 0 ? axis_rotation(rng) : test::random_rotation(rng);
   const auto feature = [&](const convex::ConvexBody& body) {
     const hull::PolygonalFace& face = body.faces()[rng.below(body.faces().size())];
     const Vec3& a = body.vertices()[face.corners[0]];
@@ -118,7 +110,7 @@ TEST(ExactVerdict, IsThatOfAllSeparatingAxesInExactArithmetic) {
     }
     for (int step = 0; step < 6; ++step) {  // the state of one answer starts the next
       const convex::PairPose pose = touching_pose(first, second, rng);
-      const convex::Verdict expected = convex::lp_test::verdict_by_all_axes(first, second, pose);
+      const convex::Verdict expected = test::verdict_by_all_axes(first, second, pose);
       meets += expected == convex::Verdict::Meet ? 1 : 0;
       const convex::ExactAnswer exact = convex::exactly_meet(
           {&first, Mat3::identity(), {}}, {&second, pose.rotation, pose.translation}, {});
@@ -136,8 +128,8 @@ TEST(ExactVerdict, IsThatOfAllSeparatingAxesInExactArithmetic) {
 
 TEST(ExactVerdict, SeesOneUnitInTheLastPlaceOfAGap) {
   for (const double at : {1.0, 1e6, 1e12}) {
-    const convex::ConvexBody first = convex::lp_test::box({at, 3, 3});
-    const convex::ConvexBody second = convex::lp_test::box({0.5, 1, 1});
+    const convex::ConvexBody first = test::box({at, 3, 3});
+    const convex::ConvexBody second = test::box({0.5, 1, 1});
     const double touching = at + 0.5;
     for (const char* name : kExactMethods) {
       const auto query = find_method(name)->make(first, second);
@@ -156,14 +148,13 @@ TEST(ExactVerdict, TakesBodiesFarFromTheirFramesOrigins) {
   Rng rng(5);
   const int cases = case_count(40);
   for (int i = 0; i < cases; ++i) {
-    const convex::ConvexBody first = convex::lp_test::pebble(rng, 8, {1e6, -2e6, 3e5});
-    const convex::ConvexBody second = convex::lp_test::pebble(rng, 8, {-1e6, 4e6, 1e6});
+    const convex::ConvexBody first = test::pebble(rng, 8, {1e6, -2e6, 3e5});
+    const convex::ConvexBody second = test::pebble(rng, 8, {-1e6, 4e6, 1e6});
     for (const char* name : kExactMethods) {
       const auto query = find_method(name)->make(first, second);
       for (int step = 0; step < 3; ++step) {
         convex::PairPose pose = touching_pose(first, second, rng);
-        EXPECT_EQ(query->meets(pose), convex::lp_test::verdict_by_all_axes(first, second, pose))
-            << name;
+        EXPECT_EQ(query->meets(pose), test::verdict_by_all_axes(first, second, pose)) << name;
       }
     }
   }
@@ -183,16 +174,15 @@ TEST(ExactVerdict, AppliesMatricesThatAreNoRotationsAsTheyAre) {
         const double scale = scales[rng.below(scales.size())];
         for (Vec3& row : pose.rotation.rows) row *= scale;
         pose.rotation.rows[0] += pose.rotation.rows[1] * rng.uniform(0, 1e-3);
-        EXPECT_EQ(query->meets(pose), convex::lp_test::verdict_by_all_axes(first, second, pose))
-            << name;
+        EXPECT_EQ(query->meets(pose), test::verdict_by_all_axes(first, second, pose)) << name;
       }
     }
   }
 }
 
 TEST(ExactVerdict, TakesAMatrixThatShrinksABodyForNoMotion) {
-  const convex::ConvexBody small = convex::lp_test::box({1, 1, 1});
-  const convex::ConvexBody large = convex::lp_test::box({10, 10, 10});
+  const convex::ConvexBody small = test::box({1, 1, 1});
+  const convex::ConvexBody large = test::box({10, 10, 10});
   for (const char* name : kExactMethods) {
     const auto query = find_method(name)->make(small, large);
     for (int again = 0; again < 3; ++again) {
@@ -205,10 +195,10 @@ TEST(ExactVerdict, TakesAMatrixThatShrinksABodyForNoMotion) {
 }
 
 TEST(ExactVerdict, TakesThinSmallAndLargeBodies) {
-  const convex::ConvexBody sheet = convex::lp_test::box({10, 10, 1e-14});
-  const convex::ConvexBody cube = convex::lp_test::box({1, 1, 1});
-  const convex::ConvexBody tiny = convex::lp_test::box({1e-60, 1e-60, 1e-60});
-  const convex::ConvexBody huge = convex::lp_test::box({1e90, 1e90, 1e90});
+  const convex::ConvexBody sheet = test::box({10, 10, 1e-14});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
+  const convex::ConvexBody tiny = test::box({1e-60, 1e-60, 1e-60});
+  const convex::ConvexBody huge = test::box({1e90, 1e90, 1e90});
   for (const char* name : kExactMethods) {
     const Method& method = *find_method(name);
     const auto thin = method.make(sheet, cube);
@@ -227,7 +217,7 @@ TEST(ExactVerdict, TakesThinSmallAndLargeBodies) {
 }
 
 TEST(ExactVerdict, IsUnknownOnlyForPosesThatAreNone) {
-  const convex::ConvexBody cube = convex::lp_test::box({1, 1, 1});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
   for (const char* name : kExactMethods) {
     const auto query = find_method(name)->make(cube, cube);
     convex::PairPose pose;

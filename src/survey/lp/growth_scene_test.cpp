@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/exact_meeting.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 
@@ -35,9 +35,9 @@ convex::Verdict exact_verdict(const GrowthScene& scene,
 /// Seven bodies in a heap.
 std::vector<convex::ConvexBody> some_bodies(Rng& rng) {
   std::vector<convex::ConvexBody> bodies;
-  for (int i = 0; i < 5; ++i) bodies.push_back(convex::lp_test::pebble(rng, 80));
-  bodies.push_back(convex::lp_test::box({4, 4, 4}));
-  bodies.push_back(convex::lp_test::prism(12, 1, 20));
+  for (int i = 0; i < 5; ++i) bodies.push_back(test::pebble(rng, 80));
+  bodies.push_back(test::box({4, 4, 4}));
+  bodies.push_back(test::prism(12, 1, 20));
   return bodies;
 }
 
@@ -48,15 +48,15 @@ TEST(GrowthScene, StaysExactWithAndWithoutItsBudget) {
   GrowthScene asking(pointers_to(bodies), false);
   EXPECT_EQ(scene.pair_count(), 21U);
   std::vector<BodyPose> poses(bodies.size());
-  for (BodyPose& pose : poses) pose.translation = convex::lp_test::any_direction(rng) * 16;
+  for (BodyPose& pose : poses) pose.translation = test::random_direction(rng) * 16;
   std::size_t meeting = 0;
   for (int tick = 0; tick < 600; ++tick) {
     const bool is_jump = tick % 100 == 99;
     for (BodyPose& pose : poses) {
       const double step = is_jump ? 4 : 0.05;
-      pose.rotation = rotation_about(convex::lp_test::any_direction(rng), is_jump ? 0.5 : 0.002) *
-                      pose.rotation;
-      pose.translation += convex::lp_test::any_direction(rng) * step;
+      pose.rotation =
+          rotation_about(test::random_direction(rng), is_jump ? 0.5 : 0.002) * pose.rotation;
+      pose.translation += test::random_direction(rng) * step;
       if (length(pose.translation) > 20) pose.translation *= 0.9;
     }
     const SceneTick done = scene.update(poses);
@@ -77,7 +77,7 @@ TEST(GrowthScene, StaysExactWithAndWithoutItsBudget) {
 
 TEST(GrowthScene, IsExactWhereBodiesTouchInTheWorld) {
   std::vector<convex::ConvexBody> cubes;
-  for (int i = 0; i < 3; ++i) cubes.push_back(convex::lp_test::box({1, 1, 1}));
+  for (int i = 0; i < 3; ++i) cubes.push_back(test::box({1, 1, 1}));
   GrowthScene scene(pointers_to(cubes));
   std::vector<BodyPose> poses(3);
   for (int i = 0; i < 40; ++i) {
@@ -95,7 +95,7 @@ TEST(GrowthScene, IsExactWhereBodiesTouchInTheWorld) {
 
 TEST(GrowthScene, KnowsNothingOfPosesThatAreNoneAndRecovers) {
   std::vector<convex::ConvexBody> cubes;
-  for (int i = 0; i < 3; ++i) cubes.push_back(convex::lp_test::box({1, 1, 1}));
+  for (int i = 0; i < 3; ++i) cubes.push_back(test::box({1, 1, 1}));
   GrowthScene scene(pointers_to(cubes));
   std::vector<BodyPose> poses(3);
   poses[1].translation.x = 5;

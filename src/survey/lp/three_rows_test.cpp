@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "convex/bodies_test_support.hpp"
 #include "convex/growth/growth.hpp"
-#include "convex/growth/test_bodies.hpp"
 #include "core/allocation_test_support.hpp"
 #include "core/rng.hpp"
 #include "survey/lp/seidel.hpp"
@@ -23,8 +23,8 @@ namespace {
 
 TEST(ThreeRows, AgreeWithTheGrowthProgramAlongTrajectories) {
   Rng rng(1);
-  const convex::ConvexBody first = convex::lp_test::pebble(rng, 200);
-  const convex::ConvexBody second = convex::lp_test::pebble(rng, 120);
+  const convex::ConvexBody first = test::pebble(rng, 200);
+  const convex::ConvexBody second = test::pebble(rng, 120);
   convex::GrowthQuery growth(first, second);
   std::vector<std::unique_ptr<ThreeRowQuery>> queries;
   for (const Pricing pricing : {Pricing::Scan, Pricing::Partial, Pricing::Walk}) {
@@ -38,8 +38,8 @@ TEST(ThreeRows, AgreeWithTheGrowthProgramAlongTrajectories) {
   for (int tick = 0; tick < kTicks; ++tick) {
     const bool is_jump = tick % 40 == 0;
     pose.rotation =
-        rotation_about(convex::lp_test::any_direction(rng), is_jump ? 0.4 : 0.002) * pose.rotation;
-    pose.translation += convex::lp_test::any_direction(rng) * (is_jump ? 2 : 0.05);
+        rotation_about(test::random_direction(rng), is_jump ? 0.4 : 0.002) * pose.rotation;
+    pose.translation += test::random_direction(rng) * (is_jump ? 2 : 0.05);
     pose.translation *= length(pose.translation) > 18 ? 0.8 : 1.0;
     const convex::Verdict expected = growth.meets(pose);
     meets += expected == convex::Verdict::Meet ? 1 : 0;
@@ -65,9 +65,9 @@ TEST(ThreeRows, AgreeWithTheGrowthProgramAlongTrajectories) {
 
 TEST(ThreeRows, AnswerForSymmetricSolids) {
   std::vector<convex::ConvexBody> solids;
-  solids.push_back(convex::lp_test::box({2, 2, 2}));
-  solids.push_back(convex::lp_test::octahedron(3));
-  solids.push_back(convex::lp_test::prism(32, 2, 3));
+  solids.push_back(test::box({2, 2, 2}));
+  solids.push_back(test::octahedron(3));
+  solids.push_back(test::prism(32, 2, 3));
   Rng rng(3);
   for (const convex::ConvexBody& first : solids) {
     for (const convex::ConvexBody& second : solids) {
@@ -88,16 +88,16 @@ TEST(ThreeRowsPitfall, AFixedObjectiveLosesItsBasisWhenBodiesTurn) {
   // c = (1, 1, 1) must stay in the cone of the basis' normals. Under small turns of bodies that
   // meet it often does not, and the thesis's query starts anew; growth has no objective to lose.
   Rng rng(4);
-  const convex::ConvexBody first = convex::lp_test::pebble(rng, 300);
-  const convex::ConvexBody second = convex::lp_test::pebble(rng, 300);
+  const convex::ConvexBody first = test::pebble(rng, 300);
+  const convex::ConvexBody second = test::pebble(rng, 300);
   ThreeRowQuery thesis(first, second, Pricing::Walk);
   convex::GrowthQuery growth(first, second);
   const Vec3 overlapping = first.interior_point();
   for (int place = 0; place < 10; ++place) {
-    convex::PairPose pose{convex::lp_test::any_rotation(rng), {}};
-    const Vec3 centre = overlapping + convex::lp_test::any_direction(rng) * 6;
+    convex::PairPose pose{test::random_rotation(rng), {}};
+    const Vec3 centre = overlapping + test::random_direction(rng) * 6;
     for (int tick = 0; tick < 60; ++tick) {
-      pose.rotation = rotation_about(convex::lp_test::any_direction(rng), 0.01) * pose.rotation;
+      pose.rotation = rotation_about(test::random_direction(rng), 0.01) * pose.rotation;
       pose.translation = centre - pose.rotation * second.interior_point();
       EXPECT_EQ(thesis.meets(pose), convex::Verdict::Meet);
       EXPECT_EQ(growth.meets(pose), convex::Verdict::Meet);
@@ -110,10 +110,10 @@ TEST(ThreeRowsPitfall, AFixedObjectiveLosesItsBasisWhenBodiesTurn) {
 TEST(ThreeRowsPitfall, TheDualsInequalityAsPrintedWouldPartBodiesThatMeet) {
   // (5.7) with >= is right only for X >= 0. Two cubes that share the point (-5, -5, -5) alone in
   // the negative octant have no common X >= 0; with equality X is free, and they meet.
-  const convex::ConvexBody cube = convex::lp_test::box({1, 1, 1});
+  const convex::ConvexBody cube = test::box({1, 1, 1});
   std::vector<Vec3> corners;
   for (const Vec3& v : cube.vertices()) corners.push_back(v + Vec3{-5, -5, -5});
-  const convex::ConvexBody shifted = convex::lp_test::body_of(corners);
+  const convex::ConvexBody shifted = test::body_of(corners);
   for (const char* name : {"lp_scan", "lp_partial", "lp_walk", "seidel"}) {
     EXPECT_EQ(find_method(name)->make(shifted, cube)->meets({Mat3::identity(), {-5, -5, -5}}),
               convex::Verdict::Meet);
@@ -122,7 +122,7 @@ TEST(ThreeRowsPitfall, TheDualsInequalityAsPrintedWouldPartBodiesThatMeet) {
 
 TEST(ThreeRows, DoNotAllocateInAQuery) {
   Rng rng(5);
-  const convex::ConvexBody body = convex::lp_test::pebble(rng, 100);
+  const convex::ConvexBody body = test::pebble(rng, 100);
   for (const char* name : {"lp_scan", "lp_partial", "lp_walk", "seidel"}) {
     const auto query = find_method(name)->make(body, body);
     carpus::test::start_counting_allocations();

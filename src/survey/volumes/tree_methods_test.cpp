@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "convex/growth/test_bodies.hpp"
+#include "convex/bodies_test_support.hpp"
 #include "convex/pair_query.hpp"
 #include "survey/methods.hpp"
 
@@ -14,8 +14,8 @@ namespace carpus::survey {
 namespace {
 
 TEST(TreeMethods, FindABodyWithinTheMirrorImageOfAnother) {
-  const convex::ConvexBody small = convex::lp_test::octahedron(1);
-  const convex::ConvexBody large = convex::lp_test::box({5, 6, 7});
+  const convex::ConvexBody small = test::octahedron(1);
+  const convex::ConvexBody large = test::box({5, 6, 7});
   convex::PairPose mirrored;
   mirrored.rotation.rows[0].x = -1;
   for (const char* name :

@@ -9,11 +9,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <string>
 #include <vector>
 
 #include "core/allocation_test_support.hpp"
+#include "core/amount_test_support.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::survey {
@@ -98,10 +97,7 @@ TrianglePoints random_triangle(Rng& rng, std::uint64_t range, std::uint64_t kind
   return t;
 }
 
-int case_count() {
-  const char* value = std::getenv("CARPUS_LONG");  // NOLINT(concurrency-mt-unsafe)
-  return value != nullptr && std::string(value) == "1" ? 100'000 : 5000;
-}
+int case_count() { return test::amount(5000, 5000, 100'000); }
 
 TEST(TriangleContact, AgreesWithIntegerAxesOnLatticeTriangles) {
   Rng rng(1);

@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-#include "convex/solids_test_support.hpp"
+#include "convex/bodies_test_support.hpp"
 #include "survey/closest/detail/exhaustive.hpp"
 
-namespace carpus::survey::test {
+namespace carpus::test {
 
 /// How far a point lies outside of a body [mm]; not positive inside.
 inline double outside_mm(const convex::ConvexBody& body, const Vec3& p) {
@@ -116,4 +116,4 @@ class Judge {
   Real depth_;
 };
 
-}  // namespace carpus::survey::test
+}  // namespace carpus::test

@@ -15,7 +15,7 @@
 #include "convex/convex_body.hpp"
 #include "convex/pair_query.hpp"
 
-namespace carpus::survey::test {
+namespace carpus::test {
 
 using Real = long double;
 struct RealVec3 {
@@ -159,4 +159,4 @@ inline Real exhaustive_depth(const PlacedBody& a, const PlacedBody& b) {
   return best;
 }
 
-}  // namespace carpus::survey::test
+}  // namespace carpus::test
