@@ -421,10 +421,12 @@ TEST_F(StationTest, FullDiskWhileSavingIsToldAndNothingIsLost) {
   records_->store().limit_pages(1);  // as large as it is now
   const auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
-  for (int i = 0; i < 1500; ++i) {  // fills the recording beyond 8 pages
-    page->send(R"({"type":"hand","sequence":2,"hand":0,"tip_mm":[)" +
-               std::to_string(40 + 0.01 * i) +
-               R"(,40,40],"shaft":[0.1,0.2,1],"thrust_n":5,"driver":"off","guidance":"direct"})");
+  for (int i = 0; i < 2500; ++i) {  // fills the recording beyond 8 pages
+    const std::string far = std::to_string(i % 2 == 0 ? 40 + 0.01 * i : -40.0);
+    page->send(R"({"type":"hand","sequence":2,"hand":)" + std::to_string(i / 2 % 2) +
+               R"(,"tip_mm":[)" + far + "," + far + "," + far + R"(],"shaft":[)" +
+               (i % 2 == 0 ? "1" : "-1") +
+               R"(,1,0.5],"thrust_n":5,"driver":"off","guidance":"direct"})");
     std::this_thread::sleep_for(1ms);
   }
   page->send(R"({"type":"act","id":"finish"})");
