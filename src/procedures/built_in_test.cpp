@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cases/make_hand_motion.hpp"
 #include "cases/synthetic_case_test_support.hpp"
 #include "core/error.hpp"
 #include "procedures/dorsal_scaphoid_fixation/declared.hpp"
@@ -13,6 +14,16 @@
 
 namespace carpus::procedures {
 namespace {
+
+/// With the motion of its hand, made as for any case.
+const cases::CaseData& wrist() {
+  static const cases::CaseData data = [] {
+    cases::CaseData made = cases::test::synthetic_case();
+    cases::ensure_hand_motion(made);
+    return made;
+  }();
+  return data;
+}
 
 TEST(BuiltIn, OffersEveryFolder) {
   ASSERT_EQ(built_in().all().size(), 2U);
@@ -22,7 +33,7 @@ TEST(BuiltIn, OffersEveryFolder) {
 }
 
 TEST(BuiltIn, EachCanBeDoneAndScored) {
-  const cases::CaseData data = cases::test::synthetic_case();
+  const cases::CaseData& data = wrist();
   for (const procedure::Procedure* each : built_in().all()) {
     ASSERT_NE(each->opening, nullptr) << each->id;
     ASSERT_NE(each->score, nullptr) << each->id;
@@ -52,7 +63,7 @@ TEST(BuiltIn, StepsThatCodeNamesByPlaceAreThere) {
 }
 
 TEST(BuiltIn, TheHandWaitsWhereTheBoneIsReached) {
-  const cases::CaseData data = cases::test::synthetic_case();
+  const cases::CaseData& data = wrist();
   const auto& axis = data.scaphoid.central_axis;
   const procedure::Opening dorsal = dorsal_scaphoid_fixation::declared().opening(data);
   EXPECT_LT(distance(dorsal.tip_in_target, axis.proximal),
@@ -68,7 +79,7 @@ TEST(BuiltIn, TheHandWaitsWhereTheBoneIsReached) {
 /// The wire that starts blind goes 45 degrees dorsal and 45 degrees ulnar, on either side.
 TEST(BuiltIn, TheVolarHandWaitsAtTheBlindAim) {
   for (const Side side : {Side::Left, Side::Right}) {
-    cases::CaseData data = cases::test::synthetic_case();
+    cases::CaseData data = wrist();
     data.side = side;
     const Vec3 into = -(data.wrist_from_patient *
                         Direction<frame::Patient>{
@@ -82,7 +93,7 @@ TEST(BuiltIn, TheVolarHandWaitsAtTheBlindAim) {
 }
 
 TEST(BuiltIn, ACaseWithoutAScaphoidIsRefusedWithTheReason) {
-  cases::CaseData data = cases::test::synthetic_case();
+  cases::CaseData data = wrist();
   std::erase_if(data.bones, [](const cases::Bone& bone) { return bone.bone == BoneId::Scaphoid; });
   for (const procedure::Procedure* each : built_in().all()) {
     EXPECT_THROW((void)each->opening(data), InvalidInput) << each->id;

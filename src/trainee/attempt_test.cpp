@@ -67,6 +67,10 @@ TEST_P(EverySeed, BothFinishAndTheExpertScoresBetter) {
     EXPECT_TRUE(has_screw(*attempt)) << words_of(*attempt);
     EXPECT_LT(attempt->record.ticks, 600000U);
     EXPECT_GE(attempt->record.gauge_reading_mm, 0.0);
+    for (const procedure::LineFacts& line : attempt->record.lines) {
+      EXPECT_EQ(line.body, simulation::test::body_of(BoneId::Scaphoid))
+          << "told in the target's frame, through whatever bone it came";
+    }
   }
   EXPECT_GT(expert.score.overall, novice.score.overall + 10.0);
   EXPECT_TRUE(expert.score.is_fixation_acceptable) << words_of(expert);
