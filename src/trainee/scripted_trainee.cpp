@@ -233,7 +233,8 @@ void ScriptedTrainee::think(const Snapshot& now) {
     case Phase::Withdraw:
       return think_of_line(now);
     case Phase::Ream:
-      if (held(now).depth_mm >= ream_depth_mm_ || in_phase_ > kPhaseTicks) {
+      if (held(now).instrument == drill_ &&
+          (held(now).depth_mm >= ream_depth_mm_ || in_phase_ > kPhaseTicks)) {
         enter(Phase::DrillOut, now);
       }
       return;

@@ -70,10 +70,20 @@ void World::State::engage(const Model& model, std::uint8_t hand, const Touched& 
   }
   ++spent.pass_count;
   emit(EventKind::EnteredBone, now.held[hand], body, 0.0);
-  if ((model.kinds.target & bit_of(body)) != 0) enter_target(model, item);
+  if ((model.kinds.target & bit_of(body)) != 0) enter_target(model, item, body);
 }
 
-void World::State::enter_target(const Model& model, Item& item) noexcept {
+/// From here on the line is the target's: a wire that came through another bone keeps to the target
+/// when the wrist moves, and what is measured of it is measured there.
+void World::State::enter_target(const Model& model, Item& item, std::uint8_t body) noexcept {
+  if (item.body != body) {
+    const detail::BodyPose& from = poses[item.body];
+    item.origin_in_bone = (inverses[body] * (from * Point<frame::Bone>{item.origin_in_bone})).v;
+    item.direction_in_bone =
+        (inverses[body] * (from * Direction<frame::Bone>{item.direction_in_bone})).v;
+    item.body = body;
+    item.track = kNoTrack;  // the hole goes on in another bone's frame
+  }
   item.in_target = true;
   item.entry_at_mm = item.travel_mm;
   item.chord_mm = model.target.front().way_inside_mm(entry_in_bone(item), item.direction_in_bone);
@@ -195,7 +205,7 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
     const double depth = -tissue.untouched_distance_mm(b, local);
     if (!(depth > 0.0)) continue;
     const bool is_target = (model.kinds.target & bit_of(b)) != 0;
-    if (is_target && !item.in_target) enter_target(model, item);
+    if (is_target && !item.in_target) enter_target(model, item, b);
     if (depth > kScratchMm) pass.bodies_entered |= bit_of(b);
     const bool is_wrong = !is_target && (model.kinds.allowed & bit_of(b)) == 0;
     if (is_wrong && depth > kScratchMm && (item.told_bodies & bit_of(b)) == 0) {

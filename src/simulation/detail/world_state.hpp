@@ -108,7 +108,7 @@ struct World::State {
 
   // line_motion.cpp
   void engage(const Model& model, std::uint8_t hand, const Touched& surface) noexcept;
-  void enter_target(const Model& model, detail::Item& item) noexcept;
+  void enter_target(const Model& model, detail::Item& item, std::uint8_t body) noexcept;
   void drive(const Model& model, std::uint8_t hand) noexcept;
   void note_tip(const Model& model, std::uint8_t index) noexcept;
   void cut(const Model& model, detail::Item& item) noexcept;
