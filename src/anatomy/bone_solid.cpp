@@ -1,9 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Steps: each fragment is voxelised by parity along z; the union is dilated and eroded by half the
-// bridged gap with exact Euclidean distance transforms; surface samples deep inside the result are
-// fracture faces and dropped; lines are intersected with the triangles themselves.
+// Steps: each fragment is voxelised (geometry/voxels_inside.hpp); the union is dilated and eroded
+// by half the bridged gap with exact Euclidean distance transforms; surface samples deep inside the
+// result are fracture faces and dropped; lines are intersected with the triangles themselves.
 #include "anatomy/bone_solid.hpp"
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 
 #include "core/error.hpp"
 #include "geometry/aabb.hpp"
+#include "geometry/trilinear.hpp"
+#include "geometry/voxels_inside.hpp"
 #include "imaging/distance_transform.hpp"
 
 namespace carpus {
@@ -32,58 +34,8 @@ GridGeometry geometry_around(const Aabb& box) {
   return geometry;
 }
 
-/// Twice the signed area of (a, b, p) in the xy plane.
-double edge_function(const Vec3& a, const Vec3& b, double x, double y) {
-  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
-}
-
-/// Whether the edge a -> b of a counter-clockwise triangle owns the points exactly on it, so that a
-/// column through a shared edge crosses exactly one of its two triangles.
-bool owns_its_points(const Vec3& a, const Vec3& b) { return a.y == b.y ? b.x < a.x : b.y < a.y; }
-
-bool covers(const Vec3& a, const Vec3& b, const Vec3& c, double x, double y) {
-  const auto inside = [&](const Vec3& p, const Vec3& q) {
-    const double e = edge_function(p, q, x, y);
-    return e > 0 || (e == 0 && owns_its_points(p, q));
-  };
-  return inside(a, b) && inside(b, c) && inside(c, a);
-}
-
-/// Flips, in each column that the triangle covers, all voxels above it.
-void flip_above(Grid<unsigned char>& parity, Vec3 a, Vec3 b, Vec3 c) {
-  const GridGeometry& g = parity.geometry();
-  double twice_area = edge_function(a, b, c.x, c.y);
-  if (twice_area == 0) return;
-  if (twice_area < 0) {
-    std::swap(b, c);
-    twice_area = -twice_area;
-  }
-  const auto first = [&](double low, double origin) {
-    return std::max(0, static_cast<int>(std::floor((low - origin) / kVoxelMm)));
-  };
-  const auto last = [&](double high, double origin, int size) {
-    return std::min(size - 1, static_cast<int>(std::ceil((high - origin) / kVoxelMm)));
-  };
-  const int x0 = first(std::min({a.x, b.x, c.x}), g.origin.x);
-  const int x1 = last(std::max({a.x, b.x, c.x}), g.origin.x, g.size[0]);
-  const int y0 = first(std::min({a.y, b.y, c.y}), g.origin.y);
-  const int y1 = last(std::max({a.y, b.y, c.y}), g.origin.y, g.size[1]);
-  for (int j = y0; j <= y1; ++j) {
-    for (int i = x0; i <= x1; ++i) {
-      const double x = g.origin.x + i * kVoxelMm;
-      const double y = g.origin.y + j * kVoxelMm;
-      if (!covers(a, b, c, x, y)) continue;
-      const double z = (edge_function(b, c, x, y) * a.z + edge_function(c, a, x, y) * b.z +
-                        edge_function(a, b, x, y) * c.z) /
-                       twice_area;
-      const int k0 = std::max(0, static_cast<int>(std::ceil((z - g.origin.z) / kVoxelMm)));
-      for (int k = k0; k < g.size[2]; ++k) parity[VoxelIndex{i, j, k}] ^= 1U;
-    }
-  }
-}
-
 /// Morphological closing by a ball of `radius_mm`, in place.
-void close_mask(Grid<unsigned char>& mask, double radius_mm) {
+void close_mask(Grid<std::uint8_t>& mask, double radius_mm) {
   const Grid<float> from_inside = imaging::distance_to_value(mask.view(), 1);
   for (std::size_t i = 0; i < mask.values().size(); ++i)
     mask[i] = from_inside[i] <= radius_mm ? 1 : 0;
@@ -118,21 +70,18 @@ void sample_triangle(const Vec3& a, const Vec3& b, const Vec3& c, std::vector<Su
   }
 }
 
-bool is_set(const Grid<unsigned char>& mask, const Vec3& point) {
-  const Vec3 v = mask.geometry().voxel_from_patient(point) + Vec3{0.5, 0.5, 0.5};
-  const auto& size = mask.geometry().size;
-  return v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < size[0] && v.y < size[1] && v.z < size[2] &&
-         mask[VoxelIndex{static_cast<int>(v.x), static_cast<int>(v.y), static_cast<int>(v.z)}] != 0;
+bool holds(const Grid<std::uint8_t>& mask, const Vec3& point) noexcept {
+  return voxel_at(mask, point, std::uint8_t{0}) != 0;
 }
 
 /// Whether the surface looks into another fragment across the gap: then it is a fracture face.
 bool faces_another(const SurfaceSample& sample,
                    std::size_t own,
-                   const std::vector<Grid<unsigned char>>& fragments) {
+                   const std::vector<Grid<std::uint8_t>>& fragments) {
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     if (i == own) continue;
     for (double t = 0; t <= kBridgedGapMm; t += kVoxelMm) {
-      if (is_set(fragments[i], sample.point + sample.normal * t)) return true;
+      if (holds(fragments[i], sample.point + sample.normal * t)) return true;
     }
   }
   return false;
@@ -213,14 +162,11 @@ BoneSolid::BoneSolid(std::span<const TriangleMesh* const> fragments) {
   if (box.is_empty()) {
     throw InvalidInput("bone solid: the bone has no surface; reconstruct the case again");
   }
-  closed_ = Grid<unsigned char>(geometry_around(box));
-  std::vector<Grid<unsigned char>> masks;
+  closed_ = Grid<std::uint8_t>(geometry_around(box));
+  std::vector<Grid<std::uint8_t>> masks;
   for (const TriangleMesh& mesh : fragments_) {
-    Grid<unsigned char>& parity = masks.emplace_back(closed_.geometry());
-    for (const Triangle& f : mesh.facets) {
-      flip_above(parity, mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]);
-    }
-    for (std::size_t i = 0; i < parity.values().size(); ++i) closed_[i] |= parity[i];
+    const Grid<std::uint8_t>& mask = masks.emplace_back(voxels_inside(mesh, closed_.geometry()));
+    for (std::size_t i = 0; i < mask.values().size(); ++i) closed_[i] |= mask[i];
   }
   close_mask(closed_, kBridgedGapMm * 0.5);
 
@@ -243,7 +189,7 @@ BoneSolid::BoneSolid(std::span<const TriangleMesh* const> fragments) {
   }
 }
 
-bool BoneSolid::contains(const Vec3& point) const noexcept { return is_set(closed_, point); }
+bool BoneSolid::contains(const Vec3& point) const noexcept { return holds(closed_, point); }
 
 LineIntervals BoneSolid::merged_intervals(const Vec3& point, const Vec3& direction) const noexcept {
   LineIntervals found;

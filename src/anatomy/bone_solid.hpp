@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -88,7 +89,7 @@ class BoneSolid {
                                                const Vec3& direction) const noexcept;
 
   std::vector<TriangleMesh> fragments_;
-  Grid<unsigned char> closed_;  ///< 1 inside
+  Grid<std::uint8_t> closed_;  ///< 1 inside
   std::vector<OuterPoint> outer_points_;
 };
 

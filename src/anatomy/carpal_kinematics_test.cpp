@@ -237,8 +237,9 @@ double angle_deg(const Mat3& m) {
 }
 
 TEST(CarpalKinematics, TurnsBonesAsMeasuredInOneRealWristToTenDegrees) {
-  // Nine positions of one wrist, which nothing here was fitted to. Tracked trapezoid, trapezium and
-  // pisiform err by more than the model (their errors in one position reach 40 degrees): printed.
+  // Nine positions of one wrist, to which no coefficient was fitted. Tracked trapezoid, trapezium
+  // and pisiform err by more than the model (their errors in one position reach 40 degrees):
+  // printed.
   const char* set = std::getenv("CARPUS_REFERENCE_WRIST");  // NOLINT(concurrency-mt-unsafe)
   const std::filesystem::path folder = set != nullptr ? set : "../shared/reference-wrist";
   std::ifstream file(folder / "kinematics.json");

@@ -97,15 +97,6 @@ GridGeometry grid_for(const GridGeometry& source,
   return result;
 }
 
-std::uint8_t nearest_label(const Grid<std::uint8_t>& labels, const Vec3& point) {
-  const Vec3 v = labels.geometry().voxel_from_patient(point) + Vec3{0.5, 0.5, 0.5};
-  const auto& size = labels.geometry().size;
-  if (!(v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < size[0] && v.y < size[1] && v.z < size[2])) {
-    return kBackgroundLabel;
-  }
-  return labels[VoxelIndex{static_cast<int>(v.x), static_cast<int>(v.y), static_cast<int>(v.z)}];
-}
-
 /// Resamples CT and labels along the bending.
 void bend_volumes(CaseData& data, const detail::Bending& bending, const GridGeometry& geometry) {
   Grid<std::int16_t> ct(geometry, kAirHu);
@@ -127,7 +118,8 @@ void bend_volumes(CaseData& data, const detail::Bending& bending, const GridGeom
                      ct[offset] = from.repeats_bone
                                       ? kSoftTissueHu
                                       : static_cast<std::int16_t>(hu < 0 ? hu - 0.5 : hu + 0.5);
-                     if (from.is_rigid) labels[offset] = nearest_label(data.labels, from.source);
+                     if (from.is_rigid)
+                       labels[offset] = voxel_at(data.labels, from.source, kBackgroundLabel);
                    }
                  }
                });

@@ -17,6 +17,13 @@
 namespace carpus::fluoroscopy {
 namespace {
 
+/// Fixed point: 16 bits behind the point for positions, which a run of 8 planes moves off by at
+/// most 8 * 2^-17 voxels, and 8 bits for the weights of the four voxels read.
+constexpr int kPositionBits = 16;
+constexpr int kWeightBits = 8;
+constexpr int kWeightShift = kPositionBits - kWeightBits;
+constexpr std::int32_t kWeightMask = (1 << kWeightBits) - 1;
+
 /// The part of a piece, 0 at its start and 1 at its end, that lies inside the grid.
 struct Part {
   double low = 0.0;
@@ -27,6 +34,9 @@ Part inside(const Vec3& from, const Vec3& d, const std::array<int, 3>& size) noe
   Part part;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double last = size[axis] - 1.0;
+    const double to = from[axis] + d[axis];
+    if (std::min(from[axis], to) >= 0 && std::max(from[axis], to) <= last) continue;
+    if (std::max(from[axis], to) < 0 || std::min(from[axis], to) > last) return {1.0, 0.0};
     if (last < 0) return {1.0, 0.0};
     if (std::abs(d[axis]) < 1e-12) {
       if (!(from[axis] >= 0 && from[axis] <= last)) return {1.0, 0.0};
@@ -144,20 +154,24 @@ float AttenuationVolume::mean_between(const Vec3& from_voxel, const Vec3& to_vox
   const std::ptrdiff_t sa = strides_[a_axis];
   const std::ptrdiff_t sb = strides_[b_axis];
   const std::int16_t* const values = values_.data() + kPad * sk;
-  const auto reading = [&](float a, float b, std::ptrdiff_t k) noexcept {
-    const int ia = static_cast<int>(a);
-    const int ib = static_cast<int>(b);
-    const float fa = a - static_cast<float>(ia);
-    const float fb = b - static_cast<float>(ib);
-    const std::int16_t* const p = values + k * sk + ia * sa + ib * sb;
-    const auto v00 = static_cast<float>(p[0]);
-    const auto v01 = static_cast<float>(p[sb]);
-    const float low = v00 + fa * (static_cast<float>(p[sa]) - v00);
-    const float high = v01 + fa * (static_cast<float>(p[sa + sb]) - v01);
-    return low + fb * (high - low);
+  // Positions and weights in fixed point: a sum of integers is the same in any order and build.
+  const auto reading = [&](std::int32_t a, std::int32_t b, std::ptrdiff_t k) noexcept {
+    const std::int32_t fa = (a >> kWeightShift) & kWeightMask;
+    const std::int32_t fb = (b >> kWeightShift) & kWeightMask;
+    const std::int16_t* const p =
+        values + k * sk + (a >> kPositionBits) * sa + (b >> kPositionBits) * sb;
+    const std::int32_t v00 = p[0];
+    const std::int32_t v01 = p[sb];
+    const std::int32_t low = (v00 << kWeightBits) + fa * (p[sa] - v00);
+    const std::int32_t high = (v01 << kWeightBits) + fa * (p[sa + sb] - v01);
+    return (static_cast<std::int64_t>(low) << kWeightBits) +
+           static_cast<std::int64_t>(high - low) * fb;
+  };
+  const auto fixed = [](double value) noexcept {
+    return static_cast<std::int32_t>(value * (1 << kPositionBits) + 0.5);
   };
   const auto reading_at = [&](int k) noexcept {
-    return reading(static_cast<float>(a0 + da * k), static_cast<float>(b0 + db * k), k);
+    return reading(fixed(a0 + da * k), fixed(b0 + db * k), k);
   };
 
   const std::array<std::size_t, 3> block_strides{
@@ -165,7 +179,9 @@ float AttenuationVolume::mean_between(const Vec3& from_voxel, const Vec3& to_vox
       static_cast<std::size_t>(blocks_[0]) * static_cast<std::size_t>(blocks_[1])};
   const auto last_a = static_cast<double>(geometry_.size[a_axis] - 1 + kPad);
   const auto last_b = static_cast<double>(geometry_.size[b_axis] - 1 + kPad);
-  float sum = 0.0F;
+  const auto step_a = static_cast<std::int32_t>(std::lround(da * (1 << kPositionBits)));
+  const auto step_b = static_cast<std::int32_t>(std::lround(db * (1 << kPositionBits)));
+  std::int64_t sum = 0;
   for (int run = first; run <= last;) {
     const int run_end = std::min(last, (run / kBlock + 1) * kBlock - 1);
     const double middle = 0.5 * (run + run_end);
@@ -177,23 +193,21 @@ float AttenuationVolume::mean_between(const Vec3& from_voxel, const Vec3& to_vox
                               a / kBlock * block_strides[a_axis] +
                               b / kBlock * block_strides[b_axis];
     if (occupied_[block] != 0) {
-      const auto fa = static_cast<float>(a0 + da * run);
-      const auto fb = static_cast<float>(b0 + db * run);
-      const auto fda = static_cast<float>(da);
-      const auto fdb = static_cast<float>(db);
-      const int count = run_end - run;
-      for (int i = 0; i <= count; ++i) {
-        const auto t = static_cast<float>(i);
-        sum += reading(fa + fda * t, fb + fdb * t, run + i);
+      std::int32_t at_a = fixed(a0 + da * run);
+      std::int32_t at_b = fixed(b0 + db * run);
+      for (int k = run; k <= run_end; ++k, at_a += step_a, at_b += step_b) {
+        sum += reading(at_a, at_b, k);
       }
     }
     run = run_end + 1;
   }
   // What the outermost planes stand for beyond the piece's ends.
-  const auto before = static_cast<float>(k_low - (first - 0.5));
-  const auto after = static_cast<float>(last + 0.5 - k_high);
-  sum -= before * reading_at(first) + after * reading_at(last);
-  return sum * static_cast<float>(kAttenuationUnitPerMm / std::abs(dk));
+  const double before = k_low - (first - 0.5);
+  const double after = last + 0.5 - k_high;
+  const double planes = static_cast<double>(sum) - before * static_cast<double>(reading_at(first)) -
+                        after * static_cast<double>(reading_at(last));
+  constexpr double kUnit = kAttenuationUnitPerMm / (1 << (2 * kWeightBits));
+  return static_cast<float>(planes * kUnit / std::abs(dk));
 }
 
 double AttenuationVolume::value_at(const Vec3& point_mm) const noexcept {

@@ -93,13 +93,13 @@ AttenuationMap ComposedProjector::project_soft_tissue(
         float& value = map.values[j * side + i];
         value = std::numeric_limits<float>::quiet_NaN();
         if (detail::is_outside_field(i, j, pose.geometry.pixels) || is_behind_leaf(i, j)) continue;
-        bent.read_ray(i, row, ray);
-        float sum = 0.0F;
+        const auto depths = bent.read_ray(i, j, row, ray);
+        double sum = 0.0;
         for (std::size_t k = 0; k + 1 < ray.size(); ++k) {
-          sum += soft_.mean_between(ray[k].voxel(), ray[k + 1].voxel());
+          sum += bent.share_between(depths[k], depths[k + 1]) *
+                 static_cast<double>(soft_.mean_between(ray[k].voxel(), ray[k + 1].voxel()));
         }
-        const double piece_mm = length(rays.pixel(i, j) - rays.source) * bent.step();
-        value = sum * static_cast<float>(piece_mm);
+        value = static_cast<float>(sum * length(rays.pixel(i, j) - rays.source));
       }
     }
   });

@@ -241,10 +241,11 @@ TEST(World, WhatIsFixedInBoneGoesWithIt) {
 
 TEST(World, TheWristStaysWithinItsLimitsAndRefusesWhatIsNoPose) {
   Operator op;
-  op.bend({3.0, -2.0, 0.0, 500.0}, 4000);
+  op.bend({3.0, 0.0, 0.0, 500.0}, 4000);
   EXPECT_EQ(op.now().wrist.flexion_rad, test::kOpenFlexionRad);
-  EXPECT_EQ(op.now().wrist.radial_deviation_rad, -0.3);
   EXPECT_EQ(op.now().wrist.traction_n, 100.0);
+  op.bend({0.0, -2.0, 0.0, 0.0}, 4000);
+  EXPECT_EQ(op.now().wrist.radial_deviation_rad, -0.3);
   const WristPose before = op.now().wrist;
   const std::uint64_t bad = op.world().faults().bad_inputs;
   op.bend({std::numeric_limits<double>::quiet_NaN(), 0, 0, 0}, 10);

@@ -12,6 +12,7 @@
 #include "cli/bench_peers_command.hpp"
 #include "cli/bench_tick_command.hpp"
 #include "cli/collide_command.hpp"
+#include "cli/fluoroscopy_command.hpp"
 #include "cli/hull_command.hpp"
 #include "cli/kinematics_command.hpp"
 #include "cli/parallel_executor.hpp"
@@ -36,6 +37,7 @@ void add_commands(CLI::App& app) {
   add_kinematics_command(app);
   add_hull_command(app);
   add_collide_command(app);
+  add_fluoroscopy_command(app);
   add_serve_command(app);
   add_simulate_command(app);
   add_replay_command(app);

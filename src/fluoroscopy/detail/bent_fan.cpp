@@ -16,6 +16,8 @@ constexpr double kAcrossMm = 3.0;
 constexpr double kAlongMm = 4.0;
 /// Nothing nearer to the source than this share of the way is seen.
 constexpr double kNearestShare = 0.05;
+/// A ray that strays from a straight line by less is one [mm]: a tenth of a voxel, in soft tissue.
+constexpr double kStraightMm = 0.03;
 
 struct Shares {
   double low = 1.0;
@@ -86,25 +88,65 @@ BentFan::BentFan(const CArmPose& pose,
       }
     }
   });
+  find_bends(scan.geometry().spacing);
+}
+
+/// From each bend as far on as all four columns of a cell stay straight.
+void BentFan::find_bends(const Vec3& spacing) {
+  bends_.resize((columns_ - 1) * (columns_ - 1));
+  parallel_for(bends_.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      const std::size_t c = cell % (columns_ - 1);
+      const std::size_t r = cell / (columns_ - 1);
+      const std::array<const Knot*, 4> corners{
+          nodes_.data() + column(c, r), nodes_.data() + column(c + 1, r),
+          nodes_.data() + column(c, r + 1), nodes_.data() + column(c + 1, r + 1)};
+      const auto is_straight = [&](std::size_t from, std::size_t to) {
+        for (const Knot* const knots : corners) {
+          for (std::size_t k = from + 1; k < to; ++k) {
+            const float t = static_cast<float>(k - from) / static_cast<float>(to - from);
+            const Vec3 off = between(knots[from], knots[to], t).voxel() - knots[k].voxel();
+            if (length({off.x * spacing.x, off.y * spacing.y, off.z * spacing.z}) > kStraightMm) {
+              return false;
+            }
+          }
+        }
+        return true;
+      };
+      std::vector<std::uint16_t>& bends = bends_[cell];
+      bends.push_back(0);
+      for (std::size_t k = 1; k + 1 < depths_; ++k) {
+        if (!is_straight(bends.back(), k + 1)) bends.push_back(static_cast<std::uint16_t>(k));
+      }
+      bends.push_back(static_cast<std::uint16_t>(depths_ - 1));
+    }
+  });
+}
+
+std::size_t BentFan::cell_of(std::size_t pixel) const noexcept {
+  return std::min(static_cast<std::size_t>(static_cast<double>(pixel) / cell_px_), columns_ - 2);
 }
 
 void BentFan::read_row(std::size_t j, std::vector<Knot>& row) const {
   row.resize(columns_ * depths_);
-  const double y = static_cast<double>(j) / cell_px_;
-  const auto r = std::min(static_cast<std::size_t>(y), columns_ - 2);
-  const auto t = static_cast<float>(y - static_cast<double>(r));
+  const std::size_t r = cell_of(j);
+  const auto t = static_cast<float>(static_cast<double>(j) / cell_px_ - static_cast<double>(r));
   for (std::size_t n = 0; n < row.size(); ++n) {
     row[n] = between(nodes_[column(0, r) + n], nodes_[column(0, r + 1) + n], t);
   }
 }
 
-void BentFan::read_ray(std::size_t i, const std::vector<Knot>& row, std::vector<Knot>& ray) const {
-  ray.resize(depths_);
-  const double x = static_cast<double>(i) / cell_px_;
-  const auto c = std::min(static_cast<std::size_t>(x), columns_ - 2);
-  const auto t = static_cast<float>(x - static_cast<double>(c));
+std::span<const std::uint16_t> BentFan::read_ray(std::size_t i,
+                                                 std::size_t j,
+                                                 const std::vector<Knot>& row,
+                                                 std::vector<Knot>& ray) const {
+  const std::size_t c = cell_of(i);
+  const auto t = static_cast<float>(static_cast<double>(i) / cell_px_ - static_cast<double>(c));
   const Knot* const left = row.data() + c * depths_;
-  for (std::size_t k = 0; k < depths_; ++k) ray[k] = between(left[k], left[depths_ + k], t);
+  const std::vector<std::uint16_t>& bends = bends_[cell_of(j) * (columns_ - 1) + c];
+  ray.clear();
+  for (const std::uint16_t k : bends) ray.push_back(between(left[k], left[depths_ + k], t));
+  return bends;
 }
 
 }  // namespace carpus::fluoroscopy::detail
