@@ -145,7 +145,15 @@ SceneTimes two_hands(const cases::CaseData& data,
     press(0.0, input);
     world.step(input);
   }
-  return scene("two_hands_in_contact", world, ticks, press);
+  std::size_t touched = 0;
+  SceneTimes times = scene("two_hands_in_contact", world, ticks, [&](double seconds, Input& now) {
+    press(seconds, now);
+    touched += world.now().hands[0].touching && world.now().hands[1].touching ? 1 : 0;
+  });
+  if (2 * touched < ticks) {
+    throw InvalidInput("bench tick: two hands do not reach the target on this case");
+  }
+  return times;
 }
 
 SceneTimes wrist_moving(const cases::CaseData& data,
@@ -156,16 +164,30 @@ SceneTimes wrist_moving(const cases::CaseData& data,
   const auto between = [](const anatomy::Interval& range, double phase) {
     return 0.5 * (range.low + range.high) + 0.5 * (range.high - range.low) * std::sin(phase);
   };
+  // The instrument is pressed on the target wherever the wrist takes it.
   const TargetPlace target = place_of(data, procedure.target, world.now());
   const Vec3 out = normalized_or(world.now().items[0].tip_in_patient - target.centre, {0, 0, 1});
-  return scene("wrist_moving", world, ticks, [&](double seconds, Input& input) {
+  std::size_t body = 0;
+  while (body + 1 < data.bones.size() && data.bones[body].bone != procedure.target) ++body;
+  const auto bone_from_patient = world.now().patient_from_bone[body].inverse();
+  const Point<frame::Bone> pressed =
+      bone_from_patient * Point<frame::Patient>{target.centre + out * (0.5 * target.radius_mm)};
+  const Direction<frame::Bone> shaft = bone_from_patient * Direction<frame::Patient>{out};
+  std::size_t moved = 0;
+  simulation::WristPose before = world.now().wrist;
+  SceneTimes times = scene("wrist_moving", world, ticks, [&](double seconds, Input& input) {
     const double turn = 2.0 * kPi * seconds;
     input.wrist = {
-        between(limits.flexion_rad, 0.25 * turn), between(limits.radial_deviation_rad, 0.4 * turn),
-        between(limits.pronation_rad, 0.15 * turn), between(limits.traction_n, 0.1 * turn)};
-    input.hands[0].tip_in_patient = target.centre + out * (0.7 * target.radius_mm);
-    input.hands[0].shaft_in_patient = out;
+        between(limits.flexion_rad, 0.1 * turn), between(limits.radial_deviation_rad, 0.17 * turn),
+        between(limits.pronation_rad, 0.07 * turn), between(limits.traction_n, 0.05 * turn)};
+    const auto& patient_from_bone = world.now().patient_from_bone[body];
+    input.hands[0].tip_in_patient = (patient_from_bone * pressed).v;
+    input.hands[0].shaft_in_patient = (patient_from_bone * shaft).v;
+    moved += world.now().wrist == before ? 0 : 1;
+    before = world.now().wrist;
   });
+  if (2 * moved < ticks) throw InvalidInput("bench tick: the wrist does not move on this case");
+  return times;
 }
 
 /// Whether this tick's input drives an instrument that works so, in bone.

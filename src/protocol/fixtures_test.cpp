@@ -158,7 +158,7 @@ void expect_harmless(const std::string& name, const std::string& text) {
 }
 
 TEST(Mutations, EveryPrefixAndEverySingleByteChangeOfAMessageIsAnsweredWithoutHarm) {
-  const std::string name = "page_to_host/tool.json";
+  const std::string name = "page_to_host/hand.json";
   const std::string text = read_file(kFixtures / "valid" / name);
   for (std::size_t length = 0; length < text.size(); ++length) {
     EXPECT_FALSE(reader_of(name)(text.substr(0, length)).has_value()) << length;

@@ -76,6 +76,7 @@ TEST(Writers, MakeTextsFitSoThatTheOtherSideTakesThem) {
 
 TEST(Writers, LeaveANumberThatIsNoneToBeRefused) {
   Snapshot snapshot;
+  snapshot.hands.resize(2);
   snapshot.dose_cgy_cm2 = std::numeric_limits<double>::quiet_NaN();
   const auto refused = parse_host_message(serialize(HostMessage(snapshot)));
   ASSERT_FALSE(refused.has_value());

@@ -5,10 +5,7 @@
 #include <bit>
 #include <utility>
 
-#include "core/error.hpp"
-#include "geometry/aabb.hpp"
 #include "procedure/shots.hpp"
-#include "session/metal_in_beam.hpp"
 #include "simulation/c_arm_angles.hpp"
 
 namespace carpus::server {
@@ -21,18 +18,6 @@ void append(std::string& bytes, std::uint32_t value, int count) {
 
 void append(std::string& bytes, double value) {
   append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
-}
-
-/// Middle of the target's bounds where it is now: where a radiographer would centre the beam.
-Vec3 centre_of(const cases::CaseData& data, BoneId target, const simulation::Snapshot& now) {
-  Aabb bounds;
-  for (std::size_t body = 0; body < now.body_count && body < data.bones.size(); ++body) {
-    if (data.bones[body].bone != target) continue;
-    for (const Vec3& vertex : data.bones[body].surface.vertices) {
-      bounds.include((now.patient_from_bone[body] * Point<frame::Bone>{vertex}).v);
-    }
-  }
-  return bounds.is_empty() ? Vec3{} : (bounds.low + bounds.high) / 2;
 }
 
 }  // namespace
@@ -52,20 +37,8 @@ std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& imag
   return bytes;
 }
 
-fluoroscopy::Image take_picture(const cases::CaseData& data,
-                                const fluoroscopy::FluoroscopyRenderer& renderer,
-                                const TakenShot& shot) {
-  const Direction<frame::Wrist> ulnar{{0, data.side == Side::Left ? 1.0 : -1.0, 0}};
-  const fluoroscopy::CArmPose pose = fluoroscopy::make_c_arm_pose(
-      {shot.rotation_deg, shot.tilt_deg}, {centre_of(data, shot.target, shot.snapshot)},
-      data.wrist_from_patient, ulnar);
-  fluoroscopy::Exposure exposure;
-  exposure.seed = shot.snapshot.tick;
-  return renderer.render(pose, session::metal_in_beam(shot.snapshot), exposure);
-}
-
 PictureWorker::PictureWorker(const cases::CaseData& data, Deliver deliver)
-    : data_(data), renderer_(data.ct.view()), deliver_(std::move(deliver)) {
+    : pictures_(data), deliver_(std::move(deliver)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -101,7 +74,8 @@ void PictureWorker::run() {
     lock.unlock();
     std::string frame;
     try {
-      frame = encode_picture(shot, take_picture(data_, renderer_, shot));
+      frame = encode_picture(
+          shot, pictures_.take({shot.target, shot.rotation_deg, shot.tilt_deg}, shot.snapshot));
     } catch (const std::exception&) {
       frame.clear();
     }

@@ -14,20 +14,13 @@
 #include <thread>
 
 #include "cases/case_data.hpp"
-#include "fluoroscopy/render.hpp"
 #include "server/exercise.hpp"
+#include "session/exercise_pictures.hpp"
 
 namespace carpus::server {
 
 /// The binary frame of protocol/README.md.
 [[nodiscard]] std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image);
-
-/// One picture, as `PictureWorker` makes it: the C-arm in the room, centred on the target, bones
-/// and metal as they lay.
-/// @throws InvalidInput for angles that no C-arm can take.
-[[nodiscard]] fluoroscopy::Image take_picture(const cases::CaseData& data,
-                                              const fluoroscopy::FluoroscopyRenderer& renderer,
-                                              const TakenShot& shot);
 
 class PictureWorker {
  public:
@@ -46,8 +39,7 @@ class PictureWorker {
  private:
   void run();
 
-  const cases::CaseData& data_;
-  fluoroscopy::FluoroscopyRenderer renderer_;
+  session::ExercisePictures pictures_;
   Deliver deliver_;
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -547,7 +547,7 @@ TEST(World, AShotKnowsHowTheForearmLay) {
   op.command(shot(10));
   const auto record = op.world().operation_record();
   ASSERT_EQ(record.shots.size(), 1U);
-  EXPECT_NEAR(record.shots[0].rotation_deg, 10 + 0.5 * 180 / 3.14159265358979, 0.01);
+  EXPECT_NEAR(record.shots[0].rotation_deg, 10 - 0.5 * 180 / 3.14159265358979, 0.01);
   EXPECT_NEAR(record.shots[0].wrist.pronation_rad, 0.5, 1e-4);
 }
 

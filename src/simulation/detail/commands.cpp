@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/units.hpp"
+#include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -43,7 +44,7 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
 void World::State::take_shot(const Command& command) noexcept {
   procedure::Shot& shot = shots[spent.shot_count++];
   // What is seen hangs on how the forearm lies under the C-arm.
-  shot.rotation_deg = command.rotation_deg + degrees_from_radians(spent.wrist.pronation_rad);
+  shot.rotation_deg = held_rotation_deg(command.rotation_deg, spent.wrist.pronation_rad);
   shot.tilt_deg = command.tilt_deg;
   shot.tick = spent.tick;
   shot.completed_steps = now.completed_steps;

@@ -1,0 +1,41 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fluoroscopy of an exercise: bones where they are, holes that were drilled, metal as it lies. Off
+// the 1 kHz thread; one thread at a time.
+#pragma once
+
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "fluoroscopy/composed_renderer.hpp"
+#include "simulation/snapshot.hpp"
+
+namespace carpus::session {
+
+/// What is to be seen.
+struct PictureView {
+  BoneId target = BoneId::Scaphoid;  ///< what the beam is centred on, where it is now
+  double rotation_deg = 0.0;         ///< of the C-arm in the room, from the forearm as scanned
+  double tilt_deg = 0.0;
+};
+
+class ExercisePictures {
+ public:
+  /// Takes the scan apart: about half a second. @param data  as scanned; must outlive this.
+  /// @throws InvalidInput where CT and labels do not fit.
+  explicit ExercisePictures(const cases::CaseData& data);
+
+  /// The state decides, not what was taken before.
+  /// @throws InvalidInput for angles that no C-arm can take.
+  [[nodiscard]] fluoroscopy::Image take(const PictureView& view, const simulation::Snapshot& now);
+
+ private:
+  void take_in_holes(const simulation::Snapshot& now);
+
+  const cases::CaseData& data_;
+  fluoroscopy::ComposedRenderer renderer_;
+  std::vector<std::vector<simulation::TrackView>> holes_;  ///< taken in, by body
+};
+
+}  // namespace carpus::session
