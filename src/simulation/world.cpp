@@ -79,8 +79,8 @@ void World::State::open(const Model& model) noexcept {
   first.hand = 0;
   const detail::BodyPose& target = poses[detail::first_of(model.kinds.target)];
   first.tip = (target * Point<frame::Bone>{model.opening.tip_in_target}).v;
-  first.shaft = normalized_or(
-      (target * Direction<frame::Bone>{model.opening.shaft_in_target}).v, {0, 0, 1});
+  first.shaft =
+      normalized_or((target * Direction<frame::Bone>{model.opening.shaft_in_target}).v, {0, 0, 1});
   now.held[0] = 0;
   scene.set_instrument(0, kind_of(model, first).shape);
   for (detail::HandState& hand : spent.hands) {

@@ -85,7 +85,7 @@ TEST(World, AFreeInstrumentNeverEntersBoneWhateverTheHandAndTheWristDo) {
       const ItemView& item = now.items[now.hands[0].item];
       for (const BoneId bone : {BoneId::Scaphoid, BoneId::Radius, BoneId::Lunate}) {
         const double back = instruments::catalogue()[item.instrument].shape.back_z_mm();
-      for (double along = 2; along < back; along += 3) {  // the shaft's middle line
+        for (double along = 2; along < back; along += 3) {  // the shaft's middle line
           deepest = std::max(
               deepest, depth_in(now, bone, item.tip_in_patient + item.shaft_in_patient * along));
         }
