@@ -20,7 +20,8 @@ TEST(PageMessages, RefusalsNameTheFieldAndItsRange) {
 }
 
 TEST(PageMessages, TextLongerThanTheLimitIsNotEvenParsed) {
-  const std::string long_text = R"({"type":"pause","x":")" + std::string(kMaxTextBytes, 'a') + "\"}";
+  const std::string long_text =
+      R"({"type":"pause","x":")" + std::string(kMaxTextBytes, 'a') + "\"}";
   const auto refused = parse_page_message(long_text);
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error(), "longer than 16384 bytes");
