@@ -331,22 +331,33 @@ TEST(World, TheGaugeReadsTheWireWhereverItsTipIs) {
   EXPECT_NEAR(op.now().gauge_reading_mm, 33.0, 0.3);
 }
 
-TEST(World, ReamsOverTheWireAndSeatsAScrewThatHoldsByTheBoneLeft) {
-  const auto holding_after = [](double reamed_mm) {
+TEST(World, ReamsOverTheWireAndHasTheWireAtHandAgain) {
+  Operator op;
+  op.place_on_entry({});
+  op.drive_to(24.0);
+  op.command(take("cannulated_drill"));
+  EXPECT_EQ(op.item().wire, 0);
+  op.drive_to(12.0);
+  EXPECT_EQ(refusal_in(op.command(simple(CommandKind::PutDown))), Refusal::HandIsFull)
+      << "a reamer in bone has to be drawn back";
+  op.hold(Driver::Reverse, 0.0, 12000);
+  EXPECT_EQ(op.item().instrument, test::instrument("guide_wire"));
+  EXPECT_NEAR(op.world().operation_record().reamed_mm, 12.0, 0.1);
+  EXPECT_EQ(op.now().track_count, 2);
+}
+
+TEST(World, AScrewHoldsByTheBoneThatIsLeftAroundIt) {
+  const auto holding_after = [](bool is_spoilt) {
     Operator op;
+    if (is_spoilt) {  // passes where its thread will run
+      for (const double aside : {1.7, -1.7}) {
+        op.place_on_entry({{aside, 0, 0}, {aside, 0, 0}});
+        op.drive_to(20.0);
+        op.hold(Driver::Reverse, 0.0, 5000);
+      }
+    }
     op.place_on_entry({});
     op.drive_to(24.0);
-    if (reamed_mm > 0) {
-      op.command(take("cannulated_drill"));
-      EXPECT_EQ(op.item().wire, 0);
-      op.drive_to(reamed_mm);
-      EXPECT_EQ(refusal_in(op.command(simple(CommandKind::PutDown))), Refusal::HandIsFull)
-          << "a reamer in bone has to be drawn back";
-      op.hold(Driver::Reverse, 0.0, 12000);
-      EXPECT_EQ(op.item().instrument, test::instrument("guide_wire"))
-          << "the wire is at hand again";
-      EXPECT_GT(op.world().operation_record().reamed_mm, reamed_mm - 0.1);
-    }
     op.command(take("acutrak_standard_1994_20"));
     EXPECT_NEAR(op.item().buried_mm, -20.0, 0.1);
     const double before = op.item().depth_mm;
@@ -356,11 +367,11 @@ TEST(World, ReamsOverTheWireAndSeatsAScrewThatHoldsByTheBoneLeft) {
     EXPECT_TRUE(is_done(op.now(), 4));
     return op.now().holding_share;
   };
-  const double whole = holding_after(0);
-  const double reamed = holding_after(20.0);
-  EXPECT_GT(whole, 0.5);
-  EXPECT_LT(reamed, whole);
-  EXPECT_GT(reamed, 0.0);
+  const double whole = holding_after(false);
+  const double spoilt = holding_after(true);
+  EXPECT_GT(whole, 0.95);
+  EXPECT_LT(spoilt, whole - 0.05);
+  EXPECT_GT(spoilt, 0.3);
 }
 
 TEST(World, ASeatedScrewStaysWhenItIsLetGoAndBacksOutWhenTakenUpAgain) {
