@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `window.carpus`: for tests and screenshots, what is shown; never a way to act.
-import type { SnapshotMessage, Vec3 } from "../protocol";
+import type { ExerciseMessage, SnapshotMessage, Vec3 } from "../protocol";
 import type { Theatre } from "../theatre";
+import type { WhatIsSeen } from "./what_is_seen";
 
 declare global {
   interface Window {
     carpus?: {
       snapshot(): SnapshotMessage | undefined;
+      exercise(): ExerciseMessage | undefined;
       pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
       screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
     };
@@ -16,12 +18,10 @@ declare global {
 }
 
 /** @return takes it away */
-export function showToTests(
-  theatre: Theatre,
-  snapshot: () => SnapshotMessage | undefined,
-): () => void {
+export function showToTests(theatre: Theatre, seen: WhatIsSeen): () => void {
   window.carpus = {
-    snapshot,
+    snapshot: () => seen.latest,
+    exercise: () => seen.doing,
     pagePoint: (mm) => theatre.pagePoint(mm),
     screenAxes: () => theatre.screenAxes(),
   };
