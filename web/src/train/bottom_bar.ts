@@ -119,10 +119,9 @@ export class BottomBar {
     setText(this.force, item === undefined ? "" : `force ${forceN(s, active).toFixed(1)} N`);
     const { gauge_reading_mm } = s;
     setText(this.gauge, gauge_reading_mm === null ? "" : `gauge ${gauge_reading_mm.toFixed(1)} mm`);
-    const holds = s.holding_share > 0;
     setText(
       this.holding,
-      holds ? `holds ${Math.round(100 * s.holding_share)} % of untouched bone` : "",
+      this.isScrewSeated(s) ? `holds ${Math.round(100 * s.holding_share)} % of untouched bone` : "",
     );
     this.sparkline.draw();
   }
@@ -149,11 +148,19 @@ export class BottomBar {
       const { touched_body, touching } = s.hands[hand];
       return touching ? `touches the ${this.label(touched_body)}` : "free";
     }
-    const isScrew =
-      this.exercise?.instruments.find((one) => one.id === item.instrument)?.family !== "";
-    if (!isScrew) return `depth ${item.depth_mm.toFixed(1)} mm`;
+    if (!this.isScrew(item)) return `depth ${item.depth_mm.toFixed(1)} mm`;
     const mm = Math.abs(item.buried_mm).toFixed(1);
     return item.buried_mm < 0 ? `tail stands out ${mm} mm` : `tail buried ${mm} mm`;
+  }
+
+  private isScrew(item: Item): boolean {
+    const kind = this.exercise?.instruments.find((one) => one.id === item.instrument);
+    return kind !== undefined && kind.family !== "";
+  }
+
+  /** Some screw lies in the bone that is operated on, its tail below the surface. */
+  private isScrewSeated(s: SnapshotMessage): boolean {
+    return s.items.some((item) => this.isScrew(item) && item.in_target && item.buried_mm >= 0);
   }
 
   private label(body: string): string {

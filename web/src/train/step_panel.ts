@@ -16,7 +16,10 @@ interface ShownStep {
 
 export class StepPanel {
   readonly element: HTMLElement;
-  private readonly list = make("ol.step-list");
+  private readonly list = make("ol.step-list", {
+    tabindex: "0",
+    "aria-label": "Steps of the procedure",
+  });
   private items: readonly ShownStep[] = [];
   private readonly announcer = make("p.visually-hidden", { "aria-live": "polite" });
   private readonly log = make("ol.log", { "aria-label": "What happened", tabindex: "0" });

@@ -6,6 +6,7 @@
 import { OfferedActions, whyStuck } from "../operation";
 import type {
   ActionsMessage,
+  BodyPose,
   ExerciseMessage,
   Instrument,
   SnapshotMessage,
@@ -20,6 +21,7 @@ export class WhatIsSeen {
   private snapshot: SnapshotMessage | undefined;
   private exercise: ExerciseMessage | undefined;
   private actions = new OfferedActions();
+  private poses: readonly BodyPose[] = [];
 
   constructor(
     private readonly panels: Panels,
@@ -36,6 +38,17 @@ export class WhatIsSeen {
 
   get offered(): OfferedActions {
     return this.actions;
+  }
+
+  /** By name, as told last. */
+  bodyPoses(): Readonly<Record<string, BodyPose>> {
+    const bodies = this.exercise?.bodies ?? [];
+    return Object.fromEntries(
+      bodies.flatMap(({ name }, i) => {
+        const pose = this.poses[i];
+        return pose === undefined ? [] : [[name, pose]];
+      }),
+    );
   }
 
   /** What people call a body. */
@@ -85,6 +98,7 @@ export class WhatIsSeen {
   private poseBodies(s: SnapshotMessage, isFirst: boolean): void {
     const { exercise, theatre } = this;
     if (exercise === undefined || s.bodies === null) return;
+    this.poses = s.bodies;
     s.bodies.forEach((pose, index) => {
       const body = exercise.bodies[index];
       if (body !== undefined) theatre.setBonePose(body.name, pose);

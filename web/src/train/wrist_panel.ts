@@ -36,9 +36,9 @@ export class WristPanel {
       make("h3", {}, "Wrist"),
       ...this.rows.map(({ axis, slider, reading }) => {
         const [name] = NAMES[axis];
-        const keys = WRIST_KEYS[axis].map((key) => make("kbd", {}, key.toUpperCase()));
+        const [more, less] = WRIST_KEYS[axis].map((key) => make("kbd", {}, key.toUpperCase()));
         const label = make("label", { for: slider.id }, name);
-        return make("div.wrist-row", {}, label, ...keys.reverse(), slider, reading);
+        return make("div.wrist-row", {}, label, less ?? "", slider, more ?? "", reading);
       }),
     );
   }
