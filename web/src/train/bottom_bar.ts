@@ -4,7 +4,7 @@
 // What the hands hold and feel, and the ways on, back and out. A way that is not open now says why.
 import { button, make, setText } from "../dom";
 import { heldItem, type HandIndex } from "../operation";
-import type { ExerciseMessage, Item, SnapshotMessage } from "../protocol";
+import type { Driver, ExerciseMessage, Item, SnapshotMessage } from "../protocol";
 import { Sparkline } from "./sparkline";
 
 export interface BottomBarHandlers {
@@ -33,13 +33,18 @@ export function forceN(s: SnapshotMessage, hand: HandIndex): number {
   return Math.hypot(...s.hands[hand].force_n);
 }
 
+const DRIVING: Readonly<Record<Driver, string>> = {
+  off: "",
+  forward: "driving, ",
+  reverse: "reversing, ",
+};
 const HANDS = ["First hand", "Second hand"] as const;
 
 export class BottomBar {
   readonly element: HTMLElement;
   private readonly hands: readonly [HTMLButtonElement, HTMLButtonElement];
   private readonly driver = make("span");
-  private readonly depth = make("span");
+  private readonly depth = make("span.depth");
   private readonly resistance = make("span");
   private readonly force = make("span");
   private readonly gauge = make("span");
@@ -52,7 +57,7 @@ export class BottomBar {
 
   constructor(handlers: BottomBarHandlers) {
     const hand = (index: HandIndex): HTMLButtonElement => {
-      const b = make("button.quiet.hand", { type: "button" }, "empty");
+      const b = make("button.quiet.hand", { type: "button" }, `${index + 1} empty`);
       b.addEventListener("click", () => {
         handlers.hand(index);
       });
@@ -108,10 +113,10 @@ export class BottomBar {
     this.sparkline.push(forceN(s, hand));
   }
 
-  show(s: SnapshotMessage, active: HandIndex, driver: string, thrustN: number): void {
+  show(s: SnapshotMessage, active: HandIndex, driver: Driver, thrustN: number): void {
     for (const hand of [0, 1] as const) this.showHand(s, hand, hand === active);
     const item = heldItem(s, active);
-    setText(this.driver, item === undefined ? "" : `driver ${driver}, push ${thrustN} N`);
+    setText(this.driver, item === undefined ? "" : `${DRIVING[driver]}push ${thrustN} N`);
     this.driver.classList.toggle("running", driver !== "off");
     setText(this.depth, item === undefined ? "" : this.depthText(item, s, active));
     const { resistance_n } = s.hands[active];

@@ -6,6 +6,7 @@
 import { button, make, setText } from "../dom";
 import type { HandIndex, OfferedActions } from "../operation";
 import type { ExerciseMessage, Instrument } from "../protocol";
+import { commonBeginning } from "./family_name_model";
 
 export interface TrayState {
   readonly offered: OfferedActions;
@@ -108,7 +109,7 @@ export class TrayDialog {
         make(
           "fieldset",
           {},
-          make("legend", {}, family === "" ? "Instruments" : family),
+          make("legend", {}, family === "" ? "Instruments" : this.familyName(family)),
           ...this.tray
             .filter((one) => one.family === family)
             .map((one) => this.row(one, state, one.id === (chosen ?? this.tray[0]?.id))),
@@ -117,12 +118,17 @@ export class TrayDialog {
     );
   }
 
+  private familyName(family: string): string {
+    return commonBeginning(this.tray.filter((one) => one.family === family).map((one) => one.name));
+  }
+
   private row(one: Instrument, { offered, hand, held }: TrayState, isChosen: boolean): HTMLElement {
     const why = offered.whyNot({ id: "take", hand, instrument: one.id });
     const input = make("input", { type: "radio", name: "tray", value: one.id });
     input.checked = isChosen;
     input.disabled = why !== undefined;
     const sizes = `tip ${one.tip_diameter_mm.toFixed(1)}, tail ${one.tail_diameter_mm.toFixed(1)} mm`;
+    const name = one.family === "" ? one.name : one.name.slice(this.familyName(one.family).length);
     const about = why ?? (one.family === "" ? one.use : sizes);
     return make(
       "label",
@@ -131,7 +137,7 @@ export class TrayDialog {
       make(
         "span.tray-name",
         {},
-        one.id === held ? `${one.name}, in this hand` : one.name,
+        one.id === held ? `${name}, in this hand` : name,
         make("span.secondary", {}, about),
       ),
     );
