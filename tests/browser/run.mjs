@@ -405,7 +405,7 @@ async function operateFromVolar(page, station) {
     );
     await operator.holdKey(
       "r",
-      (s) => Operator.held(s).depth_mm <= 0.05,
+      (s) => Operator.held(s)?.instrument !== "cannulated_drill",
       "the drill out",
     );
     const screw = await operator.fittingScrew();

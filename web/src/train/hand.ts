@@ -170,6 +170,9 @@ export class Hand {
     const before = this.last;
     this.last = s;
     const anew = before === undefined || !this.isPlaced || s.undos !== before.undos;
+    // What is driven came off or was put down: the held key was not meant for what is in the hand now.
+    if (before !== undefined && s.hands[this.moved].item !== before.hands[this.moved].item)
+      this.stopDriving();
     for (const hand of [0, 1] as const) {
       const item = heldItem(s, hand);
       const had = before === undefined ? undefined : heldItem(before, hand);
@@ -177,6 +180,11 @@ export class Hand {
       if (item === undefined ? !this.isPlaced : anew || isFreed) this.takeOver(hand, item, isFreed);
     }
     this.isPlaced = true;
+  }
+
+  private stopDriving(): void {
+    for (const [code, { action }] of this.held) if (action.kind === "drive") this.held.delete(code);
+    this.changed = true;
   }
 
   private takeOver(hand: HandIndex, item: Item | undefined, isAtBone: boolean): void {
