@@ -21,19 +21,25 @@ const unit = (a) => a.map((v) => v / Math.sqrt(dot(a, a)));
 const DEG_PER_PX = 0.25;
 const MAX_DRAG_PX = 160;
 
-export function readAxis(caseFolder) {
+/** The central axis as scanned, from `entry` (where the wire goes in) to `end`. */
+export function readAxis(caseFolder, from = "proximal") {
   const data = JSON.parse(readFileSync(join(caseFolder, "case.json"), "utf8"));
   const { proximal_mm: proximal, distal_mm: distal } =
     data.scaphoid.central_axis;
-  return { proximal, distal, toHand: unit(add(proximal, distal, -1)) };
+  const [entry, end] =
+    from === "proximal" ? [proximal, distal] : [distal, proximal];
+  return { entry, end, lengthMm: Math.hypot(...add(entry, end, -1)) };
 }
 
-/** The forearm's directions as it is held, in Patient: docs/units_and_frames.md. */
-export function readHeldWrist(caseFolder) {
+function turned([w, x, y, z], v) {
+  const t = cross([x, y, z], v).map((c) => 2 * c);
+  return add(add(v, t, w), cross([x, y, z], t));
+}
+
+/** The forearm's directions as scanned, in Patient: docs/units_and_frames.md. */
+export function readWrist(caseFolder) {
   const data = JSON.parse(readFileSync(join(caseFolder, "case.json"), "utf8"));
-  const forearm = data.operative_posture.patient_from_forearm.rotation;
-  const held = (axis) => forearm.map((row) => dot(row, axis));
-  const [x, y, z] = data.wrist_from_patient.rotation.map(held);
+  const [x, y, z] = data.wrist_from_patient.rotation;
   const opposite = (v) => v.map((c) => -c);
   return {
     distal: opposite(x),
@@ -49,6 +55,27 @@ export class Operator {
 
   snapshot() {
     return this.page.evaluate(() => window.carpus?.snapshot());
+  }
+
+  exercise() {
+    return this.page.evaluate(() => window.carpus?.exercise());
+  }
+
+  /** What `hand` holds, of a snapshot. */
+  static held(s, hand = 0) {
+    return s.items.find((item) => item.hand === hand);
+  }
+
+  /** The axis where the first part of the bone that is operated on is now. */
+  async axisNow(axis) {
+    const { bodies, name } = await this.page.evaluate(() => ({
+      bodies: window.carpus.bodyPoses(),
+      name: window.carpus.exercise().bodies.find((body) => body.is_target).name,
+    }));
+    const { quaternion, translation_mm: moved } = bodies[name];
+    const at = (p) => add(turned(quaternion, p), moved);
+    const [entry, end] = [at(axis.entry), at(axis.end)];
+    return { entry, end, toHand: unit(add(entry, end, -1)) };
   }
 
   /** Waits until the snapshot satisfies `holds`. Asked from here: the page forbids eval. */
@@ -93,11 +120,13 @@ export class Operator {
     await this.page.waitForTimeout(120);
   }
 
-  async start(url, trainee) {
+  async start(url, trainee, procedure) {
     await this.page.goto(url);
     await this.page
       .locator("dialog.start button[type=submit]:not([disabled])")
       .waitFor();
+    if (procedure !== undefined)
+      await this.page.check(`input[name=procedure][value=${procedure}]`);
     await this.page.fill("#trainee-name", trainee);
     await this.page.click("dialog.start button[type=submit]");
     await this.until((s) => s.tick > 0, "the first ticks");
@@ -109,7 +138,7 @@ export class Operator {
     const from = { x: box.x + box.width * 0.5, y: box.y + box.height * 0.5 };
     let angle = 180;
     for (let round = 0; round < 12 && angle > withinDeg; ++round) {
-      const { shaft } = await this.snapshot();
+      const { shaft } = Operator.held(await this.snapshot());
       angle =
         (180 / Math.PI) * Math.acos(Math.min(1, dot(unit(shaft), toHand)));
       if (angle <= withinDeg) break;
@@ -188,8 +217,8 @@ export class Operator {
     let isLight = false;
     let last = -1;
     for (let push = 0; push < 250; ++push) {
-      const { wire_depth_mm: depth, wire_engaged: isEngaged } =
-        await this.snapshot();
+      const { depth_mm: depth, body } = Operator.held(await this.snapshot());
+      const isEngaged = body !== "";
       if (isEngaged && depth >= depthMm) return;
       if (!isLight && isEngaged && depth >= 0.5) {
         isLight = true;
@@ -236,14 +265,47 @@ export class Operator {
     });
   }
 
-  /** Entry, aim, drive: the wire lies in the scaphoid, a little before its far end. */
+  /** Takes an instrument of the tray by its list. */
+  async take(id) {
+    await this.page.keyboard.press("c");
+    await this.page.locator("dialog.tray[open] input:checked").waitFor();
+    await this.page.check(`dialog.tray input[value=${id}]`);
+    await this.page.keyboard.press("Enter");
+    await this.until(
+      (s) => Operator.held(s)?.instrument === id,
+      `${id} in the hand`,
+    );
+  }
+
+  /** The longest screw of the tray that is at least 4 mm shorter than measured. */
+  async fittingScrew() {
+    const { gauge_reading_mm: measured } = await this.snapshot();
+    const { instruments } = await this.exercise();
+    const fitting = instruments.filter(
+      (one) => one.family !== "" && one.length_mm <= measured - 4,
+    );
+    if (fitting.length === 0) throw new Error(`no screw for ${measured} mm`);
+    return fitting.reduce((a, b) => (b.length_mm > a.length_mm ? b : a));
+  }
+
+  /** Drives what rides on the wire by short pushes until `holds` of it. */
+  async driveOn(holds, what, pushMs = 60) {
+    for (let push = 0; push < 250; ++push) {
+      if (holds(Operator.held(await this.snapshot()))) return;
+      await this.push("Space", pushMs);
+    }
+    throw new Error(`in vain: ${what}`);
+  }
+
+  /** Entry and aim: the tip on the bone, the shaft along the axis. @return degrees that it is off */
   async placeWire(axis) {
-    const angle = await this.turnShaft(axis.toHand);
-    // Looking along the wire the entry point is in front of everything else that matters.
-    await this.page.getByRole("button", { name: "Along wire" }).click();
+    const { entry, toHand } = await this.axisNow(axis);
+    const angle = await this.turnShaft(toHand);
+    // Looking along the shaft the entry point is in front of everything else that matters.
+    await this.page.getByRole("button", { name: "Along shaft" }).click();
     await this.settle();
-    await this.dragTipTo(axis.proximal);
-    await this.until((s) => s.touching, "the tip touches");
+    await this.dragTipTo(entry);
+    await this.until((s) => s.hands[0].touching, "the tip touches");
     return angle;
   }
 }

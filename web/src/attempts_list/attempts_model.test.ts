@@ -8,8 +8,9 @@ import { dateText, durationText, procedureText } from "./attempts_model";
 describe("texts", () => {
   it("write minutes and leave what is no date", () => {
     expect(durationText(61.5)).toBe("1:02");
-    expect(procedureText("dorsal_scaphoid_fixation")).toBe("Dorsal scaphoid fixation");
-    expect(procedureText("another")).toBe("another");
+    const known = [{ id: "a_procedure", title: "A procedure", summary: "" }];
+    expect(procedureText("a_procedure", known)).toBe("A procedure");
+    expect(procedureText("another", known)).toBe("another");
     expect(dateText("soon")).toBe("soon");
     expect(dateText("2026-11-21T03:15:00Z")).toMatch(/2026/);
   });

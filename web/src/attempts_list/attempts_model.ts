@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Figures of past attempts as people write them.
+import type { ProcedureSummary } from "../protocol";
+
 /** "21 Nov 2026, 03:15", in the reader's own time; the text as it is where it is no date. */
 export function dateText(iso: string): string {
   const date = new Date(iso);
@@ -21,6 +23,7 @@ export function durationText(seconds: number): string {
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
 }
 
-export function procedureText(id: string): string {
-  return id === "dorsal_scaphoid_fixation" ? "Dorsal scaphoid fixation" : id;
+/** Its title, or its id where the host does not offer it. */
+export function procedureText(id: string, known: readonly ProcedureSummary[]): string {
+  return known.find((one) => one.id === id)?.title ?? id;
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Past attempts, newest first; each opens its score.
-import { fetchAttempts } from "../case_data";
+import { fetchAttempts, fetchProcedures } from "../case_data";
 import { make } from "../dom";
-import type { AttemptSummary } from "../protocol";
+import type { AttemptSummary, ProcedureSummary } from "../protocol";
 import { dateText, durationText, procedureText } from "./attempts_model";
 
 export function mountAttempts(app: HTMLElement): () => void {
@@ -25,8 +25,9 @@ export function mountAttempts(app: HTMLElement): () => void {
   );
   void (async () => {
     try {
-      const attempts = await fetchAttempts();
-      if (!left) body.replaceChildren(attempts.length === 0 ? nothingYet() : table(attempts));
+      const [attempts, known] = await Promise.all([fetchAttempts(), fetchProcedures()]);
+      if (!left)
+        body.replaceChildren(attempts.length === 0 ? nothingYet() : table(attempts, known));
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       if (!left) body.replaceChildren(make("p", { role: "alert" }, why));
@@ -41,7 +42,10 @@ function nothingYet(): HTMLElement {
   return make("p.secondary", {}, "None yet. An attempt is stored when it is finished or left.");
 }
 
-function table(attempts: readonly AttemptSummary[]): HTMLElement {
+function table(
+  attempts: readonly AttemptSummary[],
+  known: readonly ProcedureSummary[],
+): HTMLElement {
   const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "Input", "Time", "Score"];
   return make(
     "div.table-frame",
@@ -50,7 +54,7 @@ function table(attempts: readonly AttemptSummary[]): HTMLElement {
       "table",
       {},
       make("thead", {}, make("tr", {}, ...heads.map((head) => make("th", { scope: "col" }, head)))),
-      make("tbody", {}, ...attempts.map(row)),
+      make("tbody", {}, ...attempts.map((attempt) => row(attempt, known))),
     ),
   );
 }
@@ -60,7 +64,7 @@ function caseCell(attempt: AttemptSummary): (Node | string)[] {
   return attempt.case_simulated === true ? [attempt.case, " ", badge] : [attempt.case];
 }
 
-function row(attempt: AttemptSummary): HTMLElement {
+function row(attempt: AttemptSummary, known: readonly ProcedureSummary[]): HTMLElement {
   const score = attempt.overall !== null;
   return make(
     "tr",
@@ -69,7 +73,7 @@ function row(attempt: AttemptSummary): HTMLElement {
     make("td", {}, dateText(attempt.started_at)),
     make("td", {}, attempt.trainee === "" ? "not named" : attempt.trainee),
     make("td", {}, ...caseCell(attempt)),
-    make("td", {}, procedureText(attempt.procedure)),
+    make("td", {}, procedureText(attempt.procedure, known)),
     make("td", {}, attempt.input_device),
     make("td.figure", {}, durationText(attempt.duration_s)),
     make(

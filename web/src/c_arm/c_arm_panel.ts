@@ -29,37 +29,30 @@ export class CArmPanel {
     "aria-label": "Last pictures",
   });
   private readonly pictures: CArmPicture[] = [];
-  private readonly viewButtons: HTMLButtonElement[];
+  private readonly viewGroup = make("div.c-arm-views", {
+    role: "group",
+    "aria-label": "Take a picture",
+  });
+  private views: readonly NamedView[] = [];
+  private viewButtons: HTMLButtonElement[] = [];
   private readonly invertButton: HTMLButtonElement;
   private shown = -1;
   private inverted = false;
   private rotationDeg = 0;
   private tiltDeg = 0;
 
-  constructor(
-    private readonly views: readonly NamedView[],
-    private readonly handlers: CArmHandlers,
-  ) {
-    this.viewButtons = views.map((view, index) =>
-      button(view.label, index < 6 ? String(index + 1) : "", () => {
-        this.shoot(index);
-      }),
-    );
+  constructor(private readonly handlers: CArmHandlers) {
     this.invertButton = button("Invert", "I", () => {
       this.invert();
     });
     this.invertButton.setAttribute("aria-pressed", "false");
-    setText(this.empty, "No picture yet. Press 1 for PA, 2 for lateral.");
+    setText(this.empty, "No picture yet.");
     this.element = make(
       "section.c-arm",
       { "aria-label": "C-arm" },
       make("header.panel-title", {}, make("h2", {}, "C-arm"), this.name),
       make("div.c-arm-frame", {}, this.canvas, this.empty),
-      make(
-        "div.c-arm-views",
-        { role: "group", "aria-label": "Take a picture" },
-        ...this.viewButtons,
-      ),
+      this.viewGroup,
       this.standRow(),
       this.count,
       this.strip,
@@ -98,6 +91,27 @@ export class CArmPanel {
       }),
       this.invertButton,
     );
+  }
+
+  /** The views that have a button and a digit. */
+  setViews(views: readonly NamedView[]): void {
+    this.views = views;
+    this.viewButtons = views.map((view, index) =>
+      button(view.label, index < 6 ? String(index + 1) : "", () => {
+        this.shoot(index);
+      }),
+    );
+    this.viewGroup.replaceChildren(...this.viewButtons);
+    const first = views[0];
+    setText(
+      this.empty,
+      first === undefined ? "No picture yet." : `No picture yet. Press 1 for ${first.label}.`,
+    );
+    this.rotationDeg = first?.rotation_deg ?? 0;
+    this.tiltDeg = first?.tilt_deg ?? 0;
+    this.showStand();
+    this.redraw();
+    this.redrawStrip();
   }
 
   /** Takes the picture of a named view; the C-arm then stands there. */

@@ -6,12 +6,12 @@ import {
   parseAttempt,
   parseAttemptList,
   parseCaseDescription,
-  parseScrewTray,
+  parseProcedureList,
   type Attempt,
   type AttemptSummary,
   type CaseDescription,
   type Parsed,
-  type Screw,
+  type ProcedureSummary,
 } from "../protocol";
 
 export class HostUnreachable extends Error {}
@@ -44,8 +44,9 @@ export function fetchCase(): Promise<CaseDescription> {
   return ask("/api/case", parseCaseDescription);
 }
 
-export async function fetchScrews(): Promise<readonly Screw[]> {
-  return (await ask("/api/screws", parseScrewTray)).screws;
+/** What can be practised on the case. */
+export async function fetchProcedures(): Promise<readonly ProcedureSummary[]> {
+  return (await ask("/api/procedures", parseProcedureList)).procedures;
 }
 
 /** Newest first. */

@@ -1,5 +1,5 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the host tells about the case, its screws and past attempts over HTTP.
+// What the host tells about the case, its procedures and past attempts over HTTP.
 export * from "./case_client";

@@ -4,7 +4,7 @@
 // The one place that knows both frames. Patient: LPS, mm. Renderer: metres, Y up, seen from +Z.
 //
 // The wrist frame (docs/units_and_frames.md) is +x proximal, +z volar, +y ulnar on a left wrist and
-// radial on a right one; here always that of the forearm as it is held, as for the C-arm. The
+// radial on a right one; here always that of the forearm as scanned, which is how the room stands. The
 // renderer's axes are laid along it so that the camera looks as the C-arm does in PA, from dorsal
 // with distal up: Y = distal = -x, Z = dorsal = -z, X = Y x Z = -y. A rotation, never a reflection:
 // a left hand's thumb is on the right.
@@ -15,13 +15,13 @@ const METRES_PER_MM = 0.001;
 /** 16 numbers, column by column, as three.js takes them. */
 export type Matrix16 = readonly number[];
 
-/** @param heldWristFromPatient 4 x 4, row by row, rigid, mm. */
-export function rendererFromPatient(heldWristFromPatient: readonly number[]): Matrix16 {
-  if (heldWristFromPatient.length !== 16 || !heldWristFromPatient.every(Number.isFinite)) {
-    throw new Error("held_wrist_from_patient must hold 16 finite numbers");
+/** @param wristFromPatient 4 x 4, row by row, rigid, mm. */
+export function rendererFromPatient(wristFromPatient: readonly number[]): Matrix16 {
+  if (wristFromPatient.length !== 16 || !wristFromPatient.every(Number.isFinite)) {
+    throw new Error("wrist_from_patient must hold 16 finite numbers");
   }
   const row = (r: number): number[] =>
-    [0, 1, 2, 3].map((c) => -METRES_PER_MM * (heldWristFromPatient[4 * r + c] ?? 0));
+    [0, 1, 2, 3].map((c) => -METRES_PER_MM * (wristFromPatient[4 * r + c] ?? 0));
   const [x, y, z] = [row(1), row(0), row(2)];
   const matrix: number[] = [];
   for (let c = 0; c < 4; ++c) {
@@ -41,8 +41,8 @@ export interface FrameMap {
   directionToRenderer(v: Vec3): Vec3;
 }
 
-export function makeFrameMap(heldWristFromPatient: readonly number[]): FrameMap {
-  const m = rendererFromPatient(heldWristFromPatient);
+export function makeFrameMap(wristFromPatient: readonly number[]): FrameMap {
+  const m = rendererFromPatient(wristFromPatient);
   const at = (i: number): number => m[i] ?? 0;
   const direction = (x: number, y: number, z: number): Vec3 => {
     const scale = 1 / METRES_PER_MM;

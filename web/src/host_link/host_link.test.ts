@@ -33,7 +33,7 @@ class FakeSocket implements Socket {
 
 const welcome = JSON.stringify({
   type: "welcome",
-  protocol: 3,
+  protocol: 4,
   program: "carpus",
   exercise: 0,
   trainee: "",
@@ -69,12 +69,12 @@ describe("HostLink", () => {
   });
 
   it("says hello first and sends nothing else before the welcome", () => {
-    expect(link.send({ type: "measure" })).toBe(false);
+    expect(link.send({ type: "pause", on: true })).toBe(false);
     last().open();
-    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 3, page: "word" });
-    expect(link.send({ type: "measure" })).toBe(false);
+    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 4, page: "word" });
+    expect(link.send({ type: "pause", on: true })).toBe(false);
     last().bring(welcome);
-    expect(link.send({ type: "measure" })).toBe(true);
+    expect(link.send({ type: "pause", on: true })).toBe(true);
   });
 
   it("says the same word when it comes again", () => {
@@ -101,7 +101,7 @@ describe("HostLink", () => {
     last().bring(welcome);
     last().lose();
     expect(handlers.onState).toHaveBeenLastCalledWith("lost", "");
-    expect(link.send({ type: "undo" })).toBe(false);
+    expect(link.send({ type: "pause", on: true })).toBe(false);
     vi.advanceTimersByTime(500);
     expect(sockets.length).toBe(2);
     last().lose();

@@ -3,5 +3,6 @@
 //
 // What the trainee can do and what comes next.
 export * from "./key_map";
-export * from "./step_guide";
+export * from "./offered_actions";
+export * from "./held_items";
 export * from "./tick_text";

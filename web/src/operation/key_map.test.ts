@@ -3,7 +3,7 @@
 //
 // Keys do what the help says, and no key does two things.
 import { describe, expect, it } from "vitest";
-import { HELP, heldAction, onceAction, type KeyPress } from "./key_map";
+import { HELP, heldAction, keysOf, onceAction, WRIST_KEYS, type KeyPress } from "./key_map";
 
 function press(
   key: string,
@@ -23,6 +23,16 @@ describe("heldAction", () => {
   it("drives by Space and R, in capitals too", () => {
     expect(heldAction(press(" ", "Space"))).toEqual({ kind: "drive", driver: "forward" });
     expect(heldAction(press("R", "KeyR"))).toEqual({ kind: "drive", driver: "reverse" });
+  });
+
+  it("moves the wrist both ways by a pair of keys each", () => {
+    for (const [axis, keys] of Object.entries(WRIST_KEYS)) {
+      const signs = keys.map((key) => heldAction(press(key)));
+      expect(signs).toEqual([
+        { kind: "move_wrist", axis, sign: 1 },
+        { kind: "move_wrist", axis, sign: -1 },
+      ]);
+    }
   });
 
   it("leaves the browser's own shortcuts alone", () => {
@@ -55,9 +65,14 @@ describe("HELP", () => {
   it("names every letter that does something", () => {
     const shown = HELP.flatMap((group) => group.lines.map((line) => line.keys)).join(" ");
     for (const letter of "abcdefghijklmnopqrstuvwxyz") {
-      if (letter === "h") continue; // a second key for the help itself
       const does = heldAction(press(letter)) ?? onceAction(press(letter));
       if (does !== undefined) expect(shown).toMatch(new RegExp(`\\b${letter.toUpperCase()}\\b`));
     }
+  });
+});
+
+describe("keysOf", () => {
+  it("names the keys of a step's actions once each and passes over what it has none for", () => {
+    expect(keysOf(["shot", "take_shot", "sing", "finish"])).toEqual(["1 … 6, X", "F"]);
   });
 });

@@ -12,11 +12,10 @@ import {
   drawInstrument,
   glassBoneMaterial,
   loadCaseScene,
-  screwParts,
   studioLight,
-  wireParts,
 } from "../theatre";
 import { normalized, subtract } from "../tool_placement";
+import { placedScrewParts, placedWireParts } from "./placed_parts";
 
 interface Look {
   readonly name: string;
@@ -35,7 +34,7 @@ export async function placementPictures(
   placement: Placement,
 ): Promise<HTMLElement[]> {
   const scene = await loadCaseScene("/api/scene.glb");
-  const frames = makeFrameMap(description.held_wrist_from_patient);
+  const frames = makeFrameMap(description.wrist_from_patient);
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(1);
   renderer.setSize(SIDE_PX, SIDE_PX, false);
@@ -112,13 +111,13 @@ function hardware(placement: Placement): THREE.Object3D[] {
     const shaft = normalized(subtract(wire.entry_mm, wire.tip_mm));
     // With 12 mm of what stands out, to show where it came in.
     const lengthMm = Math.hypot(...subtract(wire.entry_mm, wire.tip_mm)) + 12;
-    const drawn = drawInstrument(wireParts(lengthMm));
+    const drawn = drawInstrument(placedWireParts(lengthMm));
     alignShaft(drawn, wire.tip_mm, shaft);
     objects.push(drawn);
   }
   if (screw !== null) {
     const length_mm = Math.hypot(...subtract(screw.tail_mm, screw.tip_mm));
-    const drawn = drawInstrument(screwParts({ ...screw, length_mm }));
+    const drawn = drawInstrument(placedScrewParts(screw, length_mm));
     alignShaft(drawn, screw.tip_mm, normalized(subtract(screw.tail_mm, screw.tip_mm)));
     objects.push(drawn);
   }

@@ -4,7 +4,7 @@
 // The debrief of one attempt: the placement first, then the figures with target, reason and grade.
 // Prints on two pages.
 import { dateText, durationText, procedureText } from "../attempts_list";
-import { fetchAttempt, fetchCase, NotThere } from "../case_data";
+import { fetchAttempt, fetchCase, fetchProcedures, NotThere } from "../case_data";
 import { button, make } from "../dom";
 import type { Attempt, CaseDescription, ScoreItem, ScoreReport } from "../protocol";
 import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
@@ -20,8 +20,13 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
   app.replaceChildren(main);
   void (async () => {
     try {
-      const [attempt, description] = await Promise.all([fetchAttempt(attemptId), fetchCase()]);
-      if (!left) show(main, attempt, description);
+      const [attempt, description, procedures] = await Promise.all([
+        fetchAttempt(attemptId),
+        fetchCase(),
+        fetchProcedures(),
+      ]);
+      const title = procedureText(attempt.procedure, procedures);
+      if (!left) show(main, attempt, title, description);
     } catch (error) {
       if (left) return;
       const gone = error instanceof NotThere;
@@ -38,13 +43,18 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
   };
 }
 
-function show(main: HTMLElement, attempt: Attempt, description: CaseDescription): void {
+function show(
+  main: HTMLElement,
+  attempt: Attempt,
+  procedure: string,
+  description: CaseDescription,
+): void {
   const report = attempt.score;
   const operated = attemptedCase(attempt, description);
   const about = [
     attempt.trainee === "" ? "trainee not named" : attempt.trainee,
     attempt.case,
-    procedureText(attempt.procedure),
+    procedure,
     dateText(attempt.started_at),
     `${durationText(attempt.duration_s)} min`,
     attempt.input_device,

@@ -3,31 +3,44 @@
 //
 // Who operates, on which case, and that it is no patient where it is none.
 import { button, make, setText } from "../dom";
-import type { CaseDescription } from "../protocol";
+import type { CaseDescription, ProcedureSummary } from "../protocol";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
 
 export interface StartChoice {
   readonly trainee: string;
+  /** Id of what is to be practised; empty where the host offers nothing. */
+  readonly procedure: string;
 }
 
 const NAME_KEY = "carpus.trainee";
+const PROCEDURE_KEY = "carpus.procedure";
 const MAX_NAME = 64;
 
-function rememberedName(): string {
+function remembered(key: string): string {
   try {
-    return localStorage.getItem(NAME_KEY) ?? "";
+    return localStorage.getItem(key) ?? "";
   } catch {
-    return ""; // storage may be forbidden; the name is then typed again
+    return ""; // storage may be forbidden; it is then said again
   }
 }
 
-function rememberName(name: string): void {
+function remember(key: string, value: string): void {
   try {
-    localStorage.setItem(NAME_KEY, name);
+    localStorage.setItem(key, value);
   } catch {
-    // storage may be forbidden; the name is then typed again
+    // storage may be forbidden; it is then said again
   }
+}
+
+/** ", scaphoid in 2 parts" of the bones that the scene has in parts. */
+function brokenText(bones: readonly string[]): string {
+  const parts = new Map<string, number>();
+  for (const name of bones) {
+    const [bone, part] = name.split("_");
+    if (bone !== undefined && part !== undefined) parts.set(bone, (parts.get(bone) ?? 0) + 1);
+  }
+  return [...parts].map(([bone, count]) => `, ${bone} in ${count} parts`).join("");
 }
 
 export class StartDialog {
@@ -39,6 +52,7 @@ export class StartDialog {
 
   constructor(
     description: CaseDescription,
+    private readonly procedures: readonly ProcedureSummary[],
     onStart: (choice: StartChoice) => void,
     onResume: (choice: StartChoice) => void,
   ) {
@@ -48,7 +62,7 @@ export class StartDialog {
       maxlength: String(MAX_NAME),
       autocomplete: "off",
       spellcheck: "false",
-      value: rememberedName(),
+      value: remembered(NAME_KEY),
     });
     this.start = make("button.primary", { type: "submit" }, "Start");
     this.resume = button("Go on with the running exercise", "", () => {
@@ -66,10 +80,11 @@ export class StartDialog {
           "div",
           {},
           make("h1", { id: "start-title" }, "Carpus"),
-          make("p.secondary", {}, "Percutaneous scaphoid fixation, for training"),
+          make("p.secondary", {}, "Wrist surgery, for training"),
         ),
       ),
       this.facts(description),
+      this.procedureChoice(),
       make("label", { for: "trainee-name" }, "Your name, for the list of attempts"),
       this.name,
       this.note,
@@ -100,23 +115,50 @@ export class StartDialog {
     ];
     const patient: (Node | string)[] = [d.pseudonym];
     if (d.simulated) patient.push(" ", make("span.badge", {}, "simulated"));
-    const bone = d.broken_scaphoid
-      ? "scaphoid nonunion, both parts as they lie"
-      : "scaphoid in one";
+    const flexion = Math.round(d.scan.flexion_deg);
+    const scanned =
+      flexion === 0 ? "straight" : `${flexion > 0 ? "flexed" : "extended"} ${Math.abs(flexion)}°`;
     return make(
       "dl.start-facts",
       {},
       ...row("Case", ...patient),
-      ...row("Side", `${d.side} wrist, flexed ${Math.round(Math.abs(d.flexion_deg))}°, ${bone}`),
+      ...row("Side", `${d.side} wrist, scanned ${scanned}${brokenText(d.bones)}`),
       ...row("From", d.source === "" ? "not stated" : withTimesSigns(d.source)),
-      ...row("Procedure", "Dorsal percutaneous fixation, 1.14 mm guide wire, headless screw"),
+    );
+  }
+
+  private procedureChoice(): HTMLElement {
+    const last = remembered(PROCEDURE_KEY);
+    const chosen = this.procedures.find((one) => one.id === last) ?? this.procedures[0];
+    return make(
+      "fieldset.start-procedures",
+      {},
+      make("legend", {}, "Procedure"),
+      ...this.procedures.map((procedure) => {
+        const input = make("input", { type: "radio", name: "procedure", value: procedure.id });
+        input.checked = procedure === chosen;
+        return make(
+          "label",
+          {},
+          input,
+          make(
+            "span",
+            {},
+            make("strong", {}, procedure.title),
+            make("span.secondary", {}, procedure.summary),
+          ),
+        );
+      }),
     );
   }
 
   private choice(): StartChoice {
     const trainee = this.name.value.trim();
-    rememberName(trainee);
-    return { trainee };
+    const checked = this.element.querySelector<HTMLInputElement>("input[name=procedure]:checked");
+    const procedure = checked?.value ?? "";
+    remember(NAME_KEY, trainee);
+    remember(PROCEDURE_KEY, procedure);
+    return { trainee, procedure };
   }
 
   open(): void {

@@ -5,10 +5,11 @@
 // the tunnel's wall is real surface, clipped to the bone once per track (tunnel_model.ts). So holes look
 // the same from all sides, in bone that is cut open or seen through, and need neither stencil nor order.
 import * as THREE from "three";
+import type { Track } from "../protocol";
 import { stretchesWithin } from "./bone_rays";
 import { tunnelMaterial, withTracks } from "./materials";
 import { makeTrackUniforms, setTrackUniforms } from "./track_shader";
-import { isTrack, MAX_TRACKS, tunnelWall, type Track } from "./tunnel_model";
+import { isTrack, MAX_TRACKS, tunnelWall } from "./tunnel_model";
 
 interface ShownTrack {
   readonly key: string;
@@ -16,8 +17,8 @@ interface ShownTrack {
 }
 
 function keyOf(track: Track): string {
-  const { from_mm, to_mm, radius_start_mm, radius_end_mm } = track;
-  return [...from_mm, ...to_mm, radius_start_mm, radius_end_mm].join(" ");
+  const { from_mm, to_mm, from_radius_mm, to_radius_mm } = track;
+  return [...from_mm, ...to_mm, from_radius_mm, to_radius_mm].join(" ");
 }
 
 export class DrilledBone {

@@ -8,6 +8,3 @@ export { loadCaseScene, type CaseScene } from "./case_scene";
 export { glassBoneMaterial } from "./materials";
 export { studioLight } from "./light";
 export { alignShaft, drawInstrument } from "./instruments";
-export type { InstrumentPart, PartKind, PartMaterial } from "./instrument_model";
-export { screwParts, wireParts } from "./instrument_set";
-export type { Track } from "./tunnel_model";

@@ -3,30 +3,34 @@
 //
 // Parts that go on from each other become one surface, others do not; a thread's pitch runs evenly.
 import { describe, expect, it } from "vitest";
-import { chains, threadTurns, turned, type InstrumentPart } from "./instrument_model";
-import { screwDriverParts, screwParts, wireDriverParts, wireParts } from "./instrument_set";
+import type { InstrumentPart } from "../protocol";
+import { chains, threadTurns } from "./instrument_model";
 
-const rod: InstrumentPart = {
-  kind: "cylinder",
-  from_mm: 0,
-  to_mm: 10,
-  radius_mm: 2,
-  material: "steel",
-};
+function part(more: Partial<InstrumentPart> = {}): InstrumentPart {
+  return {
+    from_mm: 0,
+    to_mm: 10,
+    radius_mm: 2,
+    end_radius_mm: 2,
+    is_threaded: false,
+    pitch_mm: 0,
+    end_pitch_mm: 0,
+    material: "steel",
+    only_in_hand: false,
+    origin_mm: [0, 0, 0],
+    axis: [0, 0, 1],
+    squash: [1, 1],
+    ...more,
+  };
+}
 
 describe("chains", () => {
-  it("join cones and cylinders that go on from each other", () => {
-    const [chain, ...rest] = chains(
-      turned(
-        [
-          [0, 0],
-          [1, 2],
-          [1, 9],
-          [3, 12],
-        ],
-        "steel",
-      ),
-    );
+  it("join parts that go on from each other", () => {
+    const [chain, ...rest] = chains([
+      part({ to_mm: 2, radius_mm: 0, end_radius_mm: 1 }),
+      part({ from_mm: 2, to_mm: 9, radius_mm: 1, end_radius_mm: 1 }),
+      part({ from_mm: 9, to_mm: 12, radius_mm: 1, end_radius_mm: 3 }),
+    ]);
     expect(rest).toEqual([]);
     expect(chain?.profile).toEqual([
       [0, 0],
@@ -40,25 +44,12 @@ describe("chains", () => {
     ["of another material", { material: "black" }],
     ["after a gap", { from_mm: 10.5 }],
     ["after a shoulder", { radius_mm: 2.5 }],
-    ["that is threaded", { kind: "threaded" }],
-    ["on an axis of its own", { axis: [0, 1, 0] }],
+    ["that is threaded", { is_threaded: true }],
+    ["on another axis", { axis: [0, 1, 0] }],
+    ["of what holds it", { only_in_hand: true }],
   ] as const)("do not join a part %s", (_, other) => {
-    const next: InstrumentPart = { ...rod, from_mm: 10, to_mm: 20, ...other };
-    expect(chains([rod, next]).length).toBe(2);
-  });
-});
-
-describe("turned", () => {
-  it("names a part whose radius does not change a cylinder", () => {
-    const kinds = turned(
-      [
-        [0, 0],
-        [1, 2],
-        [1, 9],
-      ],
-      "steel",
-    ).map((part) => part.kind);
-    expect(kinds).toEqual(["cone", "cylinder"]);
+    const next = part({ from_mm: 10, to_mm: 20, ...other });
+    expect(chains([part(), next]).length).toBe(2);
   });
 });
 
@@ -73,20 +64,5 @@ describe("threadTurns", () => {
       const turns = threadTurns(t + step, 20, 1.4, 0.9) - threadTurns(t, 20, 1.4, 0.9);
       expect((20 * step) / turns).toBeCloseTo(1.4 + t * (0.9 - 1.4), 4);
     }
-  });
-});
-
-describe("the instruments", () => {
-  const shape = { length_mm: 20, tip_diameter_mm: 3.3, tail_diameter_mm: 3.8 };
-  it.each([
-    ["wire", wireParts(), 0, 150],
-    ["screw", screwParts(shape), 0, 20],
-    ["wire driver", wireDriverParts(), 72, 166],
-    ["screw driver", screwDriverParts(), -0.8, 124],
-  ] as const)("%s lies along +z from its tip to the hand", (_, parts, from, to) => {
-    const onAxis = parts.filter((part) => part.axis === undefined);
-    expect(Math.min(...onAxis.map((part) => part.from_mm))).toBeCloseTo(from, 9);
-    expect(Math.max(...onAxis.map((part) => part.to_mm))).toBeCloseTo(to, 9);
-    for (const part of parts) expect(part.to_mm).toBeGreaterThan(part.from_mm);
   });
 });

@@ -4,14 +4,8 @@
 // Draws an instrument from its parts (instrument_model.ts), at true size [mm], along +z.
 import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
-import {
-  chains,
-  isTurned,
-  threadTurns,
-  type Chain,
-  type InstrumentPart,
-  type PartMaterial,
-} from "./instrument_model";
+import type { InstrumentPart, Material } from "../protocol";
+import { chains, threadTurns, type Chain } from "./instrument_model";
 import { blackMaterial, handleMaterial, steelMaterial, titaniumMaterial } from "./materials";
 
 const AROUND = 48;
@@ -19,9 +13,8 @@ const THREAD_AROUND = 40;
 /** Of a thread, per mm of its length. */
 const THREAD_RINGS_PER_MM = 14;
 const THREAD_DEPTH_MM = 0.42;
-const DEFAULT_PITCH_MM = 1.25;
 
-const MATERIALS: Readonly<Record<PartMaterial, () => THREE.MeshStandardMaterial>> = {
+const MATERIALS: Readonly<Record<Material, () => THREE.MeshStandardMaterial>> = {
   steel: steelMaterial,
   titanium: titaniumMaterial,
   handle: handleMaterial,
@@ -38,7 +31,7 @@ export function drawInstrument(parts: readonly InstrumentPart[]): THREE.Group {
 /** Draws other parts in the group from now on. */
 export function fillInstrument(group: THREE.Group, parts: readonly InstrumentPart[]): void {
   clearInstrument(group);
-  const materials = new Map<PartMaterial, THREE.MeshStandardMaterial>();
+  const materials = new Map<Material, THREE.MeshStandardMaterial>();
   for (const chain of chains(parts)) {
     const name = chain.first.material;
     const material = materials.get(name) ?? MATERIALS[name]();
@@ -64,18 +57,13 @@ export function castShadows(group: THREE.Group): void {
 }
 
 function place(mesh: THREE.Mesh, part: InstrumentPart): void {
-  if (part.axis !== undefined)
-    mesh.quaternion.setFromUnitVectors(Z, along.set(...part.axis).normalize());
-  if (part.origin_mm !== undefined) mesh.position.set(...part.origin_mm);
-  if (part.squash !== undefined) mesh.scale.set(part.squash[0], part.squash[1], 1);
+  mesh.quaternion.setFromUnitVectors(Z, along.set(...part.axis).normalize());
+  mesh.position.set(...part.origin_mm);
+  mesh.scale.set(part.squash[0], part.squash[1], 1);
 }
 
 function surface(chain: Chain): THREE.BufferGeometry {
-  const { first } = chain;
-  if (isTurned(first)) return turnedSurface(chain);
-  if (first.kind === "threaded") return threadedSurface(first);
-  const middle = (first.from_mm + first.to_mm) / 2;
-  return new THREE.SphereGeometry(first.radius_mm, AROUND, AROUND / 2).translate(0, 0, middle);
+  return chain.first.is_threaded ? threadedSurface(chain.first) : turnedSurface(chain);
 }
 
 /** A profile turned about z, its ends closed; LatheGeometry turns about y, which goes to z here. */
@@ -104,13 +92,12 @@ function merged(surfaces: THREE.BufferGeometry[]): THREE.BufferGeometry {
 function threadedSurface(part: InstrumentPart): THREE.BufferGeometry {
   const length = part.to_mm - part.from_mm;
   const rings = Math.max(80, Math.round(length * THREAD_RINGS_PER_MM));
-  const pitch = part.pitch_mm ?? DEFAULT_PITCH_MM;
-  const end = part.radius_end_mm ?? part.radius_mm;
+  const end = part.end_radius_mm;
   const positions = new Float32Array(3 * (THREAD_AROUND + 1) * (rings + 1));
   let at = 0;
   for (let i = 0; i <= rings; ++i) {
     const t = i / rings;
-    const turns = threadTurns(t, length, pitch, part.pitch_end_mm ?? pitch);
+    const turns = threadTurns(t, length, part.pitch_mm, part.end_pitch_mm);
     const outer = part.radius_mm + (end - part.radius_mm) * t;
     const nose = Math.min(1, 0.55 + (t * length) / 2.2);
     for (let j = 0; j <= THREAD_AROUND; ++j) {

@@ -81,11 +81,11 @@ describe("track uniforms", () => {
   const many = (count: number): TrackUniforms => {
     const uniforms = makeTrackUniforms();
     const track = {
-      bone: "scaphoid",
+      body: "scaphoid",
       from_mm: [1, 2, 3],
       to_mm: [4, 5, 6],
-      radius_start_mm: 0.5,
-      radius_end_mm: 0.7,
+      from_radius_mm: 0.5,
+      to_radius_mm: 0.7,
     } as const;
     setTrackUniforms(
       uniforms,

@@ -8,7 +8,7 @@ import { BoneRays, makeHittable } from "./bone_rays";
 import type { BoneMesh, CaseScene } from "./case_scene";
 import { boneMaterial } from "./materials";
 import { MovingBones } from "./moving_bones";
-import type { Track } from "./tunnel_model";
+import type { Track } from "../protocol";
 
 function makeScene(): CaseScene {
   const root = new THREE.Group();
@@ -39,11 +39,11 @@ function hitFrom(scene: CaseScene, x: number): number[] | undefined {
 }
 
 const hole: Track = {
-  bone: "capitate",
+  body: "capitate",
   from_mm: [30, 0, 5],
   to_mm: [30, 0, -2],
-  radius_start_mm: 1,
-  radius_end_mm: 1,
+  from_radius_mm: 1,
+  to_radius_mm: 1,
 };
 
 describe("setPose", () => {

@@ -7,7 +7,7 @@ import type { Vec3 } from "../protocol";
 import type { BoneMesh, CaseScene } from "./case_scene";
 import { DrilledBone } from "./drilled_bone";
 import type { Rotation } from "./skin_blend_model";
-import type { Track } from "./tunnel_model";
+import type { Track } from "../protocol";
 
 export class MovingBones {
   private readonly byName: ReadonlyMap<string, BoneMesh>;
@@ -42,7 +42,7 @@ export class MovingBones {
   setTracks(tracks: readonly Track[]): boolean {
     let changed = false;
     for (const [name, bone] of this.byName) {
-      const own = tracks.filter((track) => track.bone === name);
+      const own = tracks.filter((track) => track.body === name);
       let drilled = this.drilled.get(name);
       if (drilled === undefined) {
         if (own.length === 0) continue;

@@ -1,97 +1,92 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Wire, screw and drivers where the snapshot has them, and the mark where the tip touches.
+// The items that are out of the tray, where the snapshot has them, and a mark where a tip touches.
 import * as THREE from "three";
-import type { SnapshotMessage, Vec3 } from "../protocol";
+import type { Instrument, Item, SnapshotMessage, Vec3 } from "../protocol";
 import { ContactMarker } from "./contact_marker";
-import {
-  screwDriverParts,
-  screwParts,
-  wireDriverParts,
-  wireParts,
-  type ScrewShape,
-} from "./instrument_set";
-import {
-  alignShaft,
-  castShadows,
-  clearInstrument,
-  drawInstrument,
-  fillInstrument,
-} from "./instruments";
+import { alignShaft, castShadows, clearInstrument, drawInstrument } from "./instruments";
 
-/** A driver that comes towards the viewer more steeply than this would hide what it points at. */
-const HIDE_DRIVER_COSINE = 0.25;
+/** What holds an instrument would hide what it points at when it comes at the viewer more steeply. */
+const HIDE_HOLDER_COSINE = 0.25;
+
+interface Shown {
+  readonly instrument: string;
+  readonly body: THREE.Group;
+  /** Driver or handle: only in a hand. */
+  readonly holder: THREE.Group;
+}
 
 export class ShownInstruments {
   readonly group = new THREE.Group();
-  private readonly wire = drawInstrument(wireParts());
-  private readonly driver = drawInstrument(wireDriverParts());
-  private readonly handDriver = drawInstrument(screwDriverParts());
-  private readonly screw = new THREE.Group();
-  private readonly marker = new ContactMarker();
-  private readonly screwTip: [number, number, number] = [0, 0, 0];
-  private readonly shaft: [number, number, number] = [0, 0, 1];
-  private screwKey = "";
+  private instruments: ReadonlyMap<string, Instrument> = new Map();
+  private readonly shown = new Map<number, Shown>();
+  private readonly markers = [new ContactMarker(), new ContactMarker()];
 
   constructor() {
-    castShadows(this.wire);
-    for (const object of [this.wire, this.driver, this.handDriver, this.screw]) {
-      object.visible = false;
-      this.group.add(object);
-    }
-    this.group.add(this.marker.group);
+    for (const marker of this.markers) this.group.add(marker.group);
   }
 
-  /** Draws the screw with this shape from now on. @return whether it is another */
-  setScrewShape(shape: ScrewShape): boolean {
-    const key = `${shape.length_mm} ${shape.tip_diameter_mm} ${shape.tail_diameter_mm}`;
-    if (key === this.screwKey) return false;
-    this.screwKey = key;
-    fillInstrument(this.screw, screwParts(shape));
-    return true;
+  /** What items are drawn from, from now on. */
+  setInstruments(instruments: readonly Instrument[]): void {
+    this.instruments = new Map(instruments.map((one) => [one.id, one]));
+    this.clear();
   }
 
   /** @param towardsViewer  cosine between a direction of Patient and that towards the viewer */
   pose(s: SnapshotMessage, towardsViewer: (direction: Vec3) => number): void {
-    const driverHides = towardsViewer(s.shaft) > HIDE_DRIVER_COSINE;
-    this.wire.visible = s.instrument !== "none";
-    if (s.wire_engaged) {
-      this.setShaft(s.wire_direction, -1);
-      alignShaft(this.wire, s.wire_tip_mm, this.shaft);
-    } else {
-      alignShaft(this.wire, s.tip_mm, s.shaft);
+    for (const number of this.shown.keys()) {
+      if (!s.items.some((item) => item.item === number)) this.remove(number);
     }
-    this.driver.visible = s.instrument === "guide_wire" && !driverHides;
-    this.driver.position.copy(this.wire.position);
-    this.driver.quaternion.copy(this.wire.quaternion);
-    this.screw.visible = s.screw_index >= 0;
-    this.handDriver.visible = s.instrument === "screw_driver" && !driverHides;
-    if (this.screw.visible) this.poseScrew(s);
-    if (s.touching) this.marker.show(s.tip_mm, s.contact_normal, s.force_n);
-    else this.marker.hide();
+    for (const item of s.items) this.poseItem(item, towardsViewer);
+    for (let hand = 0; hand < this.markers.length; ++hand) {
+      const state = s.hands[hand as 0 | 1];
+      const held = s.items.find((item) => item.item === state.item);
+      if (held !== undefined && state.touching)
+        this.markers[hand]?.show(held.tip_mm, state.contact_normal, state.force_n);
+      else this.markers[hand]?.hide();
+    }
   }
 
-  private poseScrew(s: SnapshotMessage): void {
-    for (let i = 0; i < 3; ++i) {
-      this.screwTip[i] =
-        (s.wire_entry_mm[i] ?? 0) + s.screw_advance_mm * (s.wire_direction[i] ?? 0);
-    }
-    this.setShaft(s.wire_direction, -1);
-    alignShaft(this.screw, this.screwTip, this.shaft);
-    this.handDriver.quaternion.copy(this.screw.quaternion);
-    this.handDriver.position
-      .set(this.shaft[0], this.shaft[1], this.shaft[2])
-      .multiplyScalar(s.screw_length_mm)
-      .add(this.screw.position);
+  private poseItem(item: Item, towardsViewer: (direction: Vec3) => number): void {
+    const { body, holder } = this.drawn(item);
+    alignShaft(body, item.tip_mm, item.shaft);
+    holder.visible = item.hand >= 0 && towardsViewer(item.shaft) <= HIDE_HOLDER_COSINE;
+    holder.position.copy(body.position);
+    holder.quaternion.copy(body.quaternion);
   }
 
-  private setShaft(direction: Vec3, sign: number): void {
-    for (let i = 0; i < 3; ++i) this.shaft[i] = sign * (direction[i] ?? 0);
+  private drawn(item: Item): Shown {
+    const known = this.shown.get(item.item);
+    if (known?.instrument === item.instrument) return known;
+    if (known !== undefined) this.remove(item.item);
+    const parts = this.instruments.get(item.instrument)?.parts ?? [];
+    const drawn: Shown = {
+      instrument: item.instrument,
+      body: drawInstrument(parts.filter((part) => !part.only_in_hand)),
+      holder: drawInstrument(parts.filter((part) => part.only_in_hand)),
+    };
+    castShadows(drawn.body);
+    this.group.add(drawn.body, drawn.holder);
+    this.shown.set(item.item, drawn);
+    return drawn;
+  }
+
+  private remove(number: number): void {
+    const drawn = this.shown.get(number);
+    if (drawn === undefined) return;
+    for (const group of [drawn.body, drawn.holder]) {
+      this.group.remove(group);
+      clearInstrument(group);
+    }
+    this.shown.delete(number);
+  }
+
+  private clear(): void {
+    for (const number of [...this.shown.keys()]) this.remove(number);
   }
 
   dispose(): void {
-    for (const group of [this.wire, this.driver, this.handDriver, this.screw])
-      clearInstrument(group);
+    this.clear();
   }
 }

@@ -36,7 +36,7 @@ export class Sight {
   private readonly scratch = new THREE.Vector3();
   private readonly forward = new THREE.Vector3();
   /** The preset that is still looked from, and its direction towards the viewer. */
-  private view: ViewId | undefined;
+  private view: ViewId | undefined = undefined;
   private readonly viewedFrom = new THREE.Vector3();
   /** Another picture is to be seen. */
   onChange: (() => void) | undefined;
@@ -95,6 +95,11 @@ export class Sight {
     this.view = view;
     this.viewedFrom.copy(at).sub(target).normalize();
     this.onChange?.();
+  }
+
+  /** What is looked at has another place: the preset is taken anew, if it is still the view. */
+  lookAgain(tool: ToolLine | undefined): void {
+    if (this.view !== undefined) this.lookFrom(this.view, tool);
   }
 
   /** Says once when the preset is left. */

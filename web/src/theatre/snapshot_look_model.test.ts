@@ -3,39 +3,49 @@
 //
 // What is drawn asks for a new picture when it changes, what is only told in numbers does not.
 import { describe, expect, it } from "vitest";
-import type { SnapshotMessage } from "../protocol";
+import type { HandState, Item, SnapshotMessage } from "../protocol";
 import { looksDifferent } from "./snapshot_look_model";
 
+const HAND: HandState = {
+  item: 0,
+  touching: true,
+  touched_body: "scaphoid_proximal",
+  contact_depth_mm: 0.1,
+  contact_normal: [0, 0, 1],
+  force_n: [0, 0, 2],
+  resistance_n: 2,
+};
+const ITEM: Item = {
+  item: 0,
+  instrument: "wire",
+  hand: 0,
+  body: "",
+  wire: -1,
+  tip_mm: [10, 20, 30],
+  shaft: [0, 0, 1],
+  in_target: false,
+  tip_body: "",
+  tip_hu: 0,
+  entry_mm: null,
+  depth_mm: 0,
+  buried_mm: 0,
+};
 const AT_REST: SnapshotMessage = {
   type: "snapshot",
   tick: 1000,
   state_hash: "00000000000000aa",
   paused: false,
   finished: false,
-  step: "drive",
-  completed_steps: 3,
-  instrument: "guide_wire",
-  tip_mm: [10, 20, 30],
-  shaft: [0, 0, 1],
-  touching: true,
-  touched_bone: "scaphoid_proximal",
-  contact_depth_mm: 0.1,
-  contact_normal: [0, 0, 1],
-  force_n: [0, 0, 2],
-  resistance_n: 2,
-  wire_engaged: true,
-  wire_entry_mm: [10, 20, 30],
-  wire_tip_mm: [10, 20, 22],
-  wire_direction: [0, 0, -1],
-  wire_depth_mm: 8,
-  wire_passes: 1,
-  wire_tip_hu: 700,
-  wire_tip_bone: "scaphoid_proximal",
-  screw_index: 2,
-  screw_length_mm: 20,
-  screw_advance_mm: 4,
-  screw_buried_mm: -16,
-  measured_mm: 22,
+  step: 3,
+  completed_steps: [0, 1, 2],
+  hands: [HAND, { ...HAND, item: -1, touching: false, force_n: [0, 0, 0] }],
+  items: [ITEM],
+  wrist: { flexion_deg: 0, radial_deviation_deg: 0, pronation_deg: 0, traction_n: 0 },
+  bodies: null,
+  tissue_revision: 0,
+  gauge_reading_mm: null,
+  holding_share: 0,
+  passes: 1,
   shots: 3,
   dose_cgy_cm2: 0.1,
   undos: 0,
@@ -44,35 +54,46 @@ const AT_REST: SnapshotMessage = {
   late_ticks: 0,
 };
 
+function withHand(more: Partial<HandState>): Partial<SnapshotMessage> {
+  return { hands: [{ ...HAND, ...more }, AT_REST.hands[1]] };
+}
+function withItem(more: Partial<Item>): Partial<SnapshotMessage> {
+  return { items: [{ ...ITEM, ...more }] };
+}
+
 const SEEN: [string, Partial<SnapshotMessage>][] = [
-  ["another instrument", { instrument: "screw_driver" }],
-  ["the tip's move", { tip_mm: [10, 20.01, 30] }],
-  ["the shaft's turn", { shaft: [0.001, 0, 1] }],
-  ["a touch that ends", { touching: false }],
-  ["a stronger push", { force_n: [0, 0, 2.5] }],
-  ["another side of the bone", { contact_normal: [0, 1, 0] }],
-  ["the wire pulled out", { wire_engaged: false }],
-  ["the wire driven on", { wire_tip_mm: [10, 20, 21.9] }],
-  ["the screw turned in", { screw_advance_mm: 4.1 }],
-  ["another screw", { screw_index: 3, screw_length_mm: 22 }],
-  ["a longer screw", { screw_length_mm: 22 }],
+  ["another instrument", withItem({ instrument: "screw" })],
+  ["an instrument that is let go", withItem({ hand: -1 })],
+  ["an instrument more", { items: [ITEM, { ...ITEM, item: 1 }] }],
+  ["an instrument less", { items: [] }],
+  ["the tip's move", withItem({ tip_mm: [10, 20.01, 30] })],
+  ["the shaft's turn", withItem({ shaft: [0.001, 0, 1] })],
+  ["the end of touching", withHand({ touching: false })],
+  ["another force", withHand({ force_n: [0, 0, 2.1] })],
+  ["another side that is touched", withHand({ contact_normal: [0, 0.01, 1] })],
 ];
 
 const UNSEEN: [string, Partial<SnapshotMessage>][] = [
-  ["time", { tick: 2000, state_hash: "00000000000000ab" }],
-  ["readings", { resistance_n: 3, measured_mm: 23, shots: 4, dose_cgy_cm2: 0.2 }],
-  ["rounding", { tip_mm: [10, 20.0001, 30], force_n: [0, 0, 2.001] }],
+  ["time", { tick: 1016, state_hash: "00000000000000bb" }],
+  ["resistance", withHand({ resistance_n: 4 })],
+  ["a move that is less than is seen", withItem({ tip_mm: [10, 20.0005, 30] })],
+  ["depth in figures", withItem({ depth_mm: 3, tip_hu: 900 })],
+  ["counts", { shots: 4, passes: 2, undos: 1, gauge_reading_mm: 22 }],
 ];
 
 describe("looksDifferent", () => {
-  it.each(SEEN)("sees %s", (_name, change) => {
-    expect(looksDifferent(AT_REST, { ...AT_REST, ...change })).toBe(true);
+  it.each(SEEN)("sees %s", (_, more) => {
+    expect(looksDifferent(AT_REST, { ...AT_REST, ...more })).toBe(true);
   });
-  it.each(UNSEEN)("does not draw for %s", (_name, change) => {
-    expect(looksDifferent(AT_REST, { ...AT_REST, ...change })).toBe(false);
+
+  it.each(UNSEEN)("does not see %s", (_, more) => {
+    expect(looksDifferent(AT_REST, { ...AT_REST, ...more })).toBe(false);
   });
-  it("does not look at the force of a touch that is none", () => {
-    const lifted = { ...AT_REST, touching: false };
-    expect(looksDifferent(lifted, { ...lifted, force_n: [0, 0, 9] })).toBe(false);
+
+  it("does not see the force of a hand that does not touch", () => {
+    const free: HandState = { ...HAND, touching: false };
+    const before: SnapshotMessage = { ...AT_REST, hands: [free, free] };
+    const after: SnapshotMessage = { ...before, hands: [{ ...free, force_n: [1, 0, 0] }, free] };
+    expect(looksDifferent(before, after)).toBe(false);
   });
 });

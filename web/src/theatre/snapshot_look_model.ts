@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whether a new snapshot shows anything that the picture does not: a still hand costs no drawing.
-import type { SnapshotMessage, Vec3 } from "../protocol";
+import type { HandState, Item, SnapshotMessage, Vec3 } from "../protocol";
 
 /** Less is not seen: a tenth of a pixel at the closest look [mm], and of a 100 mm shaft [1]. */
 const SEEN_MM = 0.002;
@@ -17,30 +17,28 @@ function apart(a: Vec3, b: Vec3, seen: number): boolean {
 }
 
 export function looksDifferent(a: SnapshotMessage, b: SnapshotMessage): boolean {
+  if (a.items.length !== b.items.length) return true;
+  for (let i = 0; i < b.items.length; ++i) {
+    const [before, now] = [a.items[i], b.items[i]];
+    if (before === undefined || now === undefined || itemLooksDifferent(before, now)) return true;
+  }
+  return handLooksDifferent(a.hands[0], b.hands[0]) || handLooksDifferent(a.hands[1], b.hands[1]);
+}
+
+function itemLooksDifferent(a: Item, b: Item): boolean {
   return (
+    a.item !== b.item ||
     a.instrument !== b.instrument ||
-    a.wire_engaged !== b.wire_engaged ||
-    a.screw_index !== b.screw_index ||
-    a.touching !== b.touching ||
+    a.hand !== b.hand ||
     apart(a.tip_mm, b.tip_mm, SEEN_MM) ||
-    apart(a.shaft, b.shaft, SEEN_TURN) ||
-    (b.wire_engaged && wireLooksDifferent(a, b)) ||
-    (b.touching && contactLooksDifferent(a, b))
+    apart(a.shaft, b.shaft, SEEN_TURN)
   );
 }
 
-function wireLooksDifferent(a: SnapshotMessage, b: SnapshotMessage): boolean {
+function handLooksDifferent(a: HandState, b: HandState): boolean {
+  if (a.touching !== b.touching || a.item !== b.item) return true;
   return (
-    apart(a.wire_tip_mm, b.wire_tip_mm, SEEN_MM) ||
-    apart(a.wire_entry_mm, b.wire_entry_mm, SEEN_MM) ||
-    apart(a.wire_direction, b.wire_direction, SEEN_TURN) ||
-    Math.abs(a.screw_advance_mm - b.screw_advance_mm) > SEEN_MM ||
-    a.screw_length_mm !== b.screw_length_mm
-  );
-}
-
-function contactLooksDifferent(a: SnapshotMessage, b: SnapshotMessage): boolean {
-  return (
-    apart(a.force_n, b.force_n, SEEN_N) || apart(a.contact_normal, b.contact_normal, SEEN_TURN)
+    b.touching &&
+    (apart(a.force_n, b.force_n, SEEN_N) || apart(a.contact_normal, b.contact_normal, SEEN_TURN))
   );
 }

@@ -6,22 +6,19 @@
 // frame, under one group that carries the conversion (frames/).
 import * as THREE from "three";
 import type { FaceNames, FrameMap } from "../frames";
-import type { SnapshotMessage, Vec3 } from "../protocol";
+import type { BodyPose, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
 import { backdrop } from "./backdrop";
 import { BoneNames } from "./bone_names";
 import { BoneRays } from "./bone_rays";
 import type { CaseScene } from "./case_scene";
 import { DrawingSurface } from "./drawing_surface";
-import type { ScrewShape } from "./instrument_set";
 import { studioLight, type StudioLight } from "./light";
 import { MovingBones } from "./moving_bones";
 import { OrientationCube } from "./orientation_cube";
 import { PointedAt, type PagePoint } from "./pointed_at";
 import { ShownInstruments } from "./shown_instruments";
-import { Sight, type ViewId } from "./sight";
-import type { Rotation } from "./skin_blend_model";
+import { Sight, type ToolLine, type ViewId } from "./sight";
 import { looksDifferent } from "./snapshot_look_model";
-import type { Track } from "./tunnel_model";
 
 const CUBE_PX = 88;
 
@@ -38,6 +35,7 @@ export class Theatre {
   private readonly pointed: PointedAt;
   private readonly home: THREE.Vector3;
   private stale = true;
+  private activeHand: 0 | 1 = 0;
   private shown: SnapshotMessage | undefined;
   private drawn: SnapshotMessage | undefined;
   private readonly towardsViewer = (direction: Vec3): number => this.sight.towardsViewer(direction);
@@ -59,7 +57,7 @@ export class Theatre {
     this.patient.add(caseScene.root, this.instruments.group);
     this.scene.add(backdrop(), this.patient);
     this.scene.updateMatrixWorld(true);
-    this.home = middleOf(caseScene);
+    this.home = middleOf(caseScene, []);
     const { matrix } = this.patient;
     this.sight = new Sight(this.canvas, this.home, matrix, frames, facing);
     const rays = new BoneRays(caseScene.bones);
@@ -92,9 +90,14 @@ export class Theatre {
     this.sight.onViewLeft = told;
   }
 
-  /** Centre of the scaphoid and lunate in Patient [mm]: where the hand begins. */
-  startPointMm(): Vec3 {
+  /** Middle of what is operated on, in Patient [mm]. */
+  middleMm(): Vec3 {
     return this.frames.pointToPatient(this.home.x, this.home.y, this.home.z);
+  }
+
+  private get tool(): ToolLine | undefined {
+    const held = this.shown?.hands[this.activeHand].item ?? -1;
+    return this.shown?.items.find((item) => item.item === held);
   }
 
   show(snapshot: SnapshotMessage): void {
@@ -102,17 +105,28 @@ export class Theatre {
     if (this.drawn === undefined || looksDifferent(this.drawn, snapshot)) this.stale = true;
   }
 
-  /** Draws the screw with this shape from now on. */
-  setScrewShape(shape: ScrewShape): void {
-    if (this.instruments.setScrewShape(shape)) this.stale = true;
+  /** What the snapshots' items are drawn from. */
+  setInstruments(instruments: readonly Instrument[]): void {
+    this.instruments.setInstruments(instruments);
+    this.stale = true;
   }
 
-  /**
-   * Puts a bone where it is now, with its name, its holes and the skin about it.
-   * @param rotation  x, y, z, w; with the translation [mm] Patient from where it was in the case
-   */
-  setBonePose(name: string, rotation: Rotation, translationMm: Vec3): void {
-    if (this.bones.setPose(name, rotation, translationMm)) this.stale = true;
+  /** The views look at the middle of these bones, where they are now. */
+  setTarget(names: readonly string[]): void {
+    this.home.copy(middleOf(this.caseScene, names));
+    this.sight.lookAgain(this.tool);
+    this.stale = true;
+  }
+
+  /** Puts a bone where it is now, with its name, its holes and the skin about it. */
+  setBonePose(name: string, { quaternion, translation_mm }: BodyPose): void {
+    const [w, x, y, z] = quaternion;
+    if (this.bones.setPose(name, [x, y, z, w], translation_mm)) this.stale = true;
+  }
+
+  /** Which hand's instrument the view along the shaft follows. */
+  setActiveHand(hand: 0 | 1): void {
+    this.activeHand = hand;
   }
 
   /** Shows what was drilled out of the bones, all of it at once. */
@@ -136,7 +150,7 @@ export class Theatre {
   }
 
   lookFrom(view: ViewId): void {
-    this.sight.lookFrom(view, this.shown);
+    this.sight.lookFrom(view, this.tool);
   }
 
   /** Turns the view about what it looks at [rad]. */
@@ -179,7 +193,7 @@ export class Theatre {
     if (!this.surface.wantsDrawing(this.stale)) return;
     this.stale = false;
     this.drawn = this.shown;
-    this.sight.watch(this.shown);
+    this.sight.watch(this.tool);
     if (this.shown !== undefined) this.instruments.pose(this.shown, this.towardsViewer);
     this.light.follow(this.sight.camera, this.sight.target);
     renderer.render(this.scene, this.sight.camera);
@@ -202,11 +216,11 @@ export class Theatre {
   }
 }
 
-/** Centre of the scaphoid and lunate [m]. */
-function middleOf(caseScene: CaseScene): THREE.Vector3 {
+/** Middle of the bones of these names, or of all [m]. */
+function middleOf(caseScene: CaseScene, names: readonly string[]): THREE.Vector3 {
   const box = new THREE.Box3();
   for (const bone of caseScene.bones) {
-    if (bone.name.startsWith("scaphoid") || bone.name === "lunate") box.expandByObject(bone);
+    if (names.includes(bone.name)) box.expandByObject(bone);
   }
   if (box.isEmpty()) box.setFromObject(caseScene.root);
   return box.getCenter(new THREE.Vector3());

@@ -4,7 +4,8 @@
 // In the fragment shader of a bone: which of its surface was drilled away. The same distance as
 // outsideTrack() in tunnel_model.ts.
 import * as THREE from "three";
-import { MAX_TRACKS, MOUTH_RADII, type Track } from "./tunnel_model";
+import type { Track } from "../protocol";
+import { MAX_TRACKS, MOUTH_RADII } from "./tunnel_model";
 
 /** Shared by the bone's materials: set once, seen by all. */
 export interface TrackUniforms {
@@ -23,8 +24,8 @@ export function makeTrackUniforms(): TrackUniforms {
 export function setTrackUniforms(uniforms: TrackUniforms, tracks: readonly Track[]): void {
   uniforms.trackCount.value = Math.min(MAX_TRACKS, tracks.length);
   tracks.slice(0, MAX_TRACKS).forEach((track, i) => {
-    uniforms.trackStart.value[i]?.set(...track.from_mm, track.radius_start_mm);
-    uniforms.trackEnd.value[i]?.set(...track.to_mm, track.radius_end_mm);
+    uniforms.trackStart.value[i]?.set(...track.from_mm, track.from_radius_mm);
+    uniforms.trackEnd.value[i]?.set(...track.to_mm, track.to_radius_mm);
   });
 }
 

@@ -3,8 +3,8 @@
 //
 // The wall ends on the bone's surface, faces its axis, and is bright at its openings only.
 import { describe, expect, it } from "vitest";
-import type { Vec3 } from "../protocol";
-import { isTrack, outsideTrack, tunnelWall, type Clip, type Track } from "./tunnel_model";
+import type { Track, Vec3 } from "../protocol";
+import { isTrack, outsideTrack, tunnelWall, type Clip } from "./tunnel_model";
 
 /** Bone between z = -10 and 0, without sides. */
 const slab: Clip = (origin, direction, lengthMm) => {
@@ -18,11 +18,11 @@ const slab: Clip = (origin, direction, lengthMm) => {
 
 function track(to: Vec3, more: Partial<Track> = {}): Track {
   return {
-    bone: "scaphoid",
+    body: "scaphoid",
     from_mm: [0, 0, 0],
     to_mm: to,
-    radius_start_mm: 2,
-    radius_end_mm: 2,
+    from_radius_mm: 2,
+    to_radius_mm: 2,
     ...more,
   };
 }
@@ -43,7 +43,7 @@ describe("tunnelWall", () => {
   it.each([
     ["straight", track([0, 0, -6])],
     ["oblique", oblique],
-    ["tapered", track([0, 0, -6], { radius_end_mm: 1 })],
+    ["tapered", track([0, 0, -6], { to_radius_mm: 1 })],
     ["through and through", track([0, 0, -14])],
   ])("lies on a %s track and nowhere outside the bone", (_, one) => {
     const wall = tunnelWall(one, slab);
@@ -143,19 +143,19 @@ describe("isTrack", () => {
   it.each([
     ["without length", track([0, 0, 0])],
     ["that is not finite", track([0, NaN, 1])],
-    ["without radius", track([0, 0, 1], { radius_start_mm: 0, radius_end_mm: 0 })],
-    ["of a negative radius", track([0, 0, 1], { radius_end_mm: -1 })],
+    ["without radius", track([0, 0, 1], { from_radius_mm: 0, to_radius_mm: 0 })],
+    ["of a negative radius", track([0, 0, 1], { to_radius_mm: -1 })],
   ])("refuses one %s", (_, one) => {
     expect(isTrack(one)).toBe(false);
   });
 
   it("takes one with a point", () => {
-    expect(isTrack(track([0, 0, -6], { radius_end_mm: 0 }))).toBe(true);
+    expect(isTrack(track([0, 0, -6], { to_radius_mm: 0 }))).toBe(true);
   });
 });
 
 describe("outsideTrack", () => {
-  const one = track([0, 0, -10], { radius_end_mm: 1 });
+  const one = track([0, 0, -10], { to_radius_mm: 1 });
   it.each([
     [[0, 0, -5], -1.5],
     [[2, 0, -5], 0.5],

@@ -5,18 +5,7 @@
 // ends; 2. each is clipped to where it lies within the bone; 3. strips between neighbours, so that the
 // wall ends exactly on the bone's surface; 4. each point knows how far the nearest opening is: there light
 // comes in, and the bone is hard.
-import type { Vec3 } from "../protocol";
-
-/** What an instrument took out of a bone, a straight tapered hole, in the bone's own frame [mm]. */
-export interface Track {
-  readonly bone: string;
-  /** Where it came in: on the bone's surface or before it. */
-  readonly from_mm: Vec3;
-  /** How deep it came; beyond the bone where it went through. */
-  readonly to_mm: Vec3;
-  readonly radius_start_mm: number;
-  readonly radius_end_mm: number;
-}
+import type { Track, Vec3 } from "../protocol";
 
 /** More in one bone are not shown: a uniform array of the shader. */
 export const MAX_TRACKS = 64;
@@ -108,18 +97,18 @@ export function outsideTrack(track: Track, p: Vec3): number {
   const q = minus(p, track.from_mm);
   const s = (q[0] * axis[0] + q[1] * axis[1] + q[2] * axis[2]) / lengthMm;
   const radial = Math.hypot(...minus(q, along([0, 0, 0], axis, s / lengthMm)));
-  const { radius_start_mm: r0, radius_end_mm: r1 } = track;
+  const { from_radius_mm: r0, to_radius_mm: r1 } = track;
   const r = r0 + ((r1 - r0) * s) / lengthMm;
   return Math.max(radial - r, -MOUTH_RADII * r0 - s, s - lengthMm);
 }
 
 /** Whether a track can be shown: finite, of some length and radius. */
 export function isTrack(track: Track): boolean {
-  const numbers = [...track.from_mm, ...track.to_mm, track.radius_start_mm, track.radius_end_mm];
+  const numbers = [...track.from_mm, ...track.to_mm, track.from_radius_mm, track.to_radius_mm];
   return (
     numbers.every(Number.isFinite) &&
-    Math.max(track.radius_start_mm, track.radius_end_mm) > 0 &&
-    Math.min(track.radius_start_mm, track.radius_end_mm) >= 0 &&
+    Math.max(track.from_radius_mm, track.to_radius_mm) > 0 &&
+    Math.min(track.from_radius_mm, track.to_radius_mm) >= 0 &&
     Math.hypot(...minus(track.to_mm, track.from_mm)) > 0
   );
 }
@@ -129,7 +118,7 @@ export function tunnelWall(track: Track, clip: Clip): TunnelWall {
   const grid: Grid = { positions: [], normals: [], depths: [], index: [] };
   if (isTrack(track)) {
     const sides = sideLines(track, clip);
-    const radius = Math.max(track.radius_start_mm, track.radius_end_mm);
+    const radius = Math.max(track.from_radius_mm, track.to_radius_mm);
     const sideLight = (line: Line, at: number): [number, number] => openness(line, at, radius);
     strips(grid, sides, radius, sideLight);
     const { start, startRadius } = mouth(track);
@@ -137,7 +126,7 @@ export function tunnelWall(track: Track, clip: Clip): TunnelWall {
       // Within the bone only where the track does not begin at its surface.
       { lines: endLines(track, start, startRadius, 1, clip), at: (): number => 0 },
       {
-        lines: endLines(track, track.to_mm, track.radius_end_mm, -1, clip),
+        lines: endLines(track, track.to_mm, track.to_radius_mm, -1, clip),
         at: (line: Line): number => line.lengthMm,
       },
     ];
@@ -159,7 +148,7 @@ export function tunnelWall(track: Track, clip: Clip): TunnelWall {
 
 /** Where the track begins with its mouth. */
 function mouth(track: Track): { readonly start: Vec3; readonly startRadius: number } {
-  const { radius_start_mm: r0, radius_end_mm: r1 } = track;
+  const { from_radius_mm: r0, to_radius_mm: r1 } = track;
   const axis = minus(track.to_mm, track.from_mm);
   const mouthMm = MOUTH_RADII * r0;
   return {
@@ -176,7 +165,7 @@ function sideLines(track: Track, clip: Clip): Line[] {
     const angle = (2 * Math.PI * i) / LINES;
     const out = along(along([0, 0, 0], u, Math.cos(angle)), v, Math.sin(angle));
     const origin = along(start, out, startRadius);
-    const reach = minus(along(track.to_mm, out, track.radius_end_mm), origin);
+    const reach = minus(along(track.to_mm, out, track.to_radius_mm), origin);
     const lengthMm = Math.hypot(...reach);
     const direction = unit(reach);
     return {

@@ -1,14 +1,24 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a key or a button does once: looks, pictures, measuring, screws, pause, finish.
+// What a key or a button does once: looks, pictures, instruments, pause, finish. What the host would
+// refuse is not sent; its reason is said instead.
 import type { CArmPanel } from "../c_arm";
 import type { HelpOverlay } from "../help_overlay";
-import { whyNot, type OnceAction } from "../operation";
+import {
+  actMessage,
+  heldItem,
+  otherHand,
+  type Asked,
+  type HandIndex,
+  type OfferedActions,
+  type OnceAction,
+} from "../operation";
 import type { PageMessage, SnapshotMessage } from "../protocol";
 import { VIEWS, type Theatre, type ViewId } from "../theatre";
+import type { ClosedWays } from "./bottom_bar";
 import type { Hand } from "./hand";
-import type { ScrewList } from "./screw_list";
+import type { TrayDialog } from "./tray_dialog";
 import type { ViewBar } from "./view_bar";
 
 /** What the actions reach in the room. */
@@ -17,9 +27,12 @@ export interface ActionRoom {
   readonly hand: Hand;
   readonly theatre: Theatre;
   readonly views: ViewBar;
-  readonly tray: ScrewList;
+  readonly tray: TrayDialog;
   readonly help: HelpOverlay;
   latest(): SnapshotMessage | undefined;
+  offered(): OfferedActions;
+  /** Id of what the current step is done with, or empty. */
+  wantedInstrument(): string;
   tell(message: PageMessage): void;
   say(text: string): void;
   /** Asks before the operation ends. */
@@ -33,7 +46,7 @@ export class Actions {
   constructor(private readonly room: ActionRoom) {}
 
   act(action: OnceAction): void {
-    const { arm, hand, help, theatre, tray, views } = this.room;
+    const { arm, hand, help, theatre, views } = this.room;
     switch (action.kind) {
       case "shot":
         arm.shoot(action.view);
@@ -51,24 +64,28 @@ export class Actions {
         hand.changeThrust(action.byN);
         break;
       case "measure":
-        if (!this.refusedBySituation("measure")) this.room.tell({ type: "measure" });
+        this.askInTurn(this.measuring());
         break;
-      case "screws": {
-        const latest = this.room.latest();
-        if (latest !== undefined && !this.refusedBySituation("screws")) {
-          hand.releaseAll();
-          tray.open(latest.screw_index, latest.measured_mm);
-        }
+      case "tray":
+        this.openTray();
         break;
-      }
       case "choose_screw":
         this.chooseNeighbour(action.by);
         break;
+      case "put_down":
+        this.ask({ id: "put_down", hand: hand.active });
+        break;
+      case "pick_up":
+        this.pickUp();
+        break;
+      case "switch_hand":
+        this.useHand(otherHand(hand.active));
+        break;
       case "undo":
-        this.room.tell({ type: "undo" });
+        this.ask({ id: "undo" });
         break;
       case "finish":
-        this.room.finish();
+        if (!this.isRefused({ id: "finish" })) this.room.finish();
         break;
       case "pause":
         this.room.pause();
@@ -105,20 +122,87 @@ export class Actions {
     this.room.views.showView(view);
   }
 
-  private chooseNeighbour(by: number): void {
-    const latest = this.room.latest();
-    if (latest === undefined || this.refusedBySituation("screws")) return;
-    const screw = this.room.tray.neighbour(latest.screw_index, by);
-    if (screw === undefined) return;
-    this.room.tell({ type: "select_screw", index: screw.index });
-    this.room.say(`On the driver: ${screw.name}`);
+  /** Mouse and keys move this hand from now on. */
+  useHand(hand: HandIndex): void {
+    if (hand === this.room.hand.active) return;
+    this.room.hand.switchHand();
+    this.room.say(`Mouse and keys move the ${hand === 0 ? "first" : "second"} hand.`);
   }
 
-  private refusedBySituation(action: string): boolean {
+  /** Asks the host, or says why it would refuse. */
+  ask(asked: Asked): void {
+    if (!this.isRefused(asked)) this.room.tell(actMessage(asked));
+  }
+
+  /** Which ways are not open now. */
+  closedWays(): ClosedWays {
+    const offered = this.room.offered();
+    const hand = this.room.hand.active;
+    const [first] = this.measuring();
+    return {
+      measure: first === undefined ? "Nothing on the tray measures" : offered.whyNot(first),
+      putDown: offered.whyNot({ id: "put_down", hand }),
+      undo: offered.whyNot({ id: "undo" }),
+      finish: offered.whyNot({ id: "finish" }),
+      canPickUp: offered.pickUps(hand).length > 0,
+    };
+  }
+
+  private heldBy(hand: HandIndex): string {
     const latest = this.room.latest();
-    const hint = latest === undefined ? undefined : whyNot(action, latest);
-    if (hint !== undefined) this.room.say(hint);
-    return hint !== undefined;
+    return (latest === undefined ? undefined : heldItem(latest, hand)?.instrument) ?? "";
+  }
+
+  /** By the other hand, unless this one holds the gauge. */
+  private measuring(): readonly Asked[] {
+    const { active } = this.room.hand;
+    const { instruments } = this.room.tray;
+    const isGauge = (id: string): boolean =>
+      instruments.some((one) => one.id === id && one.is_gauge);
+    const hand = isGauge(this.heldBy(active)) ? active : otherHand(active);
+    return this.room.offered().measuring(hand, this.heldBy(hand), instruments);
+  }
+
+  /** Only the first can be told beforehand: it changes what the others need. */
+  private askInTurn(all: readonly Asked[]): void {
+    const [first] = all;
+    if (first === undefined || this.isRefused(first)) return;
+    for (const asked of all) this.room.tell(actMessage(asked));
+  }
+
+  private isRefused(asked: Asked): boolean {
+    const why = this.room.offered().whyNot(asked);
+    if (why !== undefined) this.room.say(why);
+    return why !== undefined;
+  }
+
+  private openTray(): void {
+    const { hand, tray } = this.room;
+    const latest = this.room.latest();
+    if (latest === undefined) return;
+    hand.releaseAll();
+    tray.open({
+      offered: this.room.offered(),
+      hand: hand.active,
+      held: this.heldBy(hand.active),
+      wanted: this.room.wantedInstrument(),
+      gaugeReadingMm: latest.gauge_reading_mm,
+    });
+  }
+
+  /** The first that can be taken; where none can, the reason of the first. */
+  private pickUp(): void {
+    const hand = this.room.hand.active;
+    const offers = this.room.offered().pickUps(hand);
+    const offer = offers.find((one) => one.allowed) ?? offers[0];
+    if (offer === undefined) this.room.say("Nothing lies in bone to take hold of.");
+    else this.ask({ id: "pick_up", hand, item: offer.item });
+  }
+
+  private chooseNeighbour(by: number): void {
+    const hand = this.room.hand.active;
+    const screw = this.room.tray.neighbour(this.heldBy(hand), by);
+    if (screw !== undefined) this.ask({ id: "take", hand, instrument: screw.id });
   }
 }
 

@@ -1,87 +1,180 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the hand holds and feels, and the ways back and out.
+// What the hands hold and feel, and the ways on, back and out. A way that is not open now says why.
 import { button, make, setText } from "../dom";
-import type { SnapshotMessage } from "../protocol";
+import { heldItem, type HandIndex } from "../operation";
+import type { Driver, ExerciseMessage, Item, SnapshotMessage } from "../protocol";
 import { Sparkline } from "./sparkline";
 
 export interface BottomBarHandlers {
+  hand(hand: HandIndex): void;
+  tray(): void;
   measure(): void;
-  screws(): void;
+  pickUp(): void;
+  putDown(): void;
   undo(): void;
   restart(): void;
   finish(): void;
 }
 
-const HAND: Readonly<Record<SnapshotMessage["instrument"], string>> = {
-  guide_wire: "Guide wire 1.14 mm",
-  screw_driver: "Screw driver",
-  none: "No instrument",
-};
-
-/** Length of the force on the hand [N]. */
-export function forceN(s: SnapshotMessage): number {
-  return Math.hypot(...s.force_n);
+/** Why each way cannot be gone now, in the host's words; nothing where it can. */
+export interface ClosedWays {
+  readonly measure: string | undefined;
+  readonly putDown: string | undefined;
+  readonly undo: string | undefined;
+  readonly finish: string | undefined;
+  /** Whether anything lies in bone that the hand could take hold of. */
+  readonly canPickUp: boolean;
 }
+
+/** Length of the force on a hand [N]. */
+export function forceN(s: SnapshotMessage, hand: HandIndex): number {
+  return Math.hypot(...s.hands[hand].force_n);
+}
+
+const DRIVING: Readonly<Record<Driver, string>> = {
+  off: "",
+  forward: "driving, ",
+  reverse: "reversing, ",
+};
+const HANDS = ["First hand", "Second hand"] as const;
 
 export class BottomBar {
   readonly element: HTMLElement;
-  private readonly instrument = make("strong");
+  private readonly hands: readonly [HTMLButtonElement, HTMLButtonElement];
   private readonly driver = make("span");
-  private readonly depth = make("span");
-  private readonly measured = make("span");
+  private readonly depth = make("span.depth");
+  private readonly resistance = make("span");
   private readonly force = make("span");
+  private readonly gauge = make("span");
+  private readonly holding = make("span");
   private readonly sparkline = new Sparkline();
+  private readonly ways: Readonly<
+    Record<"measure" | "putDown" | "pickUp" | "undo" | "finish", HTMLButtonElement>
+  >;
+  private exercise: ExerciseMessage | undefined;
 
   constructor(handlers: BottomBarHandlers) {
+    const hand = (index: HandIndex): HTMLButtonElement => {
+      const b = make("button.quiet.hand", { type: "button" }, `${index + 1} empty`);
+      b.addEventListener("click", () => {
+        handlers.hand(index);
+      });
+      return b;
+    };
+    this.hands = [hand(0), hand(1)];
+    this.ways = {
+      measure: button("Measure", "M", handlers.measure, ".quiet"),
+      putDown: button("Put down", "Q", handlers.putDown, ".quiet"),
+      pickUp: button("Take hold", "G", handlers.pickUp, ".quiet"),
+      undo: button("Undo", "Z", handlers.undo, ".quiet"),
+      finish: button("Finish", "F", handlers.finish),
+    };
     this.element = make(
       "footer.bottom-bar",
-      { "aria-label": "Instrument" },
+      { "aria-label": "Instruments" },
       make(
         "div.readings",
         {},
-        this.instrument,
+        make(
+          "div.hands",
+          { role: "group", "aria-label": "Hands" },
+          ...this.hands,
+          make("kbd", {}, "H"),
+        ),
         this.driver,
         this.depth,
-        this.measured,
+        this.resistance,
         this.force,
         this.sparkline.canvas,
+        this.gauge,
+        this.holding,
       ),
       make(
         "div.ways",
         {},
-        button("Measure", "M", handlers.measure, ".quiet"),
-        button("Screw", "C", handlers.screws, ".quiet"),
-        button("Undo", "Z", handlers.undo, ".quiet"),
+        button("Tray", "C", handlers.tray, ".quiet"),
+        this.ways.measure,
+        this.ways.pickUp,
+        this.ways.putDown,
+        this.ways.undo,
         button("Restart", "", handlers.restart, ".quiet"),
-        button("Finish", "F", handlers.finish),
+        this.ways.finish,
       ),
     );
   }
 
-  sample(s: SnapshotMessage): void {
-    this.sparkline.push(forceN(s));
+  setExercise(exercise: ExerciseMessage): void {
+    this.exercise = exercise;
   }
 
-  show(s: SnapshotMessage, driver: string, thrustN: number): void {
-    const screw = s.screw_index >= 0;
-    const alone = screw && s.instrument === "none";
-    setText(
-      this.instrument,
-      screw ? `Screw ${s.screw_length_mm.toFixed(1)} mm` : HAND[s.instrument],
-    );
-    setText(this.driver, alone ? "driver and wire out" : `driver ${driver}, push ${thrustN} N`);
+  sample(s: SnapshotMessage, hand: HandIndex): void {
+    this.sparkline.push(forceN(s, hand));
+  }
+
+  show(s: SnapshotMessage, active: HandIndex, driver: Driver, thrustN: number): void {
+    for (const hand of [0, 1] as const) this.showHand(s, hand, hand === active);
+    const item = heldItem(s, active);
+    setText(this.driver, item === undefined ? "" : `${DRIVING[driver]}push ${thrustN} N`);
     this.driver.classList.toggle("running", driver !== "off");
-    if (screw) {
-      const out = s.screw_buried_mm < 0;
-      const mm = Math.abs(s.screw_buried_mm).toFixed(1);
-      setText(this.depth, out ? `tail stands out ${mm} mm` : `tail buried ${mm} mm`);
-    } else {
-      setText(this.depth, `depth ${s.wire_depth_mm.toFixed(1)} mm`);
-    }
-    setText(this.measured, s.measured_mm < 0 ? "" : `measured ${s.measured_mm.toFixed(1)} mm`);
-    setText(this.force, `force ${forceN(s).toFixed(1)} N`);
+    setText(this.depth, item === undefined ? "" : this.depthText(item, s, active));
+    const { resistance_n } = s.hands[active];
+    setText(this.resistance, resistance_n > 0 ? `bone resists ${resistance_n.toFixed(0)} N` : "");
+    setText(this.force, item === undefined ? "" : `force ${forceN(s, active).toFixed(1)} N`);
+    const { gauge_reading_mm } = s;
+    setText(this.gauge, gauge_reading_mm === null ? "" : `gauge ${gauge_reading_mm.toFixed(1)} mm`);
+    setText(
+      this.holding,
+      this.isScrewSeated(s) ? `holds ${Math.round(100 * s.holding_share)} % of untouched bone` : "",
+    );
     this.sparkline.draw();
   }
+
+  showWays(ways: ClosedWays): void {
+    show(this.ways.measure, ways.measure);
+    show(this.ways.putDown, ways.putDown);
+    show(this.ways.undo, ways.undo);
+    show(this.ways.finish, ways.finish);
+    this.ways.pickUp.hidden = !ways.canPickUp;
+  }
+
+  private showHand(s: SnapshotMessage, hand: HandIndex, isActive: boolean): void {
+    const b = this.hands[hand];
+    const item = heldItem(s, hand);
+    const name = this.exercise?.instruments.find((one) => one.id === item?.instrument)?.name;
+    setText(b, `${hand + 1} ${name ?? "empty"}`);
+    b.setAttribute("aria-pressed", String(isActive));
+    b.title = `${HANDS[hand]}: ${name ?? "empty"}${isActive ? ", moved by mouse and keys" : ""}`;
+  }
+
+  private depthText(item: Item, s: SnapshotMessage, hand: HandIndex): string {
+    if (item.body === "") {
+      const { touched_body, touching } = s.hands[hand];
+      return touching ? `touches the ${this.label(touched_body)}` : "free";
+    }
+    if (!this.isScrew(item)) return `depth ${item.depth_mm.toFixed(1)} mm`;
+    const mm = Math.abs(item.buried_mm).toFixed(1);
+    return item.buried_mm < 0 ? `tail stands out ${mm} mm` : `tail buried ${mm} mm`;
+  }
+
+  private isScrew(item: Item): boolean {
+    const kind = this.exercise?.instruments.find((one) => one.id === item.instrument);
+    return kind !== undefined && kind.family !== "";
+  }
+
+  /** Some screw lies in the bone that is operated on, its tail below the surface. */
+  private isScrewSeated(s: SnapshotMessage): boolean {
+    return s.items.some((item) => this.isScrew(item) && item.in_target && item.buried_mm >= 0);
+  }
+
+  private label(body: string): string {
+    return this.exercise?.bodies.find((one) => one.name === body)?.label ?? body;
+  }
+}
+
+/** Not `disabled`: who presses it hears the reason. */
+function show(way: HTMLButtonElement, why: string | undefined): void {
+  way.setAttribute("aria-disabled", String(why !== undefined));
+  way.title = why ?? "";
 }

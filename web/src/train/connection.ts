@@ -3,7 +3,7 @@
 //
 // The room's line to its host: what is sent over it, and what is said while it does not hold.
 import { HostLink, openPageSocket, pageWord, type LinkState } from "../host_link";
-import type { CArmPicture, HostMessage, PageMessage, ToolMessage } from "../protocol";
+import type { CArmPicture, HandMessage, HostMessage, PageMessage } from "../protocol";
 
 export interface ConnectionHandlers {
   /** @param text  what is said over the scene; empty while the line is open */
@@ -55,9 +55,9 @@ export class Connection {
   }
 
   /** Where the hand is: many times a second, hence silent while the line does not hold. */
-  sendTool(tool: Omit<ToolMessage, "type" | "sequence">): void {
+  sendHand(hand: Omit<HandMessage, "type" | "sequence">): void {
     this.sequence = (this.sequence + 1) % SEQUENCE_END;
-    this.link.send({ type: "tool", sequence: this.sequence, ...tool });
+    this.link.send({ type: "hand", sequence: this.sequence, ...hand });
   }
 
   dispose(): void {

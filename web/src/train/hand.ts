@@ -1,23 +1,30 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mouse and keys become the hand: where it holds the instrument, how it pushes, the driver. It asks;
-// where the instrument really is, the host says.
+// Mouse and keys become one of the two hands: where it holds its instrument, how it pushes, the driver;
+// the other hand stays where it is. It asks; which way the hand goes and where the instrument really is,
+// the host says.
 import {
   heldAction,
+  heldItem,
   MAX_THRUST_N,
-  whyNot,
+  otherHand,
+  whyItKeepsStill,
   type Direction,
+  type HandIndex,
   type HeldAction,
   type KeyPress,
+  type WristAxis,
 } from "../operation";
-import type { SnapshotMessage, ToolMessage, Vec3 } from "../protocol";
+import type { HandMessage, Item, SnapshotMessage, Vec3 } from "../protocol";
 import type { Theatre } from "../theatre";
 import {
   add,
   approachedBy,
   cross,
+  dot,
   length,
+  MAX_APPROACH_MM,
   movedBy,
   normalized,
   scaled,
@@ -34,18 +41,18 @@ const ORBIT_STEP_RAD = (2 * Math.PI) / 180;
 const TURN_RAD_PER_PX = (0.25 * Math.PI) / 180;
 /** A fine step never jumps to another bone that happens to lie on the line of sight. */
 const FOLLOW_SURFACE_MM = 3;
-const START_APPROACH_MM = 30;
+const WRIST_STEP = 1;
+/** An empty hand begins so far beside the middle, to the right of the screen. */
+const BESIDE_MM = 30;
 /** A still hand is sent again after this long: the host pauses when it hears nothing [ms]. */
 const REPEAT_MS = 250;
 /** While the driver is held: the host stops it 150 ms after it last heard of it. */
 const DRIVE_REPEAT_MS = 40;
-/** The hand moves at most this fast, and farther ways lead over the bone, not along it. */
-const HAND_MM_PER_S = 350;
-const SLIDE_MM = 4;
-const LIFT_MM = 18;
 const START_THRUST_N = 25;
 /** Nearer to the screen's plane than this a direction cannot turn the shaft (sine). */
 const SMALLEST_TURN = 0.2;
+
+const NOWHERE: ToolPose = { anchorMm: [0, 0, 0], approachMm: MAX_APPROACH_MM, shaft: [0, 0, 1] };
 
 interface Held {
   readonly action: HeldAction;
@@ -54,13 +61,22 @@ interface Held {
 }
 
 export interface HandHandlers {
-  send(tool: Omit<ToolMessage, "type" | "sequence">): void;
+  send(hand: Omit<HandMessage, "type" | "sequence">): void;
+  /** @param by  degrees or newtons */
+  moveWrist(axis: WristAxis, by: number): void;
+  /** What people call a body. */
+  label(body: string): string;
   say(hint: string): void;
   snapshot(): SnapshotMessage | undefined;
 }
 
 export class Hand {
-  private pose: ToolPose = { anchorMm: [0, 0, 0], approachMm: START_APPROACH_MM, shaft: [0, 0, 1] };
+  private readonly poses: [ToolPose, ToolPose] = [NOWHERE, NOWHERE];
+  /** The hand that mouse and keys move. */
+  private moved: HandIndex = 0;
+  /** Whether the poses are those of this exercise: until its first snapshot nothing is sent. */
+  private isPlaced = false;
+  private last: SnapshotMessage | undefined;
   private thrustN = START_THRUST_N;
   private readonly held = new Map<string, Held>();
   private changed = true;
@@ -70,10 +86,6 @@ export class Hand {
   private pointerMoved = false;
   private enabled = false;
   private lastSentMs = -Infinity;
-  private lastFrameMs = -Infinity;
-  /** Where the tip still has to go through, the end last. */
-  private way: Vec3[] = [];
-  private tip: Vec3 = [0, 0, 0];
   private readonly abort = new AbortController();
 
   constructor(
@@ -119,20 +131,76 @@ export class Hand {
     );
   }
 
-  /** Lifts the instrument off, above the wrist, as at the beginning. */
-  reset(startMm: Vec3, shaft: Vec3): void {
-    this.pose = { anchorMm: startMm, approachMm: START_APPROACH_MM, shaft: normalized(shaft) };
+  /** Which hand mouse and keys move. */
+  get active(): HandIndex {
+    return this.moved;
+  }
+
+  private get pose(): ToolPose {
+    return this.poses[this.moved];
+  }
+
+  private set pose(pose: ToolPose) {
+    this.poses[this.moved] = pose;
+  }
+
+  /** Another exercise: where its hands are, its first snapshot will say. */
+  reset(): void {
     this.releaseAll();
-    this.tip = tipTarget(this.pose);
-    this.way = [];
+    this.moved = 0;
+    this.theatre.setActiveHand(0);
+    this.isPlaced = false;
+    this.last = undefined;
+  }
+
+  /** Mouse and keys move the other hand from now on; this one stops driving and stays. */
+  switchHand(): void {
+    this.releaseAll();
+    this.frame(performance.now());
+    this.moved = otherHand(this.moved);
+    this.theatre.setActiveHand(this.moved);
     this.changed = true;
   }
 
-  /** Takes the instrument over from where the host has it. */
-  takeOver(s: SnapshotMessage): void {
-    this.pose = { anchorMm: s.tip_mm, approachMm: 0, shaft: normalized(s.shaft) };
-    this.tip = s.tip_mm;
-    this.way = [];
+  /**
+   * Takes over where the host has what the hands hold: at first, after undo, and once the bone lets go
+   * of it. While a hand moves freely it is the page that says where it wants to be.
+   */
+  see(s: SnapshotMessage): void {
+    const before = this.last;
+    this.last = s;
+    const anew = before === undefined || !this.isPlaced || s.undos !== before.undos;
+    // What is driven came off or was put down: the held key was not meant for what is in the hand now.
+    if (before !== undefined && s.hands[this.moved].item !== before.hands[this.moved].item)
+      this.stopDriving();
+    for (const hand of [0, 1] as const) {
+      const item = heldItem(s, hand);
+      const had = before === undefined ? undefined : heldItem(before, hand);
+      const isFreed = item?.body === "" && had?.item === item.item && had.body !== "";
+      if (item === undefined ? !this.isPlaced : anew || isFreed) this.takeOver(hand, item, isFreed);
+    }
+    this.isPlaced = true;
+  }
+
+  private stopDriving(): void {
+    for (const [code, { action }] of this.held) if (action.kind === "drive") this.held.delete(code);
+    this.changed = true;
+  }
+
+  private takeOver(hand: HandIndex, item: Item | undefined, isAtBone: boolean): void {
+    const middle = this.theatre.middleMm();
+    if (item === undefined) {
+      const beside = scaled(this.theatre.screenAxes().right, BESIDE_MM);
+      const shaft = normalized(this.poses[0].shaft);
+      this.poses[hand] = { anchorMm: add(middle, beside), approachMm: MAX_APPROACH_MM, shaft };
+    } else {
+      const shaft = normalized(item.shaft);
+      const above = isAtBone || item.body !== "" ? 0 : dot(subtract(item.tip_mm, middle), shaft);
+      // Drawn back from the level of what is operated on, so that it can be advanced to there.
+      const approachMm = Math.min(MAX_APPROACH_MM, Math.max(0, above));
+      const anchorMm = subtract(item.tip_mm, scaled(shaft, approachMm));
+      this.poses[hand] = { anchorMm, approachMm, shaft };
+    }
     this.changed = true;
   }
 
@@ -146,7 +214,7 @@ export class Hand {
     return this.thrustN;
   }
 
-  get driver(): ToolMessage["driver"] {
+  get driver(): HandMessage["driver"] {
     for (const { action } of this.held.values()) {
       if (action.kind === "drive") return action.driver;
     }
@@ -200,70 +268,37 @@ export class Hand {
 
   /** Once per frame: what is held goes on, and the newest state is sent if it is new. */
   frame(nowMs: number): void {
-    if (!this.enabled) return;
+    if (!this.enabled || !this.isPlaced) return;
     for (const key of this.held.values()) this.walk(key, nowMs);
     if (this.pointerMoved) {
       this.pointerMoved = false;
       if (this.drag === "move") this.follow();
     }
-    this.carry(Math.min(0.1, Math.max(0, (nowMs - this.lastFrameMs) / 1000)));
-    this.lastFrameMs = nowMs;
     const driver = this.driver;
     const repeatMs = driver === "off" ? REPEAT_MS : DRIVE_REPEAT_MS;
     if (!this.changed && nowMs - this.lastSentMs < repeatMs) return;
     this.changed = false;
     this.lastSentMs = nowMs;
     this.handlers.send({
-      tip_mm: this.tip,
+      hand: this.moved,
+      tip_mm: tipTarget(this.pose),
       shaft: this.pose.shaft,
       thrust_n: driver === "forward" ? this.thrustN : 0,
       driver,
+      guidance: "planned",
     });
-  }
-
-  /** Moves the tip on its way as a hand does: short ways straight, longer ones lifted off the bone. */
-  private carry(seconds: number): void {
-    const target = tipTarget(this.pose);
-    const end = this.way.at(-1) ?? this.tip;
-    const jump = length(subtract(target, end));
-    if (jump > 0) {
-      this.changed = true;
-      if (this.way.length > 0 || jump > SLIDE_MM) {
-        const lift = scaled(this.pose.shaft, LIFT_MM);
-        // In flight already: the rest of the way leads to where the hand is wanted now.
-        const first = this.way.length === 0 ? add(this.tip, lift) : this.way[0];
-        const lifting = first !== undefined && (this.way.length === 0 || this.way.length === 3);
-        this.way = lifting ? [first, add(target, lift), target] : [add(target, lift), target];
-        if (this.pose.approachMm > 0) this.way = [target];
-      } else {
-        this.tip = target;
-        return;
-      }
-    }
-    let reach = HAND_MM_PER_S * seconds;
-    while (reach > 0) {
-      const next = this.way[0];
-      if (next === undefined) return;
-      this.changed = true;
-      const ahead = subtract(next, this.tip);
-      const mm = length(ahead);
-      if (mm > reach) {
-        this.tip = add(this.tip, scaled(ahead, reach / mm));
-        return;
-      }
-      this.tip = next;
-      reach -= mm;
-      this.way.shift();
-    }
   }
 
   dispose(): void {
     this.abort.abort();
   }
 
-  private hint(kind: string): string | undefined {
+  private hint(kind: HeldAction["kind"]): string | undefined {
     const snapshot = this.handlers.snapshot();
-    return snapshot === undefined ? undefined : whyNot(kind, snapshot);
+    if (snapshot === undefined || kind === "orbit" || kind === "move_wrist") return undefined;
+    const item = heldItem(snapshot, this.moved);
+    if (kind === "drive" && item !== undefined) return undefined;
+    return whyItKeepsStill(item, (body) => this.handlers.label(body));
   }
 
   private walk(key: Held, nowMs: number): void {
@@ -283,6 +318,9 @@ export class Hand {
       case "approach":
         this.pose = approachedBy(this.pose, (action.closer ? -1 : 1) * steps * MOVE_STEP_MM);
         break;
+      case "move_wrist":
+        this.handlers.moveWrist(action.axis, action.sign * steps * WRIST_STEP);
+        return;
       case "orbit": {
         const angle = steps * ORBIT_STEP_RAD;
         const right = action.to === "right" ? angle : action.to === "left" ? -angle : 0;

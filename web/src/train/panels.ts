@@ -5,17 +5,18 @@
 import { CArmPanel } from "../c_arm";
 import { make } from "../dom";
 import { HelpOverlay } from "../help_overlay";
-import type { OnceAction } from "../operation";
-import type { CaseDescription, Screw } from "../protocol";
+import type { HandIndex, OnceAction } from "../operation";
+import type { CaseDescription, Instrument, ProcedureSummary, WristPose } from "../protocol";
 import { StartDialog, type StartChoice } from "../start_dialog";
 import type { ViewId } from "../theatre";
 import { BottomBar } from "./bottom_bar";
 import { ConfirmDialog } from "./confirm_dialog";
 import { Notice } from "./notice";
-import { ScrewList } from "./screw_list";
 import { StepPanel } from "./step_panel";
 import { TopBar } from "./top_bar";
+import { TrayDialog } from "./tray_dialog";
 import { ViewBar } from "./view_bar";
+import { WristPanel } from "./wrist_panel";
 
 /** What the panels ask for. */
 export interface Wishes {
@@ -24,7 +25,9 @@ export interface Wishes {
   look(view: ViewId): void;
   skin(opacity: number): void;
   takeShot(rotationDeg: number, tiltDeg: number): void;
-  selectScrew(index: number): void;
+  useHand(hand: HandIndex): void;
+  take(instrument: Instrument, hand: HandIndex): void;
+  moveWrist(wish: WristPose): void;
   start(choice: StartChoice): void;
   resume(choice: StartChoice): void;
   /** Asks before what was done is given up. */
@@ -43,7 +46,8 @@ export interface Panels {
   readonly notice: Notice;
   readonly start: StartDialog;
   readonly help: HelpOverlay;
-  readonly tray: ScrewList;
+  readonly tray: TrayDialog;
+  readonly wrist: WristPanel;
   readonly finishQuestion: ConfirmDialog;
   readonly anewQuestion: ConfirmDialog;
   /** Over the scene while there is no connection. */
@@ -54,23 +58,36 @@ export interface Panels {
 
 export function makePanels(
   description: CaseDescription,
-  screws: readonly Screw[],
+  procedures: readonly ProcedureSummary[],
   wishes: Wishes,
 ): Panels {
   const act = (
-    kind: "pause" | "help" | "full_screen" | "measure" | "screws" | "undo" | "finish",
+    kind:
+      | "pause"
+      | "help"
+      | "full_screen"
+      | "tray"
+      | "measure"
+      | "pick_up"
+      | "put_down"
+      | "undo"
+      | "finish",
   ) => {
     return (): void => {
       wishes.act({ kind });
     };
   };
+  const wrist = new WristPanel((wish) => {
+    wishes.moveWrist(wish);
+  });
   const panels: Panels = {
     top: new TopBar(description, {
       pause: act("pause"),
       help: act("help"),
       fullScreen: act("full_screen"),
     }),
-    steps: new StepPanel(),
+    steps: new StepPanel(wrist.element),
+    wrist,
     views: new ViewBar({
       look: (view) => {
         wishes.look(view);
@@ -82,14 +99,19 @@ export function makePanels(
         wishes.act({ kind: "labels" });
       },
     }),
-    arm: new CArmPanel(description.views, {
+    arm: new CArmPanel({
       takeShot: (rotationDeg, tiltDeg) => {
         wishes.takeShot(rotationDeg, tiltDeg);
       },
     }),
     bottom: new BottomBar({
+      hand: (hand) => {
+        wishes.useHand(hand);
+      },
+      tray: act("tray"),
       measure: act("measure"),
-      screws: act("screws"),
+      pickUp: act("pick_up"),
+      putDown: act("put_down"),
       undo: act("undo"),
       restart: () => {
         wishes.restart();
@@ -99,6 +121,7 @@ export function makePanels(
     notice: new Notice(),
     start: new StartDialog(
       description,
+      procedures,
       (choice) => {
         wishes.start(choice);
       },
@@ -107,8 +130,8 @@ export function makePanels(
       },
     ),
     help: new HelpOverlay(),
-    tray: new ScrewList(screws, (screw) => {
-      wishes.selectScrew(screw.index);
+    tray: new TrayDialog((instrument, hand) => {
+      wishes.take(instrument, hand);
     }),
     finishQuestion: new ConfirmDialog(
       "Finish the operation?",

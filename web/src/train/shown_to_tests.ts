@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `window.carpus`: for tests and screenshots, what is shown; never a way to act.
-import type { SnapshotMessage, Vec3 } from "../protocol";
+import type { BodyPose, ExerciseMessage, SnapshotMessage, Vec3 } from "../protocol";
 import type { Theatre } from "../theatre";
+import type { WhatIsSeen } from "./what_is_seen";
 
 declare global {
   interface Window {
     carpus?: {
       snapshot(): SnapshotMessage | undefined;
+      exercise(): ExerciseMessage | undefined;
+      /** By the body's name, as the host told them last. */
+      bodyPoses(): Readonly<Record<string, BodyPose>>;
       pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
       screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
     };
@@ -16,12 +20,11 @@ declare global {
 }
 
 /** @return takes it away */
-export function showToTests(
-  theatre: Theatre,
-  snapshot: () => SnapshotMessage | undefined,
-): () => void {
+export function showToTests(theatre: Theatre, seen: WhatIsSeen): () => void {
   window.carpus = {
-    snapshot,
+    snapshot: () => seen.latest,
+    exercise: () => seen.doing,
+    bodyPoses: () => seen.bodyPoses(),
     pagePoint: (mm) => theatre.pagePoint(mm),
     screenAxes: () => theatre.screenAxes(),
   };

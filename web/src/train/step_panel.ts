@@ -3,25 +3,48 @@
 //
 // The steps: the current one in a sentence with its key, the rest by name.
 import { make, setText } from "../dom";
-import { isCompleted, STEPS, tickText, type StepText } from "../operation";
-import type { SnapshotMessage } from "../protocol";
+import { keysOf, tickText } from "../operation";
+import type { ExerciseMessage, SnapshotMessage, Step } from "../protocol";
 
 const MAX_LOG_LINES = 40;
 
+interface ShownStep {
+  readonly step: Step;
+  readonly item: HTMLLIElement;
+  readonly mark: HTMLElement;
+}
+
 export class StepPanel {
   readonly element: HTMLElement;
-  private readonly items: {
-    readonly step: StepText;
-    readonly item: HTMLLIElement;
-    readonly mark: HTMLElement;
-  }[];
+  private readonly list = make("ol.step-list", {
+    tabindex: "0",
+    "aria-label": "Steps of the procedure",
+  });
+  private items: readonly ShownStep[] = [];
   private readonly announcer = make("p.visually-hidden", { "aria-live": "polite" });
   private readonly log = make("ol.log", { "aria-label": "What happened", tabindex: "0" });
   private shown = "";
 
-  constructor() {
-    this.items = STEPS.filter((step) => step.id !== "finished").map((step, index) => {
+  constructor(wrist: HTMLElement) {
+    this.element = make(
+      "nav.steps",
+      { "aria-label": "Steps" },
+      make("header.panel-title", {}, make("h2", {}, "Steps")),
+      this.list,
+      this.announcer,
+      wrist,
+      make("h3.log-title", {}, "Log"),
+      this.log,
+    );
+  }
+
+  /** The steps of the procedure that is done, with the name of what each is done with. */
+  setSteps({ steps, instruments }: ExerciseMessage): void {
+    this.shown = "";
+    this.items = steps.map((step, index) => {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
+      const keys = keysOf(step.actions).map((key) => make("kbd", {}, key));
+      const tool = instruments.find((one) => one.id === step.instrument);
       const item = make(
         "li",
         {},
@@ -29,37 +52,29 @@ export class StepPanel {
         make(
           "div",
           {},
-          make("span.step-name", {}, step.name),
-          make("p.step-sentence", {}, step.sentence),
-          make("p.step-keys", {}, make("kbd", {}, step.keys)),
+          make("span.step-name", {}, step.title),
+          make("p.step-sentence", {}, step.instruction),
+          make("p.step-keys", {}, ...(tool === undefined ? [] : [`${tool.name} `]), ...keys),
         ),
       );
       return { step, item, mark };
     });
-    this.element = make(
-      "nav.steps",
-      { "aria-label": "Steps" },
-      make("header.panel-title", {}, make("h2", {}, "Steps")),
-      make("ol.step-list", {}, ...this.items.map(({ item }) => item)),
-      this.announcer,
-      make("h3.log-title", {}, "Log"),
-      this.log,
-    );
+    this.list.replaceChildren(...this.items.map(({ item }) => item));
   }
 
   show(s: SnapshotMessage): void {
-    const state = `${s.step} ${s.completed_steps}`;
+    const state = `${s.step} ${s.completed_steps.join(" ")}`;
     if (state === this.shown) return;
     this.shown = state;
     this.items.forEach(({ step, item, mark }, index) => {
-      const current = step.id === s.step;
-      const done = isCompleted(s.completed_steps, step);
+      const current = index === s.step;
+      const done = s.completed_steps.includes(index);
       item.classList.toggle("current", current);
       item.classList.toggle("done", done);
       setText(mark, done ? "✓" : String(index + 1));
       if (current) {
         item.setAttribute("aria-current", "step");
-        setText(this.announcer, `${step.name}: ${step.sentence}`);
+        setText(this.announcer, `${step.title}: ${step.instruction}`);
         item.scrollIntoView({ block: "nearest" });
       } else {
         item.removeAttribute("aria-current");

@@ -12,8 +12,6 @@ import { Participation } from "./participation_model";
 import { waitingText, type WaitingOperation } from "./waiting_model";
 import type { WhatIsSeen } from "./what_is_seen";
 
-const PROCEDURE = "dorsal_scaphoid_fixation";
-
 /** What an exercise takes hold of in the room. */
 export interface ExerciseRoom {
   readonly panels: Panels;
@@ -31,8 +29,8 @@ export class TakingPart {
   private waiting: WaitingOperation = { trainee: "", startedAt: "" };
   /** Said before what waits. */
   private waitingLead = "";
-  private trainee = "";
-  private wanted: StartChoice = { trainee: "" };
+  private chosen: StartChoice = { trainee: "", procedure: "" };
+  private wanted: StartChoice = this.chosen;
 
   constructor(private readonly room: ExerciseRoom) {}
 
@@ -48,7 +46,7 @@ export class TakingPart {
   }
 
   restart(): void {
-    this.wanted = { trainee: this.trainee };
+    this.wanted = this.chosen;
     this.room.panels.anewQuestion.ask();
   }
 
@@ -57,11 +55,11 @@ export class TakingPart {
   }
 
   private begin(choice: StartChoice): void {
-    this.trainee = choice.trainee;
+    this.chosen = choice;
     const sent = this.room.tell({
       type: "start",
       trainee: choice.trainee,
-      procedure: PROCEDURE,
+      procedure: choice.procedure,
       input_device: "mouse",
       seed: crypto.getRandomValues(new Uint32Array(1))[0] ?? 1,
     });
@@ -74,11 +72,11 @@ export class TakingPart {
   }
 
   resume(choice: StartChoice): void {
-    const { hand, seen } = this.room;
-    this.trainee = choice.trainee;
+    // Restart does again what goes on, whatever else was chosen.
+    const procedure = this.room.seen.doing?.procedure.id ?? choice.procedure;
+    this.chosen = { ...choice, procedure };
     this.part.goOn();
     this.pausedByHand = false;
-    if (seen.latest !== undefined) hand.takeOver(seen.latest);
     this.goOn();
     this.enter();
   }
@@ -112,8 +110,9 @@ export class TakingPart {
   /** Another exercise waits that this page may go on with. */
   private offer(lead: string): void {
     this.room.seen.forget();
+    this.room.hand.reset();
     this.waitingLead = lead;
-    this.leave(lead + waitingText(this.waiting, undefined, new Date()));
+    this.leave(lead + waitingText(this.waiting, undefined, [], new Date()));
   }
 
   /** The host lets time pass again, unless the trainee had stopped it. */
@@ -159,18 +158,20 @@ export class TakingPart {
     if (!this.part.isOffered || this.operates) return;
     panels.start.setReady(
       true,
-      this.waitingLead + waitingText(this.waiting, seen.latest, new Date()),
+      this.waitingLead +
+        waitingText(this.waiting, seen.latest, seen.doing?.steps ?? [], new Date()),
     );
   }
 
   /** The host takes this page, for the first time or again, or has begun what it asked for. */
   arrive(exercise: number, waiting: WaitingOperation): void {
-    const { panels, seen } = this.room;
+    const { hand, panels, seen } = this.room;
     this.waiting = waiting;
     switch (this.part.arrive(exercise)) {
       case "begun":
         // Pictures of the exercise before may have come after the request.
-        seen.clearRecord();
+        seen.forget();
+        hand.reset();
         break;
       case "goes_on":
         // The host tells the log again.

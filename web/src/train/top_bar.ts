@@ -21,9 +21,14 @@ export class TopBar {
   private readonly p99 = make("span", {}, "p99 –");
   private readonly late = make("span", {}, "late –");
   private readonly link = make("span.link-state", { role: "status" });
+  private readonly procedure = make("span.secondary.procedure");
   private readonly pauseButton: HTMLButtonElement;
 
-  constructor(description: CaseDescription, handlers: TopBarHandlers) {
+  constructor(
+    private readonly description: CaseDescription,
+    handlers: TopBarHandlers,
+  ) {
+    setText(this.procedure, `${description.side} wrist`);
     this.pauseButton = button("Pause", "P", handlers.pause, ".quiet");
     const patient = make("span.patient", {}, description.pseudonym);
     if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
@@ -42,7 +47,7 @@ export class TopBar {
       {},
       make("h1.brand", {}, "Carpus"),
       patient,
-      make("span.secondary.procedure", {}, `${description.side} wrist · dorsal scaphoid fixation`),
+      this.procedure,
       this.link,
       timing,
       this.pauseButton,
@@ -60,6 +65,11 @@ export class TopBar {
     const wanted = s.paused ? "Resume" : "Pause";
     if (label !== null && label.textContent !== wanted) label.textContent = wanted;
     this.pauseButton.setAttribute("aria-pressed", String(s.paused));
+  }
+
+  /** @param title  of the procedure that is done */
+  showProcedure(title: string): void {
+    setText(this.procedure, `${this.description.side} wrist · ${title}`);
   }
 
   showLink(text: string): void {

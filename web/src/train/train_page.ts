@@ -3,7 +3,7 @@
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
 import { faceNames, makeFrameMap } from "../frames";
-import type { CaseDescription, HostMessage, Screw, Vec3 } from "../protocol";
+import type { CaseDescription, HostMessage, ProcedureSummary } from "../protocol";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
 import { Connection } from "./connection";
@@ -16,9 +16,6 @@ import { showToTests } from "./shown_to_tests";
 import { TakingPart } from "./taking_part";
 import "./train.css";
 import { WhatIsSeen } from "./what_is_seen";
-
-/** In the renderer: from dorsal, a little from proximal, as the driver is brought to a flexed wrist. */
-const START_SHAFT: Vec3 = [0, -0.26, 0.97];
 
 export class TrainPage {
   private readonly panels: Panels;
@@ -34,20 +31,19 @@ export class TrainPage {
   constructor(
     app: HTMLElement,
     description: CaseDescription,
-    screws: readonly Screw[],
+    procedures: readonly ProcedureSummary[],
     scene: CaseScene,
   ) {
-    this.panels = this.makePanels(description, screws);
-    const frames = makeFrameMap(description.held_wrist_from_patient);
+    this.panels = this.makePanels(description, procedures);
+    const frames = makeFrameMap(description.wrist_from_patient);
     const stage = layOut(app, this.panels);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
     this.theatre.setSkin(this.panels.views.skinOpacity);
     this.theatre.onViewLeft = () => {
       this.panels.views.showView(undefined);
     };
-    this.seen = new WhatIsSeen(this.panels, this.theatre, screws);
+    this.seen = new WhatIsSeen(this.panels, this.theatre);
     this.hand = this.makeHand();
-    this.hand.reset(this.theatre.startPointMm(), frames.directionToPatient(...START_SHAFT));
     this.part = new TakingPart({
       panels: this.panels,
       hand: this.hand,
@@ -60,7 +56,7 @@ export class TrainPage {
     this.panels.start.setReady(false, "Connecting to the host…");
     this.panels.start.open();
     this.connection = this.connect();
-    this.stops = [showToTests(this.theatre, () => this.seen.latest), this.startLoop()];
+    this.stops = [showToTests(this.theatre, this.seen), this.startLoop()];
   }
 
   dispose(): void {
@@ -72,8 +68,11 @@ export class TrainPage {
     this.theatre.dispose();
   }
 
-  private makePanels(description: CaseDescription, screws: readonly Screw[]): Panels {
-    return makePanels(description, screws, {
+  private makePanels(
+    description: CaseDescription,
+    procedures: readonly ProcedureSummary[],
+  ): Panels {
+    return makePanels(description, procedures, {
       act: (action) => {
         this.actions.act(action);
       },
@@ -84,10 +83,27 @@ export class TrainPage {
         this.theatre.setSkin(opacity);
       },
       takeShot: (rotationDeg, tiltDeg) => {
-        this.connection.tell({ type: "take_shot", rotation_deg: rotationDeg, tilt_deg: tiltDeg });
+        const refused = this.seen.offered.whyNot({ id: "take_shot" });
+        if (refused !== undefined) {
+          this.panels.notice.say(refused);
+          return;
+        }
+        this.connection.tell({
+          type: "take_shot",
+          rotation_deg: rotationDeg,
+          tilt_deg: tiltDeg,
+          reference: "held_forearm",
+        });
       },
-      selectScrew: (index) => {
-        this.connection.tell({ type: "select_screw", index });
+      useHand: (hand) => {
+        this.actions.useHand(hand);
+      },
+      take: (instrument, hand) => {
+        this.actions.ask({ id: "take", hand, instrument: instrument.id });
+        this.seen.sayTaken(instrument);
+      },
+      moveWrist: (wish) => {
+        if (this.part.operates) this.connection.tell({ type: "wrist", ...wish });
       },
       start: (choice) => {
         this.part.start(choice);
@@ -102,16 +118,20 @@ export class TrainPage {
         this.part.startAnew();
       },
       finish: () => {
-        this.connection.tell({ type: "finish" });
+        this.actions.ask({ id: "finish" });
       },
     });
   }
 
   private makeHand(): Hand {
     return new Hand(this.theatre, {
-      send: (tool) => {
-        this.connection.sendTool(tool);
+      send: (hand) => {
+        this.connection.sendHand(hand);
       },
+      moveWrist: (axis, by) => {
+        this.panels.wrist.move(axis, by);
+      },
+      label: (body) => this.seen.label(body),
       say: (hint) => {
         this.panels.notice.say(hint);
       },
@@ -129,6 +149,8 @@ export class TrainPage {
       hand: this.hand,
       theatre: this.theatre,
       latest: () => this.seen.latest,
+      offered: () => this.seen.offered,
+      wantedInstrument: () => this.seen.wantedInstrument,
       tell: (message) => {
         this.connection.tell(message);
       },
@@ -189,7 +211,7 @@ export class TrainPage {
         this.theatre.draw();
       },
       readings: () => {
-        this.seen.showReadings(this.hand, this.part.operates);
+        this.seen.showReadings(this.hand, this.actions.closedWays(), this.part.operates);
       },
     });
   }
@@ -198,8 +220,17 @@ export class TrainPage {
     const { notice, steps } = this.panels;
     switch (message.type) {
       case "snapshot":
-        this.seen.take(message);
+        this.seen.take(message, this.hand);
         this.part.showWaiting();
+        break;
+      case "exercise":
+        this.seen.begin(message);
+        break;
+      case "tissue":
+        this.seen.takeTissue(message);
+        break;
+      case "actions":
+        this.seen.takeActions(message);
         break;
       case "event":
         steps.addLog(message.tick, message.text);

@@ -16,7 +16,7 @@ const NAMES: Readonly<Record<ViewId, string>> = {
   radial: "Radial",
   volar: "Volar",
   ulnar: "Ulnar",
-  wire: "Along wire",
+  wire: "Along shaft",
 };
 
 /** What `T` goes through [%]. */

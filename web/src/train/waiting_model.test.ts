@@ -3,20 +3,29 @@
 //
 // Who comes to a waiting operation learns whose it is before going on with it.
 import { describe, expect, it } from "vitest";
+import type { Step } from "../protocol";
 import { waitingText } from "./waiting_model";
 
 const NOW = new Date(2026, 4, 3, 15, 0);
+const STEPS: readonly Step[] = ["Survey", "Drive the wire"].map((title) => ({
+  id: title,
+  title,
+  instruction: "",
+  actions: [],
+  instrument: "",
+}));
 const STARTED = new Date(2026, 4, 3, 14, 7);
 
 describe("waitingText", () => {
   it("says whose, since when and how far", () => {
     const text = waitingText(
       { trainee: "Ada", startedAt: STARTED.toISOString() },
-      { step: "drive", tick: 125_400 },
+      { step: 1, tick: 125_400 },
+      STEPS,
       NOW,
     );
     expect(text).toBe(
-      "The operation of Ada waits, begun at 14:07; 2 min 5 s in, at step 4, Drive the wire. " +
+      "The operation of Ada waits, begun at 14:07; 2 min 5 s in, at step 2, Drive the wire. " +
         "Going on keeps it under that name.",
     );
   });
@@ -24,7 +33,8 @@ describe("waitingText", () => {
   it("says the day where it is another, and no name where none was typed", () => {
     const text = waitingText(
       { trainee: "", startedAt: STARTED.toISOString() },
-      { step: "survey", tick: 9_900 },
+      { step: 0, tick: 9_900 },
+      STEPS,
       new Date(2026, 4, 4, 8, 0),
     );
     expect(text).toMatch(
@@ -33,7 +43,7 @@ describe("waitingText", () => {
   });
 
   it("says what it knows before the first state and without a time", () => {
-    expect(waitingText({ trainee: "Ada", startedAt: "" }, undefined, NOW)).toBe(
+    expect(waitingText({ trainee: "Ada", startedAt: "" }, undefined, [], NOW)).toBe(
       "The operation of Ada waits. Going on keeps it under that name.",
     );
   });

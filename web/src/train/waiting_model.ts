@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The operation that waits for a page, in words: whose it is, since when, how far it went.
-import { STEPS, type StepId } from "../operation";
+import type { Step } from "../protocol";
 
 export interface WaitingOperation {
   /** As typed; may be empty. */
@@ -12,7 +12,8 @@ export interface WaitingOperation {
 }
 
 export interface HowFar {
-  readonly step: StepId;
+  /** Number of the current one. */
+  readonly step: number;
   /** Time spent in the operation [ms]. */
   readonly tick: number;
 }
@@ -30,21 +31,25 @@ function duration(ms: number): string {
   return minutes === 0 ? `${seconds} s` : `${minutes} min ${seconds} s`;
 }
 
-/** @param howFar  unknown until the host's first snapshot */
+/**
+ * @param howFar  unknown until the host's first snapshot
+ * @param steps   of what is done; empty until the host has told
+ */
 export function waitingText(
   waiting: WaitingOperation,
   howFar: HowFar | undefined,
+  steps: readonly Step[],
   now: Date,
 ): string {
   const { trainee } = waiting;
   const whose = trainee === "" ? "An operation without a name" : `The operation of ${trainee}`;
   const started = new Date(waiting.startedAt);
   const since = Number.isNaN(started.getTime()) ? "" : `, begun at ${clock(started, now)}`;
-  const index = STEPS.findIndex((step) => step.id === howFar?.step);
+  const step = howFar === undefined ? undefined : steps[howFar.step];
   const at =
-    howFar === undefined || index < 0
+    howFar === undefined || step === undefined
       ? ""
-      : `; ${duration(howFar.tick)} in, at step ${index + 1}, ${STEPS[index]?.name ?? ""}`;
+      : `; ${duration(howFar.tick)} in, at step ${howFar.step + 1}, ${step.title}`;
   const keeps = trainee === "" ? "" : " Going on keeps it under that name.";
   return `${whose} waits${since}${at}.${keeps}`;
 }

@@ -1,47 +1,130 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The host's last snapshot, and all that shows it: the theatre at once, readings ten times a second.
-import { whyStuck } from "../operation";
-import type { Screw, SnapshotMessage } from "../protocol";
+// What the host has told: what is done, its last snapshot, what can be asked for; and all that shows it:
+// the theatre at once, readings ten times a second.
+import { OfferedActions, whyStuck } from "../operation";
+import type {
+  ActionsMessage,
+  BodyPose,
+  ExerciseMessage,
+  Instrument,
+  SnapshotMessage,
+  TissueMessage,
+} from "../protocol";
 import type { Theatre } from "../theatre";
+import type { ClosedWays } from "./bottom_bar";
 import type { Hand } from "./hand";
 import type { Panels } from "./panels";
 
 export class WhatIsSeen {
   private snapshot: SnapshotMessage | undefined;
+  private exercise: ExerciseMessage | undefined;
+  private actions = new OfferedActions();
+  private poses: readonly BodyPose[] = [];
 
   constructor(
     private readonly panels: Panels,
     private readonly theatre: Theatre,
-    private readonly screws: readonly Screw[],
   ) {}
 
   get latest(): SnapshotMessage | undefined {
     return this.snapshot;
   }
 
-  take(s: SnapshotMessage): void {
-    const screw = this.screws.find((one) => one.index === s.screw_index);
-    if (screw !== undefined && s.screw_index !== this.snapshot?.screw_index)
-      this.theatre.setScrewShape(screw);
+  get doing(): ExerciseMessage | undefined {
+    return this.exercise;
+  }
+
+  get offered(): OfferedActions {
+    return this.actions;
+  }
+
+  /** By name, as told last. */
+  bodyPoses(): Readonly<Record<string, BodyPose>> {
+    const bodies = this.exercise?.bodies ?? [];
+    return Object.fromEntries(
+      bodies.flatMap(({ name }, i) => {
+        const pose = this.poses[i];
+        return pose === undefined ? [] : [[name, pose]];
+      }),
+    );
+  }
+
+  /** What people call a body. */
+  label(body: string): string {
+    return this.exercise?.bodies.find((one) => one.name === body)?.label ?? body;
+  }
+
+  /** Id of what the current step is done with, or empty. */
+  get wantedInstrument(): string {
+    const { exercise, snapshot } = this;
+    return (snapshot === undefined ? "" : exercise?.steps[snapshot.step]?.instrument) ?? "";
+  }
+
+  /** What is done from now on; its state follows. */
+  begin(exercise: ExerciseMessage): void {
+    const { arm, bottom, steps, top, tray, wrist } = this.panels;
+    this.exercise = exercise;
+    this.snapshot = undefined;
+    this.theatre.setInstruments(exercise.instruments);
+    this.theatre.setTracks([]);
+    top.showProcedure(exercise.procedure.title);
+    steps.setSteps(exercise);
+    arm.setViews(exercise.views);
+    tray.setTray(exercise);
+    bottom.setExercise(exercise);
+    wrist.reset(exercise.wrist_limits);
+  }
+
+  takeActions(message: ActionsMessage): void {
+    this.actions = new OfferedActions(message.actions);
+  }
+
+  takeTissue(message: TissueMessage): void {
+    this.theatre.setTracks(message.tracks);
+  }
+
+  take(s: SnapshotMessage, hand: Hand): void {
+    const isFirst = this.snapshot === undefined;
     this.snapshot = s;
+    this.poseBodies(s, isFirst);
     this.theatre.show(s);
-    this.panels.bottom.sample(s);
+    this.panels.bottom.sample(s, hand.active);
     this.panels.steps.show(s);
+    hand.see(s);
+  }
+
+  private poseBodies(s: SnapshotMessage, isFirst: boolean): void {
+    const { exercise, theatre } = this;
+    if (exercise === undefined || s.bodies === null) return;
+    this.poses = s.bodies;
+    s.bodies.forEach((pose, index) => {
+      const body = exercise.bodies[index];
+      if (body !== undefined) theatre.setBonePose(body.name, pose);
+    });
+    if (!isFirst) return;
+    theatre.setTarget(exercise.bodies.filter((one) => one.is_target).map((one) => one.name));
   }
 
   /** @param operates  whether this page does: only then is a pause said over the scene */
-  showReadings(hand: Hand, operates: boolean): void {
+  showReadings(hand: Hand, ways: ClosedWays, operates: boolean): void {
     const s = this.snapshot;
     if (s === undefined) return;
-    const { arm, bottom, frozen, notice, pausedSign, top } = this.panels;
+    const { arm, bottom, frozen, notice, pausedSign, top, wrist } = this.panels;
     top.showTiming(s);
     pausedSign.hidden = !s.paused || !operates || !frozen.hidden;
-    bottom.show(s, hand.driver, hand.thrust);
+    bottom.show(s, hand.active, hand.driver, hand.thrust);
+    bottom.showWays(ways);
+    wrist.show(s.wrist);
     arm.showCount(s.shots, s.dose_cgy_cm2);
-    const stuck = hand.driver === "forward" ? whyStuck(s, hand.thrust) : undefined;
+    const stuck = hand.driver === "forward" ? whyStuck(s, hand.active, hand.thrust) : undefined;
     if (stuck !== undefined) notice.say(stuck);
+  }
+
+  /** Says what was taken, for who only hears. */
+  sayTaken(instrument: Instrument): void {
+    this.panels.notice.say(`Taken: ${instrument.name}. ${instrument.use}`);
   }
 
   /** Log and pictures of an exercise that is over. */
@@ -54,5 +137,7 @@ export class WhatIsSeen {
   forget(): void {
     this.clearRecord();
     this.snapshot = undefined;
+    this.exercise = undefined;
+    this.actions = new OfferedActions();
   }
 }
