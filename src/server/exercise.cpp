@@ -31,6 +31,7 @@ Exercise::Exercise(const cases::CaseData& data, std::uint64_t case_fingerprint, 
       world_(data, *setup_.procedure, setup_.seed),
       session_(data, *setup_.procedure, world_.now()),
       recorder_(kProgramVersion, case_fingerprint_, *setup_.procedure, setup_.seed),
+      shadow_(data, *setup_.procedure, setup_.seed),
       state_{world_.now(), {}},  // before the thread starts: from then on the world is its own
       loop_(
           [this](const simulation::Input& input) -> const simulation::Snapshot& {
@@ -56,7 +57,13 @@ ExerciseNews Exercise::collect() {
   ExerciseNews news;
   // Events first: their ticks' inputs are then certain to be there already.
   while (const auto tick = loop_.next_eventful_tick()) add_news(*tick, news);
-  while (const auto input = loop_.next_input()) recorder_.append(*input);
+  while (const auto input = loop_.next_input()) {
+    recorder_.append(*input);
+    shadow_.step(*input);
+    if (recorder_.tick() % simulation::kKeyframeTicks == 0) {
+      recorder_.append_keyframe({recorder_.tick(), shadow_.write_state()});
+    }
+  }
   log_.insert(log_.end(), news.events.begin(), news.events.end());
   return news;
 }

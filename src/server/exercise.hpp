@@ -82,6 +82,9 @@ class Exercise {
   simulation::World world_;
   session::Session session_;
   simulation::Recorder recorder_;
+  /// Steps behind the live world, from the recorded inputs: keyframes are written from it, which
+  /// the 1 kHz thread has no time for, and its last hash says whether the recording is true.
+  simulation::World shadow_;
   std::vector<protocol::LoggedEvent> log_;
   LoopState state_;
   SimulationLoop loop_;  ///< last, so that its thread ends before what it uses

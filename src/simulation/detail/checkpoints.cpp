@@ -20,7 +20,7 @@ void World::State::save_checkpoint() noexcept {
   tissue.cuts().checkpoint();
 }
 
-void World::State::undo() noexcept {
+void World::State::undo(const Model& model) noexcept {
   --checkpoint_count;
   now = checkpoints[checkpoint_count];
   for (std::size_t i = passes_at_checkpoint[checkpoint_count];
@@ -30,7 +30,8 @@ void World::State::undo() noexcept {
   if (tissue.cuts().undo()) ++spent.tissue_revision;
   ++spent.undos;
   scene.forget();
-  carry_fixed_items();  // the wrist may have moved since
+  pose_bodies(model);  // fragments are back, and the wrist may have moved since
+  carry_fixed_items();
   emit(EventKind::Undone, kNoItem, 0, 0.0);
 }
 

@@ -34,7 +34,7 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::ReadGauge:
       return read_gauge(model, command.hand);
     case CommandKind::Undo:
-      return undo();
+      return undo(model);
     case CommandKind::Finish:
       is_finishing = true;
       return;

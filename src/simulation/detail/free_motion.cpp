@@ -12,7 +12,6 @@
 namespace carpus::simulation {
 
 using detail::Item;
-using detail::kNoTrack;
 
 namespace {
 

@@ -15,7 +15,7 @@ namespace carpus::simulation {
 using detail::absolute;
 using detail::bit_of;
 using detail::Item;
-using detail::kNoTrack;
+using detail::kNoHole;
 using instruments::Work;
 
 namespace {
@@ -66,7 +66,7 @@ void World::State::engage(const Model& model, std::uint8_t hand, const Touched& 
   item.in_target = false;
   item.has_left = false;
   item.told_bodies = 0;
-  item.track = kNoTrack;
+  item.hole = kNoHole;
   item.pass = spent.pass_count < detail::kMaxPasses ? static_cast<std::uint8_t>(spent.pass_count)
                                                     : std::uint8_t{255};
   if (item.pass != 255) {
@@ -104,7 +104,6 @@ void World::State::enter_target(const Model& model,
     item.direction_in_bone =
         (inverses[body] * (from * Direction<frame::Bone>{item.direction_in_bone})).v;
     item.body = body;
-    item.track = kNoTrack;  // the hole goes on in another bone's frame
   }
   item.in_target = true;
   item.entry_at_mm = entry_at_mm;
@@ -159,43 +158,50 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
 /// times as much for at most a tenth of a millimetre.
 void World::State::cut(const Model& model, Item& item) noexcept {
   const instruments::Instrument& kind = kind_of(model, item);
-  if (!(item.travel_mm > item.cut_to_mm) || !(kind.cut_tip_radius_mm > 0.0)) return;
-  const double radius = 0.5 * (kind.cut_tip_radius_mm + kind.cut_tail_radius_mm);
-  if (item.track == kNoTrack) {
-    if (now.track_count == kMaxTracks) {
-      ++faults.lost_cuts;
-      return;
-    }
-    item.track = now.track_count++;
-    TrackView& track = now.tracks[item.track];
-    track.body = item.body;
-    track.from_in_bone = item.origin_in_bone + item.direction_in_bone * item.cut_to_mm;
-    track.from_radius_mm = radius;
-    track.to_radius_mm = radius;
-  }
-  TrackView& track = now.tracks[item.track];
-  track.to_in_bone = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
   const double step = kind.work == Work::Drill ? kCutStepMm : kWideCutStepMm;
-  if (item.travel_mm - item.cut_to_mm < step) return;
+  if (!(item.travel_mm - item.cut_to_mm >= step) || !(kind.cut_tip_radius_mm > 0.0)) return;
+  const double radius = 0.5 * (kind.cut_tip_radius_mm + kind.cut_tail_radius_mm);
+  if (item.hole == kNoHole && now.hole_count < kNoHole) item.hole = now.hole_count++;
   const detail::BodyPose& pose = poses[item.body];
   const Point<frame::Patient> from =
       pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.cut_to_mm};
-  const Point<frame::Patient> to = pose * Point<frame::Bone>{track.to_in_bone};
+  const Point<frame::Patient> to =
+      pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.travel_mm};
   bool has_changed = false;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
     const Vec3 from_in_body = (inverses[b] * from).v;
     const Vec3 to_in_body = (inverses[b] * to).v;
-    if (!tissue.is_near(b, to_in_body) ||
-        tissue.untouched_distance_mm(b, to_in_body) > radius + kCutReachMm) {
-      continue;
-    }
+    if (!tissue.is_near(b, to_in_body)) continue;
+    const double beside = tissue.untouched_distance_mm(b, to_in_body) - radius;
+    if (beside > kCutReachMm) continue;
     const fields::Removal removal =
         tissue.remove(b, SweptTool::bar(from_in_body, radius, to_in_body, radius));
-    has_changed = has_changed || removal.outcome == fields::RemovalOutcome::Removed;
     if (removal.outcome == fields::RemovalOutcome::ReserveUsedUp) ++faults.lost_cuts;
+    if (removal.outcome != fields::RemovalOutcome::Removed) continue;
+    has_changed = true;
+    if (beside < 0.0) note_track(item, b, from_in_body, to_in_body, radius);
   }
   item.cut_to_mm = item.travel_mm;
   if (has_changed) ++spent.tissue_revision;
+}
+
+/// Draws the item's hole on in a body, or begins it there.
+void World::State::note_track(const Item& item,
+                              std::uint8_t body,
+                              const Vec3& from_in_body,
+                              const Vec3& to_in_body,
+                              double radius_mm) noexcept {
+  for (std::size_t i = 0; i < now.track_count; ++i) {
+    if (now.track_hole[i] != item.hole || now.tracks[i].body != body) continue;
+    now.tracks[i].to_in_bone = to_in_body;
+    return;
+  }
+  if (now.track_count == kMaxTracks) {
+    ++faults.lost_cuts;  // it is removed all the same, only not shown
+    return;
+  }
+  now.track_hole[now.track_count] = item.hole;
+  now.tracks[now.track_count++] = {body, from_in_body, to_in_body, radius_mm, radius_mm};
 }
 
 /// The way of least resistance: a tip beside an older hole is drawn into it.
@@ -275,7 +281,7 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
     item.body = kNoBody;
     item.in_target = false;
     item.has_left = false;
-    item.track = kNoTrack;
+    item.hole = kNoHole;
     now.gauge_reading_mm = -1.0;  // of a line that is no more
     scene.forget();
   }

@@ -20,7 +20,7 @@
 
 namespace carpus::simulation::detail {
 
-inline constexpr std::uint8_t kNoTrack = 255;
+inline constexpr std::uint8_t kNoHole = 255;
 inline constexpr std::size_t kMaxPasses = 64;
 inline constexpr std::size_t kMaxCheckpoints = 16;
 
@@ -34,11 +34,11 @@ struct Item {
   InstrumentIndex instrument = kNoInstrument;
   std::uint8_t hand = kNoHand;
   std::uint8_t body = kNoBody;
-  std::uint8_t wire = kNoItem;    ///< on which it rides
-  std::uint8_t track = kNoTrack;  ///< the hole that it makes
-  std::uint8_t pass = 255;        ///< Spent::passes of its line, 255 when they are used up
-  bool in_target = false;         ///< it entered the target on this line
-  bool has_left = false;          ///< its tip is beyond the target's far surface
+  std::uint8_t wire = kNoItem;  ///< on which it rides
+  std::uint8_t hole = kNoHole;  ///< that it makes: Operated::track_hole
+  std::uint8_t pass = 255;      ///< Spent::passes of its line, 255 when they are used up
+  bool in_target = false;       ///< it entered the target on this line
+  bool has_left = false;        ///< its tip is beyond the target's far surface
   bool told_seated = false;
   Vec3 tip;                       ///< frame Patient, after contact [mm]
   Vec3 shaft{0, 0, 1};            ///< unit, towards the hand
@@ -61,7 +61,7 @@ void visit(SomeItem& item, Visitor&& v) noexcept {
   v(item.hand);
   v(item.body);
   v(item.wire);
-  v(item.track);
+  v(item.hole);
   v(item.pass);
   v(item.in_target);
   v(item.has_left);
@@ -82,7 +82,9 @@ struct Operated {
   std::array<Item, kMaxItems> items{};
   std::array<std::uint8_t, kHands> held{kNoItem, kNoItem};  ///< item in each hand
   std::array<TrackView, kMaxTracks> tracks{};
+  std::array<std::uint8_t, kMaxTracks> track_hole{};  ///< a hole has a track in each body it meets
   std::uint8_t track_count = 0;
+  std::uint8_t hole_count = 0;
   /// A fragment's place beside where its bone's motion takes it [mm, frame Bone].
   std::array<Vec3, kMaxBodies> shifted{};
   double gauge_reading_mm = -1.0;
@@ -101,6 +103,7 @@ void visit(SomeOperated& now, Visitor&& v) noexcept {
   }
   for (auto& held : now.held) v(held);
   v(now.track_count);
+  v(now.hole_count);
   for (std::size_t i = 0; i < now.track_count && i < kMaxTracks; ++i) {
     auto& track = now.tracks[i];
     v(track.body);
@@ -108,6 +111,7 @@ void visit(SomeOperated& now, Visitor&& v) noexcept {
     v(track.to_in_bone);
     v(track.from_radius_mm);
     v(track.to_radius_mm);
+    v(now.track_hole[i]);
   }
   for (auto& shift : now.shifted) v(shift);
   v(now.gauge_reading_mm);

@@ -69,8 +69,7 @@ bool are_indices_sound(const detail::Operated& now,
     if (!item.is_there()) continue;
     const bool is_known = is_in(item.hand, kHands) && is_in(item.body, bodies) &&
                           is_in(item.wire, kMaxItems) && item.wire != i &&
-                          is_in(item.track, now.track_count) &&
-                          is_in(item.pass, detail::kMaxPasses);
+                          is_in(item.hole, now.hole_count) && is_in(item.pass, detail::kMaxPasses);
     if (!is_known) return false;
     if (item.hand < kHands && now.held[item.hand] != i) return false;
     if (item.wire < kMaxItems &&

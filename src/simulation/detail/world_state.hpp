@@ -68,7 +68,7 @@ struct World::State {
 
   // checkpoints.cpp
   void save_checkpoint() noexcept;
-  void undo() noexcept;
+  void undo(const Model& model) noexcept;
 
   // commands.cpp
   void obey(const Model& model, const Command& command) noexcept;
@@ -117,6 +117,11 @@ struct World::State {
   void drive(const Model& model, std::uint8_t hand) noexcept;
   void note_tip(const Model& model, std::uint8_t index) noexcept;
   void cut(const Model& model, detail::Item& item) noexcept;
+  void note_track(const detail::Item& item,
+                  std::uint8_t body,
+                  const Vec3& from_in_body,
+                  const Vec3& to_in_body,
+                  double radius_mm) noexcept;
   void steer(const Model& model, detail::Item& item, double advanced_mm) noexcept;
   void come_out(const Model& model, std::uint8_t hand) noexcept;
   void seat(const Model& model, std::uint8_t index) noexcept;

@@ -20,6 +20,7 @@ constexpr double kTurnRadPerTick = 0.001;   // 57 degrees a second
 constexpr double kTractionNPerTick = 0.05;  // 50 N a second
 constexpr double kStiffnessNPerMm = 5.0;    // of a nonunion's gap tissue [E]
 constexpr double kYieldMmPerTick = 0.005;   // a fragment moves at most 5 mm a second
+constexpr double kPressedMm = 0.1;          // a tip this near its surface presses a fragment
 constexpr double kGreatestShiftMm = 2.0;    // then ligaments hold it [E]
 
 double towards(double from, double to, double most) noexcept {
@@ -147,7 +148,7 @@ void World::State::push_fragment(const Model& model, const Item& item, double fo
     const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
     const Vec3 local =
         b == item.body ? tip : (inverses[b] * (poses[item.body] * Point<frame::Bone>{tip})).v;
-    if (!tissue.is_near(b, local) || tissue.untouched_distance_mm(b, local) > 0.0) continue;
+    if (!tissue.is_near(b, local) || tissue.untouched_distance_mm(b, local) > kPressedMm) continue;
     const bool holds_both = item.body != b;
     if (holds_both) return;
     const Vec3 wanted = item.direction_in_bone * (force_n / kStiffnessNPerMm);
