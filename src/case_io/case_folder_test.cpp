@@ -108,8 +108,6 @@ cases::CaseData small_case() {
   data.skin = data.bones[0].surface;
   data.skin.facets.pop_back();  // skin may be open
   data.scaphoid = {{{1, 2, 3}, {4, 5, 6}}, 3.25, {{7, 8, 9}, {1.0 / 3.0, 11, 12}}, {2, 3, 4}};
-  data.operative_posture.flexion_from_scan_rad = 0.7;
-  data.operative_posture.patient_from_forearm = {rotation_about({0, 1, 0}, 0.7), {0.1, 0.2, 0.3}};
   data.hand_motion = small_table();
   return data;
 }
@@ -170,8 +168,6 @@ void expect_same_case(const cases::CaseData& a, const cases::CaseData& b) {
   EXPECT_EQ(a.provenance.source, b.provenance.source);
   EXPECT_EQ(a.provenance.made_at, b.provenance.made_at);
   EXPECT_EQ(a.wrist_from_patient, b.wrist_from_patient);
-  EXPECT_EQ(a.operative_posture.patient_from_forearm, b.operative_posture.patient_from_forearm);
-  EXPECT_EQ(a.operative_posture.flexion_from_scan_rad, b.operative_posture.flexion_from_scan_rad);
   EXPECT_EQ(a.scaphoid.longest_line.distal, b.scaphoid.longest_line.distal);
   EXPECT_EQ(a.scaphoid.central_radius_mm, b.scaphoid.central_radius_mm);
   EXPECT_EQ(a.scaphoid.waist, b.scaphoid.waist);

@@ -19,7 +19,7 @@
 namespace carpus::cases {
 
 /// Schema of the case folder that this program writes; it reads this one and older ones.
-inline constexpr int kCaseSchemaVersion = 1;
+inline constexpr int kCaseSchemaVersion = 2;
 
 /// One bone, or one part of a broken one.
 struct Bone {
@@ -50,15 +50,6 @@ struct ScaphoidLandmarks {
   Vec3 waist;                    ///< point of the central axis where the bone is narrowest
 };
 
-/// How the hand is held for the operation. The hand stays where it was scanned and the forearm
-/// turns, so that the CT, the axis and the screw keep their coordinates.
-struct Posture {
-  double flexion_from_scan_rad =
-      0;  ///< about the wrist's +y (left wrist) axis; positive flexes the hand
-  Pose<frame::Patient, frame::Bone>
-      patient_from_forearm;  ///< moves radius, ulna and what follows them
-};
-
 /// Where a case comes from and how it was made.
 struct Provenance {
   bool simulated =
@@ -79,7 +70,6 @@ struct CaseData {
   std::vector<Bone> bones;                                ///< in the order of their labels
   TriangleMesh skin;  ///< Patient [mm]; may be empty, may be open at the field of view's ends
   ScaphoidLandmarks scaphoid;
-  Posture operative_posture;  ///< what posture.hpp applies before an operation
   /// Where the bones are for any way the hand is held; empty in a case of an older program until
   /// ensure_hand_motion (make_hand_motion.hpp).
   HandMotion hand_motion;
@@ -89,11 +79,6 @@ struct CaseData {
 [[nodiscard]] const Bone* find_bone(const CaseData& data,
                                     BoneId bone,
                                     BonePart part = BonePart::Whole) noexcept;
-
-/// The wrist frame of the forearm as it is held: what dorsal, radial, volar, ulnar, proximal and
-/// distal mean to whoever operates, and what the C-arm's views count from. In the scan's own
-/// posture it is `wrist_from_patient`.
-[[nodiscard]] Pose<frame::Wrist, frame::Patient> held_wrist_from_patient(const CaseData& data);
 
 /// The parts that make up the scaphoid: one whole, or proximal and distal.
 [[nodiscard]] std::vector<const Bone*> scaphoid_parts(const CaseData& data);

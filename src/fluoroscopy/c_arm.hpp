@@ -76,7 +76,7 @@ struct CArmPose {
 inline constexpr double kMaxTiltDeg = 80.0;
 
 /// Turns the C-arm to a view with its central ray through `target_in_patient` [mm].
-/// @param wrist_from_patient  of the forearm as it is held: cases::held_wrist_from_patient.
+/// @param wrist_from_patient  of the forearm from which the view's angles count.
 /// @param ulnar_in_wrist  unit vector towards ulnar: +y on a left wrist, -y on a right one.
 /// @throws InvalidInput for angles that are not finite, |tilt| above kMaxTiltDeg, or a geometry
 ///   without a positive field, pixels, and target between source and receptor.

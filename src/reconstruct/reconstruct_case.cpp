@@ -10,7 +10,6 @@
 
 #include "anatomy/bone_naming.hpp"
 #include "cases/make_hand_motion.hpp"
-#include "cases/posture.hpp"
 #include "cases/scaphoid_landmarks.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -275,8 +274,6 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   data.ct = std::move(ct);
   stage("scaphoid axis", 0.9);
   data.scaphoid = cases::find_scaphoid_landmarks(data);
-  stage("posture", 0.97);
-  data.operative_posture = cases::choose_operative_posture(data);
   stage("hand motion", 0.98);
   data.hand_motion = cases::make_hand_motion(data);
   clock.end();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From a CT to a case that can be operated on: bones segmented, named, as surfaces, hulls and
-// distance fields, with the skin, the scaphoid's landmarks and the operative posture. Fully
+// distance fields, with the skin, the scaphoid's landmarks and the hand's motion. Fully
 // automatic.
 #pragma once
 

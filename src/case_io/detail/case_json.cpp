@@ -25,7 +25,6 @@ constexpr double kRotationTolerance = 1e-6;
 constexpr double kFarthestMm = 1e5;
 /// No scaphoid is thicker [mm], and no wrist turns further than half round.
 constexpr double kThickestScaphoidMm = 50;
-constexpr double kFarthestFlexionRad = 3.15;
 /// As the page takes it (protocol/protocol.json, case_description) [bytes].
 constexpr std::size_t kLongestPseudonym = 128;
 
@@ -165,11 +164,6 @@ CaseHeader header_from(const Json& json) {
       segment_of(scaphoid.at("central_axis")),
       number_within(scaphoid.at("central_radius_mm"), 0, kThickestScaphoidMm, "central_radius_mm"),
       segment_of(scaphoid.at("longest_line")), vec3_of(scaphoid.at("waist_mm"))};
-  const Json& posture = json.at("operative_posture");
-  data.operative_posture.flexion_from_scan_rad =
-      number_within(posture.at("flexion_from_scan_rad"), -kFarthestFlexionRad, kFarthestFlexionRad,
-                    "flexion_from_scan_rad");
-  take(posture.at("patient_from_forearm"), data.operative_posture.patient_from_forearm);
   for (const Json& json_bone : json.at("bones")) {
     cases::Bone bone = bone_from(json_bone);
     for (const cases::Bone& other : data.bones) {
@@ -202,9 +196,6 @@ std::string case_json_text(const cases::CaseData& data) {
                       {"central_radius_mm", data.scaphoid.central_radius_mm},
                       {"longest_line", json_of(data.scaphoid.longest_line)},
                       {"waist_mm", json_of(data.scaphoid.waist)}};
-  json["operative_posture"] = {
-      {"flexion_from_scan_rad", data.operative_posture.flexion_from_scan_rad},
-      {"patient_from_forearm", json_of(data.operative_posture.patient_from_forearm)}};
   json["bones"] = bones_json(data);
   Json grids;
   grids["ct.nii.gz"] = json_of(data.ct.geometry());
