@@ -123,14 +123,13 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
         item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
     const double hu = density_hu(model, (pose * Point<frame::Bone>{ahead}).v);
     const double resistance =
-        kind.feed.bite_n + kind.feed.resistance_share * instruments::wire_resistance_n(hu);
+        instruments::resistance_n(kind.feed, instruments::wire_resistance_n(hu));
     const double thrust = held.wish.thrust_n;
     if (held.wish.driver == Driver::Forward) {
       if (kind.work != Work::Drill && item.depth_mm() <= 0.0 && !held.forward_is_held) {
         save_checkpoint();
       }
-      const double feed = std::clamp(kind.feed.mm_per_s_per_n * (thrust - resistance), 0.0,
-                                     kind.feed.fastest_mm_per_s);
+      const double feed = instruments::speed_mm_per_s(kind.feed, thrust, resistance);
       item.travel_mm =
           std::min(item.travel_mm + feed * kTickSeconds, item.entry_at_mm + kDeepestMm);
       if (kind.work == Work::Drill) steer(model, item, item.travel_mm - travel_before);
