@@ -95,7 +95,7 @@ struct NamedPredicate {
 /// Reads steps, views, tray, texts from a procedure.json (docs/how_to_add_a_procedure.md); the
 /// predicates of steps are found by name, `opening` and `score` are set by the caller.
 /// @param file  names it in errors.
-/// @throws InvalidInput "dorsal.json: steps[3].done: no predicate 'driven'".
+/// @throws InvalidInput "dorsal.json: steps[3]: done: no predicate 'driven' among those given: …".
 [[nodiscard]] Procedure read_procedure(std::string_view json,
                                        std::string_view file,
                                        std::span<const NamedPredicate> predicates);

@@ -53,10 +53,12 @@ Predicate read_predicate(JsonFields& fields,
                          const std::string& field,
                          std::span<const NamedPredicate> predicates) {
   const std::string name = fields.text(field);
+  std::string known;
   for (const NamedPredicate& each : predicates) {
     if (each.name == name) return each.predicate;
+    known += (known.empty() ? "" : ", ") + std::string(each.name);
   }
-  fields.refuse(field + ": no predicate '" + name + "'");
+  fields.refuse(field + ": no predicate '" + name + "' among those given: " + known);
 }
 
 Step read_step(JsonFields& fields,

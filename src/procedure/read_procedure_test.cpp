@@ -68,9 +68,9 @@ TEST(ReadProcedure, ReadsWhatIsDeclared) {
 TEST(ReadProcedure, TellsFilePlaceAndFieldOfEveryMistake) {
   EXPECT_EQ(problem_of(good()), "");
   EXPECT_EQ(spoilt("/steps/1/done", "driven"),
-            "lunate.json: steps[1]: done: no predicate 'driven'");
+            "lunate.json: steps[1]: done: no predicate 'driven' among those given: always, never");
   EXPECT_EQ(spoilt("/steps/1/lost", "driven"),
-            "lunate.json: steps[1]: lost: no predicate 'driven'");
+            "lunate.json: steps[1]: lost: no predicate 'driven' among those given: always, never");
   EXPECT_EQ(spoilt("/steps/0/titel", "x"), "lunate.json: steps[0]: there is no field 'titel'");
   EXPECT_EQ(spoilt("/steps/0/id", "look at"),
             "lunate.json: steps[0]: id 'look at' must be of a to z, 0 to 9 and _");

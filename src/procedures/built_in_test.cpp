@@ -37,10 +37,14 @@ TEST(BuiltIn, EachCanBeDoneAndScored) {
   for (const procedure::Procedure* each : built_in().all()) {
     ASSERT_NE(each->opening, nullptr) << each->id;
     ASSERT_NE(each->score, nullptr) << each->id;
-    EXPECT_EQ(instruments::catalogue()[each->tray.front()].work, instruments::Work::Drill);
     const procedure::Opening opening = each->opening(data);
     EXPECT_NEAR(length(opening.shaft_in_target), 1.0, 1e-9);
-    EXPECT_GT(distance(opening.tip_in_target, data.scaphoid.waist), 50.0) << "outside all tissue";
+    for (const cases::Bone& bone : data.bones) {
+      if (bone.bone != each->target) continue;
+      for (const Vec3& v : bone.surface.vertices) {
+        ASSERT_GT(distance(opening.tip_in_target, v), 50.0) << each->id << ": outside all tissue";
+      }
+    }
     double possible = 0;
     for (const procedure::ScoreItem& item : each->score(data, {}).items) {
       possible += item.points_possible;
@@ -60,6 +64,14 @@ TEST(BuiltIn, StepsThatCodeNamesByPlaceAreThere) {
   const auto& volar = volar_scaphoid_fixation::declared().steps;
   EXPECT_EQ(volar[volar_scaphoid_fixation::kDriveStep].id, "drive");
   EXPECT_EQ(volar[volar_scaphoid_fixation::kInsertStep].id, "insert");
+}
+
+TEST(BuiltIn, FixationsBeginWithAWireInTheHand) {
+  for (const procedure::Procedure* each :
+       {&dorsal_scaphoid_fixation::declared(), &volar_scaphoid_fixation::declared()}) {
+    EXPECT_EQ(instruments::catalogue()[each->tray.front()].work, instruments::Work::Drill)
+        << each->id;
+  }
 }
 
 TEST(BuiltIn, TheHandWaitsWhereTheBoneIsReached) {
@@ -92,10 +104,10 @@ TEST(BuiltIn, TheVolarHandWaitsAtTheBlindAim) {
   }
 }
 
-TEST(BuiltIn, ACaseWithoutAScaphoidIsRefusedWithTheReason) {
-  cases::CaseData data = wrist();
-  std::erase_if(data.bones, [](const cases::Bone& bone) { return bone.bone == BoneId::Scaphoid; });
+TEST(BuiltIn, ACaseWithoutTheTargetIsRefusedWithTheReason) {
   for (const procedure::Procedure* each : built_in().all()) {
+    cases::CaseData data = wrist();
+    std::erase_if(data.bones, [&](const cases::Bone& bone) { return bone.bone == each->target; });
     EXPECT_THROW((void)each->opening(data), InvalidInput) << each->id;
   }
 }
