@@ -77,7 +77,8 @@ struct Procedure {
 class ProcedureList {
  public:
   ProcedureList() = default;
-  explicit ProcedureList(std::vector<const Procedure*> all) : all_(std::move(all)) {}
+  /// @throws InvalidInput when two have the same id: records could not tell them apart.
+  explicit ProcedureList(std::vector<const Procedure*> all);
   [[nodiscard]] std::span<const Procedure* const> all() const noexcept { return all_; }
   /// nullptr when it is not offered.
   [[nodiscard]] const Procedure* find(std::string_view id) const noexcept;

@@ -114,6 +114,11 @@ Procedure read_procedure(std::string_view json,
   Procedure procedure;
   procedure.id = fields.text("id");
   refuse_unless_snake_case(fields, procedure.id);
+  if (const std::size_t slash = file.find('/');
+      slash != std::string_view::npos && file.substr(0, slash) != procedure.id) {
+    fields.refuse("id '" + procedure.id + "' must be the folder's name, '" +
+                  std::string(file.substr(0, slash)) + "'");
+  }
   procedure.title = fields.text("title");
   procedure.summary = fields.text("summary");
   procedure.target = read_bone(fields, "target", fields.text("target"));

@@ -102,5 +102,25 @@ TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   EXPECT_EQ(problem_of(file), "lunate.json: steps: there are 33, must be 1 to 32");
 }
 
+TEST(ReadProcedure, AnIdThatIsNotItsFoldersIsRefused) {
+  const std::string json = good().dump();
+  EXPECT_NO_THROW((void)read_procedure(json, "lunate_wire/procedure.json", kPredicates));
+  try {
+    (void)read_procedure(json, "hamate_wire/procedure.json", kPredicates);
+    FAIL() << "not refused";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("folder's name, 'hamate_wire'"), std::string::npos);
+  }
+}
+
+TEST(ProcedureList, RefusesTwoOfOneId) {
+  Procedure first;
+  first.id = "one";
+  Procedure second = first;
+  EXPECT_THROW(ProcedureList({&first, &second}), InvalidInput);
+  second.id = "two";
+  EXPECT_EQ(ProcedureList({&first, &second}).find("two"), &second);
+}
+
 }  // namespace
 }  // namespace carpus::procedure

@@ -70,7 +70,7 @@ const procedure::Procedure& touch_the_lunate() {
     std::ifstream file("tests/third_procedure/procedure.json");
     const std::string json{std::istreambuf_iterator<char>(file), {}};
     procedure::Procedure read =
-        procedure::read_procedure(json, "third_procedure/procedure.json", kPredicates);
+        procedure::read_procedure(json, "touch_the_lunate/procedure.json", kPredicates);
     read.opening = opening;
     read.score = score;
     return read;
