@@ -290,9 +290,17 @@ TEST_F(CaseFolder, AFullDiskLeavesTheOldCaseAndNothingElse) {
 
 TEST_F(CaseFolder, OfANewerVersionIsRefusedByName) {
   write_case(small_case(), target());
-  replace_in_json("\"schema_version\": 1", "\"schema_version\": 2");
+  replace_in_json("\"schema_version\": 2", "\"schema_version\": 3");
   EXPECT_THAT(error_of<SchemaError>(target()),
-              AllOf(HasSubstr("version 2"), HasSubstr("up to 1"), HasSubstr("update carpus")));
+              AllOf(HasSubstr("version 3"), HasSubstr("up to 2"), HasSubstr("update carpus")));
+}
+
+TEST_F(CaseFolder, OfTheVersionBeforeStillOpensAndItsPostureIsIgnored) {
+  write_case(small_case(), target());
+  replace_in_json("\"schema_version\": 2",
+                  "\"operative_posture\": {\"flexion_from_scan_rad\": 0.7}, "
+                  "\"schema_version\": 1");
+  EXPECT_EQ(read_case(target()).bones.size(), small_case().bones.size());
 }
 
 TEST_F(CaseFolder, MissingOrDamagedFilesAreNamed) {
@@ -319,10 +327,9 @@ TEST_F(CaseFolder, JsonThatLiesIsRefused) {
         std::pair{"\"carpus case\"", "\"recipe\""}, std::pair{"\"label\": 4", "\"label\": \"4\""},
         std::pair{"\"label\": 4", "\"label\": 260"}, std::pair{"\"label\": 4", "\"label\": 5"},
         std::pair{"\"label\": 4", "\"label\": 1e99"},
-        std::pair{"\"schema_version\": 1", "\"schema_version\": 1e99"},
-        std::pair{"\"schema_version\": 1", "\"schema_version\": -1"},
+        std::pair{"\"schema_version\": 2", "\"schema_version\": 1e99"},
+        std::pair{"\"schema_version\": 2", "\"schema_version\": -1"},
         std::pair{"\"central_radius_mm\": 3.25", "\"central_radius_mm\": -3.25"},
-        std::pair{"\"flexion_from_scan_rad\": 0.7", "\"flexion_from_scan_rad\": 1e9"},
         std::pair{"-12.1", "-1e300"}, std::pair{"wrist \\\"7", "wrist \\u001b[31m"},
         std::pair{"\"spacing_mm\"", "\"spacing\""}, std::pair{"\"rotation\"", "\"rotations\""}}) {
     fresh();

@@ -160,10 +160,9 @@ SceneTimes wrist_moving(const cases::CaseData& data,
                         const procedure::Procedure& procedure,
                         std::size_t ticks) {
   World world(data, procedure, 1);
-  const anatomy::HandLimits& limits = data.hand_motion.limits;
-  const auto between = [](const anatomy::Interval& range, double phase) {
-    return 0.5 * (range.low + range.high) + 0.5 * (range.high - range.low) * std::sin(phase);
-  };
+  // About how the operation begins, by less than what would catch the instrument between bones:
+  // then it holds the wrist, and there is nothing to measure.
+  const simulation::WristPose open = world.now().wrist;
   // The instrument is pressed on the target wherever the wrist takes it.
   const TargetPlace target = place_of(data, procedure.target, world.now());
   const Vec3 out = normalized_or(world.now().items[0].tip_in_patient - target.centre, {0, 0, 1});
@@ -177,9 +176,10 @@ SceneTimes wrist_moving(const cases::CaseData& data,
   simulation::WristPose before = world.now().wrist;
   SceneTimes times = scene("wrist_moving", world, ticks, [&](double seconds, Input& input) {
     const double turn = 2.0 * kPi * seconds;
-    input.wrist = {
-        between(limits.flexion_rad, 0.1 * turn), between(limits.radial_deviation_rad, 0.17 * turn),
-        between(limits.pronation_rad, 0.07 * turn), between(limits.traction_n, 0.05 * turn)};
+    input.wrist = {open.flexion_rad + 0.2 * std::sin(0.3 * turn),
+                   open.radial_deviation_rad + 0.1 * std::sin(0.4 * turn),
+                   open.pronation_rad + 0.4 * std::sin(0.2 * turn),
+                   open.traction_n + 30.0 * (1.0 - std::cos(0.1 * turn))};
     const auto& patient_from_bone = world.now().patient_from_bone[body];
     input.hands[0].tip_in_patient = (patient_from_bone * pressed).v;
     input.hands[0].shaft_in_patient = (patient_from_bone * shaft).v;
