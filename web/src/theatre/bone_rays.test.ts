@@ -4,9 +4,7 @@
 // The tree finds what trying every triangle finds, also in bones that have moved; lines know where they
 // run within a bone. Prints what the tree saves.
 import * as THREE from "three";
-import { MeshBVH } from "three-mesh-bvh";
 import { describe, expect, it } from "vitest";
-import { vertexOcclusion } from "../bone_shading";
 import { BoneRays, makeHittable, stretchesWithin } from "./bone_rays";
 
 /** A bumpy ball, as fine as the bones of a case. */
@@ -48,7 +46,7 @@ function points(bones: THREE.Mesh[], lines: readonly THREE.Ray[]): (number[] | u
 }
 
 describe("BoneRays", () => {
-  it("find what trying every triangle finds, faster, in bones that have moved too", () => {
+  it("find what trying every triangle finds, in bones that have moved too", () => {
     const bones = [-30, -10, 10, 30].map((x) => ball(x));
     bones[1]?.position.set(-14, 3, 2);
     bones[1]?.quaternion.setFromEuler(new THREE.Euler(0.4, -0.2, 0.9));
@@ -78,53 +76,6 @@ describe("BoneRays", () => {
       `a ray over ${triangles} triangles: every one tried ${(1000 * slowMs).toFixed(0)} us, by trees ` +
         `${(1000 * fastMs).toFixed(1)} us; trees made in ${(buildMs * lines.length).toFixed(0)} ms`,
     );
-    expect(fastMs).toBeLessThan(slowMs / 2);
-  });
-});
-
-describe("light between the bones", () => {
-  it("stays with voxels (bone_shading): rays by trees take longer for a vertex", () => {
-    const surfaces = [-9, 9].map((x) => {
-      const mesh = ball(x, 12);
-      const geometry = mesh.geometry.applyMatrix4(mesh.matrixWorld);
-      return geometry;
-    });
-    const trees = surfaces.map((geometry) => new MeshBVH(geometry, { indirect: true }));
-    const array = (geometry: THREE.BufferGeometry, name: string): Float32Array =>
-      new Float32Array(geometry.getAttribute(name).array);
-    const voxels = (): number => {
-      const start = performance.now();
-      const light = vertexOcclusion(
-        surfaces.map((g) => ({ positions: array(g, "position"), normals: array(g, "normal") })),
-      );
-      const vertices = light.reduce((n, one) => n + one.length, 0);
-      return (performance.now() - start) / vertices;
-    };
-    const rayed = (): number => {
-      const [first] = surfaces;
-      const [p, n] = [first?.getAttribute("position"), first?.getAttribute("normal")];
-      const ray = new THREE.Ray();
-      const start = performance.now();
-      const vertices = 300;
-      for (let v = 0; v < vertices; ++v) {
-        // As many rays as a vertex sends, all about its normal.
-        for (let k = 0; k < 13; ++k) {
-          ray.direction.set(Math.sin(k), Math.cos(k), 0.3).multiplyScalar(0.6);
-          if (p === undefined || n === undefined) continue;
-          ray.direction.add(new THREE.Vector3().fromBufferAttribute(n, v)).normalize();
-          ray.origin.fromBufferAttribute(p, v).addScaledVector(ray.direction, 2);
-          for (const tree of trees) tree.raycastFirst(ray, THREE.DoubleSide, 0, 12);
-        }
-      }
-      return (performance.now() - start) / vertices;
-    };
-    const best = (run: () => number): number => Math.min(run(), run(), run());
-    const [byVoxels, byTrees] = [best(voxels), best(rayed)];
-    console.log(
-      `light of a vertex: by voxels ${(1000 * byVoxels).toFixed(1)} us, ` +
-        `by trees of 2 bones ${(1000 * byTrees).toFixed(1)} us`,
-    );
-    expect(byVoxels).toBeLessThan(byTrees);
   });
 });
 
