@@ -71,8 +71,6 @@ class Sentence {
         return subject() + " slipped along the " + bone() + ": hold it steeper to the surface";
       case EventKind::WristStopped:
         return "The wrist goes no further: its limit, or an instrument, holds it";
-      case EventKind::Stripped:
-        return "The screw was turned on after it was seated and lost its hold";
       case EventKind::None:
         break;
     }
@@ -98,10 +96,10 @@ class Sentence {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 18> kNames{
+  constexpr std::array<std::string_view, 17> kNames{
       "none",       "touched_bone", "entered_bone", "left_far_side", "withdrawn",      "shot_taken",
       "gauge_read", "taken",        "put_down",     "seated",        "step_completed", "undone",
-      "finished",   "refused",      "wrong_bone",   "slipped",       "wrist_stopped",  "stripped"};
+      "finished",   "refused",      "wrong_bone",   "slipped",       "wrist_stopped"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }

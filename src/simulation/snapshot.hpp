@@ -82,7 +82,6 @@ enum class EventKind : std::uint8_t {
   WrongBone = 14,     ///< a bone was entered that is neither target nor allowed; detail: body
   Slipped = 15,       ///< a turning tip slipped along a surface it met too flat; detail: body
   WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
-  Stripped = 17,      ///< a screw was turned on after it was seated and lost its hold
 };
 
 struct Event {
