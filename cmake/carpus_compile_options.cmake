@@ -5,8 +5,10 @@
 
 find_program(CARPUS_CCACHE ccache)
 if(CARPUS_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CARPUS_CCACHE})
-  set(CMAKE_C_COMPILER_LAUNCHER ${CARPUS_CCACHE})
+  # Paths count from the root, so that every checkout on a machine finds what another one compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+      CCACHE_NOHASHDIR=1 ${CARPUS_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
 endif()
 
 add_library(carpus_options INTERFACE)
