@@ -190,8 +190,14 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
   return hash.value();
 }
 
+/// The most ticks that so many bytes may hold.
+std::uint64_t most_ticks(std::size_t bytes) {
+  return std::min(kMaxRecordedTicks, kTicksForNothing + kTicksForAByte * bytes);
+}
+
 /// Reads the runs up to their end mark; the reason for refusing, or empty.
-std::string get_runs(Reader& in, std::vector<InputRun>& runs) {
+/// @param size  of the whole that they are part of.
+std::string get_runs(Reader& in, std::size_t size, std::vector<InputRun>& runs) {
   InputUnits units = in_units(Input{});
   std::uint64_t ticks = 0;
   while (true) {
@@ -205,6 +211,10 @@ std::string get_runs(Reader& in, std::vector<InputRun>& runs) {
     if (in.is_spoilt()) return "recording: cut off among the inputs";
     ticks += count;
     if (ticks > kMaxRecordedTicks) return "recording: longer than 4 hours";
+    if (ticks > most_ticks(size)) {
+      return "recording: " + std::to_string(size) + " bytes that claim " +
+             std::to_string(ticks / 1000) + " s or more; an exercise of that length takes more";
+    }
     runs.push_back({input_of(units), count});
   }
 }
@@ -262,6 +272,9 @@ Recorder::Recorder(std::string program_version,
   }
 }
 
+Recorder::Recorder(Recording begun)
+    : recording_(std::move(begun)), tick_(recording_.tick_count()) {}
+
 void Recorder::append(const Input& raw) {
   // What comes back from the file is what the world was given, to the bit.
   const Input input = input_of(in_units(raw));
@@ -282,6 +295,28 @@ Recording Recorder::finished(std::uint64_t end_hash) const {
   Recording recording = recording_;
   recording.end_hash = end_hash;
   return recording;
+}
+
+void RunEncoder::put(const InputRun& run) {
+  Writer out;
+  InputUnits now;
+  put_run(out, run, in_units(before_), now);
+  bytes_.insert(bytes_.end(), out.bytes().begin(), out.bytes().end());
+  before_ = run.input;
+}
+
+std::vector<std::byte> RunEncoder::take() { return std::exchange(bytes_, {}); }
+
+Result<std::vector<InputRun>> decode_runs(std::span<const std::byte> bytes,
+                                          std::size_t whole_size) {
+  std::vector<std::byte> ended(bytes.begin(), bytes.end());
+  ended.insert(ended.end(), 4, std::byte{0});
+  Reader in(ended);
+  std::vector<InputRun> runs;
+  std::string reason = get_runs(in, whole_size, runs);
+  if (reason.empty() && in.at() != ended.size()) reason = "recording: inputs that end too early";
+  if (!reason.empty()) return carpus::Refusal{std::move(reason)};
+  return runs;
 }
 
 std::vector<std::byte> encode(const Recording& recording) {
@@ -338,7 +373,7 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   recording.procedure = in.get_text();
   recording.seed = in.get(8);
   std::string reason = get_instruments(in, recording.instruments);
-  if (reason.empty()) reason = get_runs(in, recording.runs);
+  if (reason.empty()) reason = get_runs(in, bytes.size(), recording.runs);
   if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   const auto ticks = in.get(8);
   recording.end_hash = in.get(8);

@@ -34,6 +34,11 @@ inline constexpr std::uint16_t kRecordingFormat = 2;
 /// Longest exercise that is recorded: 4 hours. Bounds what decoding untrusted bytes may allocate.
 inline constexpr std::uint64_t kMaxRecordedTicks = 4ULL * 3600 * 1000;
 
+/// What decoding believes: so much stillness for nothing, and so many ticks for each byte. A
+/// keyframe every ten seconds weighs far more; a few bytes that claim hours are refused by name.
+inline constexpr std::uint64_t kTicksForNothing = 120'000;
+inline constexpr std::uint64_t kTicksForAByte = 100;
+
 /// A keyframe stands this often.
 inline constexpr Tick kKeyframeTicks = 10'000;
 
@@ -74,6 +79,8 @@ class Recorder {
            std::uint64_t case_fingerprint,
            const procedure::Procedure& procedure,
            std::uint64_t seed);
+  /// Goes on with what was recorded before.
+  explicit Recorder(Recording begun);
   void reserve(std::size_t runs) { recording_.runs.reserve(runs); }
   /// Takes the input as the world does, quantised.
   void append(const Input& input);
@@ -91,6 +98,26 @@ class Recorder {
 /// What identifies a case to a recording: CT, surfaces, fields, hand motion, wrist frame and
 /// landmarks, to the bit.
 [[nodiscard]] std::uint64_t fingerprint_of(const cases::CaseData& data);
+
+/// Runs to bytes as a recording holds them, a part at a time: each as what changed since the one
+/// before. The parts put together are a recording's runs without their end.
+class RunEncoder {
+ public:
+  /// @param before  the input that the next run is compared with.
+  explicit RunEncoder(const Input& before = {}) : before_(before) {}
+  void put(const InputRun& run);
+  /// What was put since the last call.
+  [[nodiscard]] std::vector<std::byte> take();
+
+ private:
+  Input before_;
+  std::vector<std::byte> bytes_;
+};
+
+/// The runs of an encoder's parts, untrusted; refuses by name as `decode` does.
+/// @param whole_size  of the file that they are of: with its keyframes it vouches for their length.
+[[nodiscard]] Result<std::vector<InputRun>> decode_runs(std::span<const std::byte> bytes,
+                                                        std::size_t whole_size);
 
 [[nodiscard]] std::vector<std::byte> encode(const Recording& recording);
 

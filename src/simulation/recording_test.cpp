@@ -164,6 +164,61 @@ TEST(Recording, OfOtherInstrumentsIsRefusedByName) {
   EXPECT_NE(decoded.error().find("'laser'"), std::string::npos);
 }
 
+TEST(Recording, AFewBytesThatClaimHoursAreRefusedByName) {
+  Recording bomb = short_recorder().finished(1);
+  bomb.instruments.clear();
+  bomb.runs = {{Input{}, kMaxRecordedTicks}};
+  const Result<Recording> decoded = decode(encode(bomb));
+  ASSERT_FALSE(decoded.has_value());
+  EXPECT_NE(decoded.error().find("bytes that claim 14400 s"), std::string::npos) << decoded.error();
+}
+
+TEST(Recording, HoursOfAStillHandAreBelievedForTheirKeyframes) {
+  // A keyframe of a world in which nothing was done, as they stand every ten seconds.
+  const std::vector<std::byte> state = World(wrist(), exercise(), 1).write_state();
+  Recording still = short_recorder().finished(1);
+  still.runs = {{Input{}, 3'600'000}};
+  for (Tick tick = kKeyframeTicks; tick <= 3'600'000; tick += kKeyframeTicks) {
+    still.keyframes.push_back({tick, state});
+  }
+  EXPECT_TRUE(decode(encode(still)).has_value());
+  EXPECT_GT(state.size() * kTicksForAByte, 3 * kKeyframeTicks) << "with room to spare";
+}
+
+TEST(RunEncoder, PartsPutTogetherAreTheRuns) {
+  const std::vector<InputRun>& runs = operation().recording.runs;
+  RunEncoder encoder;
+  std::vector<std::byte> parts;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    encoder.put(runs[i]);
+    if (i % 7 != 3) continue;
+    const std::vector<std::byte> part = encoder.take();
+    parts.insert(parts.end(), part.begin(), part.end());
+    encoder = RunEncoder(runs[i].input);  // as one that goes on after the program was started anew
+  }
+  const std::vector<std::byte> last = encoder.take();
+  parts.insert(parts.end(), last.begin(), last.end());
+  const auto again = decode_runs(parts, parts.size());
+  ASSERT_TRUE(again.has_value()) << again.error();
+  EXPECT_EQ(*again, runs);
+  parts.pop_back();
+  EXPECT_FALSE(decode_runs(parts, parts.size()).has_value());
+}
+
+TEST(Recorder, GoesOnWithWhatWasRecordedBefore) {
+  const Recording& whole = operation().recording;
+  Recording begun = whole;
+  begun.runs.resize(begun.runs.size() / 2);
+  Recorder recorder(begun);
+  EXPECT_EQ(recorder.tick(), begun.tick_count());
+  for (std::size_t i = begun.runs.size(); i < whole.runs.size(); ++i) {
+    for (std::uint32_t tick = 0; tick < whole.runs[i].ticks; ++tick) {
+      recorder.append(whole.runs[i].input);
+    }
+  }
+  EXPECT_EQ(recorder.finished(whole.end_hash), whole);
+}
+
 TEST(Replay, ReproducesTheHashTheStateAndTheRecord) {
   const Replay again = replay(wrist(), exercise(), operation().recording);
   EXPECT_TRUE(again.hash_matches);
