@@ -11,27 +11,12 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "records/detail/file_advice.hpp"
+#include "records/detail/file_descriptor.hpp"
 
 namespace carpus::records {
 
 namespace {
-
-std::string advice(int error) {
-  switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return "free some space and try again";
-    case ENOENT:
-      return "create its folder first";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "choose a place that you may write to";
-    default:
-      return "choose another place";
-  }
-}
 
 /// A file under a temporary name that vanishes unless it is renamed.
 class TemporaryFile {
@@ -72,6 +57,8 @@ class TemporaryFile {
   void rename_to_target() {
     if (::rename(name_.c_str(), target_.c_str()) != 0) fail("cannot write");
     name_.clear();
+    // Until then a power cut may leave what was there before.
+    if (!detail::flush_folder_of(target_)) fail("cannot put on disk");
   }
 
  private:
@@ -82,7 +69,7 @@ class TemporaryFile {
   [[noreturn]] void fail(const char* what) {
     const int error = errno;
     throw IoError(target_.string() + ": " + what + " the file: " + std::strerror(error) + "; " +
-                  advice(error));
+                  detail::advice(error));
   }
 
   std::filesystem::path target_;
