@@ -54,7 +54,9 @@ ScoreItem shots_item(const OperationRecord& record,
   ScoreItem item = make_item("shots", "Fluoroscopy shots", "1", points);
   item.target = "at most 40 good, over 90 fail";
   item.reason = "Counts only what is beyond need; fewer shots never earn more." + taken;
-  grade_thrift(item, is_acceptable, static_cast<double>(record.shots.size()), 40.0, 90.0);
+  const auto looks = std::count_if(record.shots.begin(), record.shots.end(),
+                                   [](const Shot& shot) { return shot.look != Look::LiveOn; });
+  grade_thrift(item, is_acceptable, static_cast<double>(looks), 40.0, 90.0);
   return item;
 }
 
@@ -62,8 +64,14 @@ ScoreItem dose_item(const OperationRecord& record, bool is_acceptable, double po
   ScoreItem item = make_item("dose_cgy_cm2", "Dose-area product", "cGy cm2", points);
   item.target = "at most 20 cGy cm² good, over 45.6 cGy cm² fail";
   item.reason = "A whole conventional operation was measured at 45.6 cGy cm²; a shot counts 0.5.";
-  grade_thrift(item, is_acceptable, kDosePerShotCgyCm2 * static_cast<double>(record.shots.size()),
-               20.0, 45.6);
+  std::uint64_t pulses = 0;
+  bool has_live = false;
+  for (const Shot& shot : record.shots) {
+    pulses += shot.pulses;
+    has_live = has_live || shot.look != Look::Single;
+  }
+  if (has_live) item.reason += " So do five seconds of live pictures.";
+  grade_thrift(item, is_acceptable, dose_cgy_cm2(pulses), 20.0, 45.6);
   return item;
 }
 

@@ -4,6 +4,8 @@
 // When two pictures are two views, and what a picture costs. Plain comparisons: safe in the tick.
 #pragma once
 
+#include <cstdint>
+
 #include "procedure/situation.hpp"
 
 namespace carpus::procedure {
@@ -14,9 +16,15 @@ inline constexpr double kDifferentViewDeg = 20.0;
 /// How far from its nominal angles a shot may be taken and still count as a view [deg] [E].
 inline constexpr double kViewToleranceDeg = 15.0;
 
-/// Dose-area product of one shot [cGy cm2], an engineering figure: about one second of a mini
-/// C-arm; a whole conventional operation takes 45.6 cGy cm2 [navigatedndscaphoid].
+/// Dose-area product of one shot [cGy cm2], an engineering figure: five seconds of a mini
+/// C-arm at 0.1 mA (fluoroscopy/detector.hpp); a whole conventional operation takes 45.6 cGy cm2
+/// [navigatedndscaphoid].
 inline constexpr double kDosePerShotCgyCm2 = 0.5;
+
+/// Of so many pulses of the tube.
+[[nodiscard]] constexpr double dose_cgy_cm2(std::uint64_t pulses) noexcept {
+  return kDosePerShotCgyCm2 * static_cast<double>(pulses) / kPulsesPerShot;
+}
 
 [[nodiscard]] constexpr bool is_near_angle(double value_deg,
                                            double nominal_deg,

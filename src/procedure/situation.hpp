@@ -25,7 +25,18 @@ inline constexpr std::uint8_t kNoBody = 255;
 /// How hand and forearm are held, from the neutral wrist.
 using WristPose = anatomy::HandPose;
 
-/// One fluoroscopy picture.
+/// How a look through the C-arm came about.
+enum class Look : std::uint8_t {
+  Single = 0,  ///< one shot
+  Live = 1,    ///< the foot pedal went down
+  LiveOn = 2,  ///< it is still down, and another view came up, or more had been done
+};
+
+/// Pulses of the tube a second while the pedal is down, and of a single shot: five seconds [E].
+inline constexpr std::uint32_t kPulsesPerSecond = 10;
+inline constexpr std::uint32_t kPulsesPerShot = 50;
+
+/// One look through the C-arm.
 struct Shot {
   double rotation_deg = 0.0;  ///< relative to the forearm as it is held: fluoroscopy/c_arm.hpp,
                               ///< 0 PA, 90 lateral, 45 pronated oblique
@@ -33,6 +44,8 @@ struct Shot {
   Tick tick = 0;
   std::uint32_t completed_steps = 0;  ///< bit i: step i was done when it was taken
   WristPose wrist;
+  Look look = Look::Single;
+  std::uint32_t pulses = kPulsesPerShot;
   bool operator==(const Shot&) const = default;
 };
 

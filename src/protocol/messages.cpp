@@ -108,6 +108,26 @@ void write(FieldWriter& out, const TakeShot& in) {
   out.name("reference", name_of(in.reference));
 }
 
+void read(FieldReader& in, CArm& out) {
+  out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
+  out.tilt_deg = in.number("tilt_deg", -60.0, 60.0);
+  out.reference = static_cast<AngleReference>(in.choice("reference", kAngleReferenceNames));
+}
+
+void write(FieldWriter& out, const CArm& in) {
+  out.name("type", "c_arm");
+  out.value("rotation_deg", in.rotation_deg);
+  out.value("tilt_deg", in.tilt_deg);
+  out.name("reference", name_of(in.reference));
+}
+
+void read(FieldReader& in, Pedal& out) { out.down = in.boolean("down"); }
+
+void write(FieldWriter& out, const Pedal& in) {
+  out.name("type", "pedal");
+  out.value("down", in.down);
+}
+
 void read(FieldReader& in, Pause& out) { out.on = in.boolean("on"); }
 
 void write(FieldWriter& out, const Pause& in) {
@@ -168,6 +188,7 @@ void read(FieldReader& in, Snapshot& out) {
   if (in.has("gauge_reading_mm")) out.gauge_reading_mm = in.number("gauge_reading_mm", 0.0, 1000.0);
   out.holding_share = in.number("holding_share", 0.0, 1.0);
   out.passes = in.integer("passes", 0, 4294967295);
+  in.record("c_arm", out.c_arm);
   out.shots = in.integer("shots", 0, 4294967295);
   out.dose_cgy_cm2 = in.number("dose_cgy_cm2", 0.0, 1000000.0);
   out.undos = in.integer("undos", 0, 4294967295);
@@ -200,6 +221,7 @@ void write(FieldWriter& out, const Snapshot& in) {
   }
   out.value("holding_share", in.holding_share);
   out.value("passes", in.passes);
+  out.record("c_arm", in.c_arm);
   out.value("shots", in.shots);
   out.value("dose_cgy_cm2", in.dose_cgy_cm2);
   out.value("undos", in.undos);
@@ -295,13 +317,15 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 7> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 9> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"start", &read_as<PageMessage, Start>},
      {"hand", &read_as<PageMessage, Hand>},
      {"wrist", &read_as<PageMessage, Wrist>},
      {"act", &read_as<PageMessage, Act>},
      {"take_shot", &read_as<PageMessage, TakeShot>},
+     {"c_arm", &read_as<PageMessage, CArm>},
+     {"pedal", &read_as<PageMessage, Pedal>},
      {"pause", &read_as<PageMessage, Pause>}}};
 
 constexpr std::array<MessageKind<HostMessage>, 9> kHostMessageKinds{

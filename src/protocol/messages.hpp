@@ -90,13 +90,31 @@ struct TakeShot {
   bool operator==(const TakeShot&) const = default;
 };
 
+/// Where the C-arm is moved to; it stays there in the room when the forearm turns. take_shot moves
+/// it too.
+struct CArm {
+  /// [deg] -180 to 180
+  double rotation_deg = 0.0;
+  /// towards proximal (positive) or distal [deg] -60 to 60
+  double tilt_deg = 0.0;
+  AngleReference reference = AngleReference::HeldForearm;
+  bool operator==(const CArm&) const = default;
+};
+
+/// The C-arm's foot pedal: live pictures while it is down. It is let go 150 ms after it was last
+/// said to be held, so say it again meanwhile.
+struct Pedal {
+  bool down = false;
+  bool operator==(const Pedal&) const = default;
+};
+
 /// Stops or resumes time.
 struct Pause {
   bool on = false;
   bool operator==(const Pause&) const = default;
 };
 
-using PageMessage = std::variant<Hello, Start, Hand, Wrist, Act, TakeShot, Pause>;
+using PageMessage = std::variant<Hello, Start, Hand, Wrist, Act, TakeShot, CArm, Pedal, Pause>;
 
 /// Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does;
 /// none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since
@@ -153,7 +171,8 @@ struct Snapshot {
   double holding_share = 0.0;
   /// how often bone was entered anew 0 to 4294967295
   std::int64_t passes = 0;
-  /// 0 to 4294967295
+  CArmStand c_arm;
+  /// pictures taken, and times that the pedal went down 0 to 4294967295
   std::int64_t shots = 0;
   /// [cGy cm2] 0 to 1000000
   double dose_cgy_cm2 = 0.0;

@@ -166,6 +166,18 @@ void write(FieldWriter& out, const WristPose& in) {
   out.value("traction_n", in.traction_n);
 }
 
+void read(FieldReader& in, CArmStand& out) {
+  out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
+  out.tilt_deg = in.number("tilt_deg", -60.0, 60.0);
+  out.live = in.boolean("live");
+}
+
+void write(FieldWriter& out, const CArmStand& in) {
+  out.value("rotation_deg", in.rotation_deg);
+  out.value("tilt_deg", in.tilt_deg);
+  out.value("live", in.live);
+}
+
 void read(FieldReader& in, Range& out) {
   out.low = in.number("low", -1000.0, 1000.0);
   out.high = in.number("high", -1000.0, 1000.0);

@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 4;
+inline constexpr std::int64_t kProtocolVersion = 5;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -241,6 +241,17 @@ struct WristPose {
   /// [N] 0 to 200
   double traction_n = 0.0;
   bool operator==(const WristPose&) const = default;
+};
+
+/// How the C-arm stands, and whether it is looked through.
+struct CArmStand {
+  /// from the forearm as it is held now [deg] -180 to 180
+  double rotation_deg = 0.0;
+  /// towards proximal (positive) or distal [deg] -60 to 60
+  double tilt_deg = 0.0;
+  /// the pedal is down: live pictures come
+  bool live = false;
+  bool operator==(const CArmStand&) const = default;
 };
 
 /// From low to high.

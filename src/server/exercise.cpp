@@ -47,10 +47,23 @@ void Exercise::add_news(const EventfulTick& tick, ExerciseNews& news) const {
   for (std::size_t i = 0; i < snapshot.event_count; ++i) {
     const simulation::Event& event = snapshot.events[i];
     news.events.push_back(session_.describe(event));
-    if (event.kind != EventKind::ShotTaken) continue;
-    news.shots.push_back({static_cast<std::uint32_t>(event.detail), 0, setup_.procedure->target,
-                          tick.command.rotation_deg, tick.command.tilt_deg, snapshot});
+    const auto number = static_cast<std::uint32_t>(event.detail);
+    if (event.kind == EventKind::ShotTaken) {
+      news.shots.push_back({PictureKind::Shot, number, 0, setup_.procedure->target,
+                            tick.command.rotation_deg, tick.command.tilt_deg, snapshot});
+    } else if (event.kind == EventKind::LiveEnded) {
+      news.shots.push_back({PictureKind::Held, number, 0, setup_.procedure->target,
+                            snapshot.c_arm.rotation_deg, snapshot.c_arm.tilt_deg, snapshot});
+    }
   }
+}
+
+std::optional<TakenShot> Exercise::live_picture() {
+  const simulation::Snapshot& now = state_.snapshot;
+  if (!now.c_arm.pedal_is_down || now.pulses == pulses_shown_) return std::nullopt;
+  pulses_shown_ = now.pulses;
+  return TakenShot{PictureKind::Live,  0,  0, setup_.procedure->target, now.c_arm.rotation_deg,
+                   now.c_arm.tilt_deg, now};
 }
 
 ExerciseNews Exercise::collect() {

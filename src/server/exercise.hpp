@@ -28,9 +28,13 @@ struct ExerciseSetup {
   std::uint64_t seed = 0;
 };
 
+/// How a picture came about; the numbers of protocol/README.md.
+enum class PictureKind : std::uint32_t { Shot = 0, Live = 1, Held = 2 };
+
 /// A picture that was taken: where the C-arm stood in the room, and the state at that tick.
 struct TakenShot {
-  std::uint32_t number = 0;
+  PictureKind kind = PictureKind::Shot;
+  std::uint32_t number = 0;          ///< 0 while live
   std::uint64_t exercise = 0;        ///< the station's count, to tell late pictures from new ones
   BoneId target = BoneId::Scaphoid;  ///< what the beam is centred on
   double rotation_deg = 0.0;         ///< from the forearm as scanned
@@ -60,6 +64,8 @@ class Exercise {
 
   /// True when there is a newer state than at the last call; `state()` has it.
   bool update() noexcept { return loop_.take_state(state_); }
+  /// The live picture of that state, once for each pulse of the tube; none while the pedal is up.
+  [[nodiscard]] std::optional<TakenShot> live_picture();
   [[nodiscard]] const LoopState& state() const noexcept { return state_; }
 
   /// Whose it is, as typed, and since when [UTC, ISO 8601].
@@ -87,6 +93,7 @@ class Exercise {
   simulation::World shadow_;
   std::vector<protocol::LoggedEvent> log_;
   LoopState state_;
+  std::uint32_t pulses_shown_ = 0;
   SimulationLoop loop_;  ///< last, so that its thread ends before what it uses
 };
 

@@ -24,7 +24,8 @@ void append(std::string& bytes, double value) {
 
 std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image) {
   std::string bytes = "CARM";
-  append(bytes, 1, 4);
+  append(bytes, 2, 4);
+  append(bytes, static_cast<std::uint32_t>(shot.kind), 4);
   append(bytes, shot.number, 4);
   append(bytes, static_cast<std::uint32_t>(image.width), 2);
   append(bytes, static_cast<std::uint32_t>(image.height), 2);
@@ -32,7 +33,8 @@ std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& imag
   append(bytes,
          simulation::held_rotation_deg(shot.rotation_deg, shot.snapshot.wrist.pronation_rad));
   append(bytes, shot.tilt_deg);
-  append(bytes, procedure::kDosePerShotCgyCm2);
+  append(bytes,
+         procedure::dose_cgy_cm2(shot.kind == PictureKind::Shot ? procedure::kPulsesPerShot : 1U));
   bytes.append(image.grey.begin(), image.grey.end());
   return bytes;
 }
@@ -54,7 +56,12 @@ PictureWorker::~PictureWorker() {
 void PictureWorker::request(const TakenShot& shot) {
   {
     const std::lock_guard lock(mutex_);
-    queue_.push_back(shot);
+    if (shot.kind == PictureKind::Live) {
+      live_ = shot;
+    } else {
+      if (shot.kind == PictureKind::Held) live_.reset();  // it is newer
+      queue_.push_back(shot);
+    }
   }
   wake_.notify_one();
 }
@@ -62,24 +69,40 @@ void PictureWorker::request(const TakenShot& shot) {
 void PictureWorker::clear() {
   const std::lock_guard lock(mutex_);
   queue_.clear();
+  live_.reset();
+}
+
+TakenShot PictureWorker::next_in_turn() {
+  TakenShot shot;
+  if (!queue_.empty()) {
+    shot = queue_.front();
+    queue_.pop_front();
+  } else {
+    shot = *live_;
+    live_.reset();
+  }
+  return shot;
+}
+
+std::string PictureWorker::frame_of(const TakenShot& shot) {
+  const session::PictureView view{shot.target, shot.rotation_deg, shot.tilt_deg};
+  try {
+    return encode_picture(shot, shot.kind == PictureKind::Live
+                                    ? pictures_.take_live(view, shot.snapshot)
+                                    : pictures_.take(view, shot.snapshot));
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 void PictureWorker::run() {
   while (true) {
     std::unique_lock lock(mutex_);
-    wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+    wake_.wait(lock, [this] { return stopping_ || !queue_.empty() || live_; });
     if (stopping_) return;
-    const TakenShot shot = queue_.front();
-    queue_.pop_front();
+    const TakenShot shot = next_in_turn();
     lock.unlock();
-    std::string frame;
-    try {
-      frame = encode_picture(
-          shot, pictures_.take({shot.target, shot.rotation_deg, shot.tilt_deg}, shot.snapshot));
-    } catch (const std::exception&) {
-      frame.clear();
-    }
-    deliver_(shot.exercise, std::move(frame));
+    deliver_(shot, frame_of(shot));
   }
 }
 

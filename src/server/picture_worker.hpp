@@ -10,6 +10,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -25,25 +26,29 @@ namespace carpus::server {
 class PictureWorker {
  public:
   /// Called in the worker's thread; the frame is empty when the picture could not be made.
-  using Deliver = std::function<void(std::uint64_t exercise, std::string frame)>;
+  using Deliver = std::function<void(const TakenShot& shot, std::string frame)>;
 
   PictureWorker(const cases::CaseData& data, Deliver deliver);
   ~PictureWorker();
   PictureWorker(const PictureWorker&) = delete;
   PictureWorker& operator=(const PictureWorker&) = delete;
 
+  /// Shots are made in turn, before live pictures; of those only the newest is.
   void request(const TakenShot& shot);
   /// Forgets what was asked for and not yet begun.
   void clear();
 
  private:
   void run();
+  [[nodiscard]] std::string frame_of(const TakenShot& shot);
+  [[nodiscard]] TakenShot next_in_turn();
 
   session::ExercisePictures pictures_;
   Deliver deliver_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<TakenShot> queue_;
+  std::optional<TakenShot> live_;
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -75,17 +75,23 @@ void Station::detach() {
 void Station::attach(NetworkServer& network) {
   network_ = &network;
   pictures_ =
-      std::make_unique<PictureWorker>(data_, [this](std::uint64_t exercise, std::string frame) {
-        network_->post([this, exercise, frame = std::move(frame)]() mutable {
-          deliver(exercise, std::move(frame));
-        });
+      std::make_unique<PictureWorker>(data_, [this](const TakenShot& shot, std::string frame) {
+        network_->post(
+            [this, exercise = shot.exercise, kind = shot.kind, frame = std::move(frame)]() mutable {
+              deliver(exercise, kind, std::move(frame));
+            });
       });
   network.repeat(kStateInterval, [this] { update(); });
 }
 
-void Station::deliver(std::uint64_t exercise, std::string frame) {
+void Station::deliver(std::uint64_t exercise, PictureKind kind, std::string frame) {
   // A picture of the exercise before is of no use to this one.
   if (exercise != exercise_number_) return;
+  if (kind == PictureKind::Live) {
+    const bool is_heard = operator_ && operator_->waiting_frames() <= kMaxWaitingFrames;
+    if (is_heard && !frame.empty()) operator_->send_binary(frame);
+    return;
+  }
   if (frame.empty()) return refuse("The picture could not be made", "Take it again.");
   shown_.push_back(std::move(frame));
   if (shown_.size() > kPicturesKept) shown_.pop_front();
@@ -258,7 +264,17 @@ void Station::on_message(const protocol::Act& act) {
 }
 
 void Station::on_message(const protocol::TakeShot& shot) {
-  if (has_exercise()) command(exercise_->session().take(shot));
+  if (!has_exercise()) return;
+  command(exercise_->session().take(shot));
+  exercise_->loop().hold(exercise_->session().held());
+}
+
+void Station::on_message(const protocol::CArm& c_arm) {
+  if (has_exercise()) exercise_->loop().hold(exercise_->session().take(c_arm));
+}
+
+void Station::on_message(const protocol::Pedal& pedal) {
+  if (has_exercise()) exercise_->loop().hold(exercise_->session().take(pedal));
 }
 
 void Station::on_message(const protocol::Pause& pause) {
@@ -310,6 +326,10 @@ void Station::send_news() {
 
 void Station::send_state() {
   if (!exercise_->update() || !operator_) return;
+  if (auto live = exercise_->live_picture(); live && pictures_) {
+    live->exercise = exercise_number_;
+    pictures_->request(*live);
+  }
   // The last state of an exercise must arrive, others are replaced by the next.
   const bool is_last = exercise_->state().snapshot.finished;
   if (!is_last && operator_->waiting_frames() > kMaxWaitingFrames) return;

@@ -79,6 +79,8 @@ class Station : public PageHandler {
   void on_message(const protocol::Wrist& wrist);
   void on_message(const protocol::Act& act);
   void on_message(const protocol::TakeShot& shot);
+  void on_message(const protocol::CArm& c_arm);
+  void on_message(const protocol::Pedal& pedal);
   void on_message(const protocol::Pause& pause);
 
   void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
@@ -86,7 +88,7 @@ class Station : public PageHandler {
   [[nodiscard]] std::string why_busy(const PageConnection& page, const std::string& word) const;
   void welcome();
   void show_again();
-  void deliver(std::uint64_t exercise, std::string frame);
+  void deliver(std::uint64_t exercise, PictureKind kind, std::string frame);
   [[nodiscard]] bool may_speak(const std::shared_ptr<PageConnection>& page);
   void command(const simulation::Command& command);
   void update();

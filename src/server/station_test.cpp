@@ -31,8 +31,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":4,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":4,"page":"second"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":5,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":5,"page":"second"})";
 constexpr const char* kStart = R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
                                R"("input_device":"mouse","seed":7})";
 constexpr const char* kHand =
@@ -138,9 +138,9 @@ TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
   const auto picture = page->wait_for([](const auto& f) { return f.is_binary; });
   ASSERT_TRUE(picture.has_value());
   EXPECT_EQ(picture->content.substr(0, 4), "CARM");
-  EXPECT_EQ(picture->content.size(), 32U + 512U * 512U);
+  EXPECT_EQ(picture->content.size(), 36U + 512U * 512U);
   float rotation = 0;
-  std::memcpy(&rotation, picture->content.data() + 20, 4);
+  std::memcpy(&rotation, picture->content.data() + 24, 4);
   EXPECT_EQ(rotation, 30.0F);
   page->send(R"({"type":"act","id":"finish"})");
   const Json last = wait_for_snapshot(*page, [](const Json& s) { return bool(s["finished"]); });
@@ -157,6 +157,39 @@ TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
   const auto detail = Json::parse(request(port(), "/api/attempts/1").body());
   EXPECT_EQ(detail["score"], score["report"]);
   EXPECT_EQ(detail["events"].back()["kind"], "finished");
+}
+
+TEST_F(StationTest, LivePicturesComeWhileThePedalIsHeldAndTheLastOneIsHeld) {
+  const auto page = operate(port());
+  const auto number = [](const PageClient::Frame& frame, std::size_t at, std::size_t bytes) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, frame.content.data() + at, bytes);
+    return value;
+  };
+  const auto next = [&](std::uint32_t kind) {
+    return page->wait_for([&](const auto& f) { return f.is_binary && number(f, 8, 4) == kind; },
+                          30ms);
+  };
+  std::optional<PageClient::Frame> coarse;
+  std::optional<PageClient::Frame> full;
+  for (int i = 0; i < 300 && !full; ++i) {
+    page->send(R"({"type":"pedal","down":true})");
+    const auto frame = next(1);
+    if (frame && number(*frame, 16, 2) == 256) coarse = frame;
+    if (frame && number(*frame, 16, 2) == 512) full = frame;
+  }
+  EXPECT_TRUE(coarse.has_value()) << "at first it is not known whether anything moves";
+  ASSERT_TRUE(full.has_value()) << "then all rests";
+  EXPECT_EQ(full->content.size(), 36U + 512U * 512U);
+  // Nothing more is heard of the pedal: the host lets go.
+  const auto held =
+      page->wait_for([&](const auto& f) { return f.is_binary && number(f, 8, 4) == 2; });
+  ASSERT_TRUE(held.has_value());
+  EXPECT_GE(number(*held, 12, 4), 1U) << "it is numbered as shots are";
+  const Json after =
+      wait_for_snapshot(*page, [](const Json& s) { return s["c_arm"]["live"] == false; });
+  EXPECT_GE(after["shots"], 1);
+  EXPECT_GT(after["dose_cgy_cm2"], 0.0);
 }
 
 TEST_F(StationTest, RecordingOfALiveExerciseReplaysToTheSameHash) {

@@ -71,6 +71,8 @@ class Sentence {
         return subject() + " slipped along the " + bone() + ": hold it steeper to the surface";
       case EventKind::WristStopped:
         return "The wrist goes no further: its limit, or an instrument, holds it";
+      case EventKind::LiveEnded:
+        return "Looked live for " + seconds() + ": picture " + std::to_string(event_.detail);
       case EventKind::None:
         break;
     }
@@ -81,6 +83,10 @@ class Sentence {
   [[nodiscard]] std::string subject() const { return instrument_name(event_.instrument); }
   [[nodiscard]] const std::string& bone() const {
     return bodies_.words(static_cast<std::size_t>(event_.detail));
+  }
+  [[nodiscard]] std::string seconds() const {
+    const auto tenths = static_cast<long>(event_.value * 10 + 0.5);
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
   }
   [[nodiscard]] std::string target() const { return std::string(words_of(procedure_.target)); }
   [[nodiscard]] std::string step() const {
@@ -96,10 +102,11 @@ class Sentence {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 17> kNames{
-      "none",       "touched_bone", "entered_bone", "left_far_side", "withdrawn",      "shot_taken",
-      "gauge_read", "taken",        "put_down",     "seated",        "step_completed", "undone",
-      "finished",   "refused",      "wrong_bone",   "slipped",       "wrist_stopped"};
+  constexpr std::array<std::string_view, 18> kNames{
+      "none",           "touched_bone",  "entered_bone", "left_far_side", "withdrawn",
+      "shot_taken",     "gauge_read",    "taken",        "put_down",      "seated",
+      "step_completed", "undone",        "finished",     "refused",       "wrong_bone",
+      "slipped",        "wrist_stopped", "live_ended"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/exercise_pictures.hpp"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
 #include "geometry/aabb.hpp"
+#include "procedure/situation.hpp"
 #include "session/drilled_bone.hpp"
 #include "session/metal_in_beam.hpp"
 
@@ -59,18 +61,43 @@ void ExercisePictures::take_in_holes(const simulation::Snapshot& now) {
   }
 }
 
-fluoroscopy::Image ExercisePictures::take(const PictureView& view,
-                                          const simulation::Snapshot& now) {
-  take_in_holes(now);
+fluoroscopy::BeamScene ExercisePictures::scene_of(const PictureView& view,
+                                                  const simulation::Snapshot& now,
+                                                  const fluoroscopy::CArmGeometry& geometry) const {
   const Direction<frame::Wrist> ulnar{{0, data_.side == Side::Left ? 1.0 : -1.0, 0}};
-  const auto metal = metal_in_beam(now);
   fluoroscopy::BeamScene scene;
   scene.pose = fluoroscopy::make_c_arm_pose({view.rotation_deg, view.tilt_deg},
                                             {centre_of(data_, view.target, now)},
-                                            data_.wrist_from_patient, ulnar);
+                                            data_.wrist_from_patient, ulnar, geometry);
   scene.patient_from_bone = std::span(now.patient_from_bone).first(now.body_count);
+  return scene;
+}
+
+fluoroscopy::Image ExercisePictures::take(const PictureView& view,
+                                          const simulation::Snapshot& now) {
+  take_in_holes(now);
+  fluoroscopy::BeamScene scene = scene_of(view, now, {});
+  const auto metal = metal_in_beam(now);
   scene.metal = metal;
   fluoroscopy::Exposure exposure;
+  exposure.seed = now.tick;
+  return renderer_.render(scene, exposure);
+}
+
+fluoroscopy::Image ExercisePictures::take_live(const PictureView& view,
+                                               const simulation::Snapshot& now) {
+  take_in_holes(now);
+  fluoroscopy::BeamScene scene = scene_of(view, now, {});
+  const bool rests = live_beam_ && live_beam_->carm_from_patient == scene.pose.carm_from_patient &&
+                     std::ranges::equal(live_poses_, scene.patient_from_bone);
+  live_beam_ = scene.pose;
+  live_poses_.assign(scene.patient_from_bone.begin(), scene.patient_from_bone.end());
+  if (!rests) scene.pose.geometry.pixels = kMovingPixels;
+  const auto metal = metal_in_beam(now);
+  scene.metal = metal;
+  fluoroscopy::Exposure exposure;
+  exposure.beam_mas /= procedure::kPulsesPerShot;
+  exposure.held_mas = exposure.beam_mas;  // nothing is averaged
   exposure.seed = now.tick;
   return renderer_.render(scene, exposure);
 }

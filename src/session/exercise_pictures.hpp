@@ -5,6 +5,7 @@
 // the 1 kHz thread; one thread at a time.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cases/case_data.hpp"
@@ -12,6 +13,9 @@
 #include "simulation/snapshot.hpp"
 
 namespace carpus::session {
+
+/// Pixels a side of a live picture while something moves.
+inline constexpr int kMovingPixels = 256;
 
 /// What is to be seen.
 struct PictureView {
@@ -30,12 +34,24 @@ class ExercisePictures {
   /// @throws InvalidInput for angles that no C-arm can take.
   [[nodiscard]] fluoroscopy::Image take(const PictureView& view, const simulation::Snapshot& now);
 
+  /// One pulse of live pictures: coarse while bones or C-arm move (since the last one), full when
+  /// they rest; with the noise of a pulse.
+  /// @throws InvalidInput as `take`.
+  [[nodiscard]] fluoroscopy::Image take_live(const PictureView& view,
+                                             const simulation::Snapshot& now);
+
  private:
+  [[nodiscard]] fluoroscopy::BeamScene scene_of(const PictureView& view,
+                                                const simulation::Snapshot& now,
+                                                const fluoroscopy::CArmGeometry& geometry) const;
   void take_in_holes(const simulation::Snapshot& now);
 
   const cases::CaseData& data_;
   fluoroscopy::ComposedRenderer renderer_;
   std::vector<std::vector<simulation::TrackView>> holes_;  ///< taken in, by body
+  /// Where C-arm and bodies were in the last live picture.
+  std::optional<fluoroscopy::CArmPose> live_beam_;
+  std::vector<Pose<frame::Patient, frame::Bone>> live_poses_;
 };
 
 }  // namespace carpus::session

@@ -37,5 +37,20 @@ TEST(ExercisePictures, FollowTheWrist) {
   EXPECT_NE(pictures.take({}, now).grey, pictures.take({}, moved).grey);
 }
 
+TEST(ExercisePictures, LiveOnesAreCoarseWhileSomethingMovesAndFullWhenAllRests) {
+  simulation::Snapshot now = at_opening();
+  ExercisePictures pictures(wrist());
+  PictureView view;
+  EXPECT_EQ(pictures.take_live(view, now).width, kMovingPixels) << "nothing is known to rest yet";
+  EXPECT_EQ(pictures.take_live(view, now).width, 512);
+  view.rotation_deg = 5;
+  EXPECT_EQ(pictures.take_live(view, now).width, kMovingPixels) << "the C-arm moves";
+  now.patient_from_bone[simulation::test::body_of(BoneId::Lunate)].translation += Vec3{1, 0, 0};
+  EXPECT_EQ(pictures.take_live(view, now).width, kMovingPixels) << "a bone moves";
+  const auto rested = pictures.take_live(view, now);
+  EXPECT_EQ(rested.width, 512);
+  EXPECT_LT(rested.dose_cgy_cm2 * 49, pictures.take(view, now).dose_cgy_cm2);
+}
+
 }  // namespace
 }  // namespace carpus::session

@@ -21,8 +21,11 @@ using simulation::kHands;
 struct HeldInput {
   std::array<simulation::HandInput, kHands> hands;
   simulation::WristPose wrist;
-  /// Counts what was heard of each hand: whoever holds a driver says so again and again.
+  simulation::CArmInput c_arm;
+  /// Counts what was heard of each hand, and of the pedal: whoever holds a driver, or the pedal
+  /// down, says so again and again.
   std::array<std::uint32_t, kHands> heard{};
+  std::uint32_t pedal_heard = 0;
 
   constexpr bool operator==(const HeldInput&) const = default;
 };
@@ -32,7 +35,7 @@ static_assert(std::is_trivially_copyable_v<HeldInput>);
 class InputSource {
  public:
   /// A driver runs only this long after its hand was last heard of: a page that is held up must not
-  /// drill on.
+  /// drill on. The pedal likewise: nor must it burn on.
   static constexpr Tick kDriverHoldTicks = 150;
 
   explicit InputSource(const HeldInput& initial) noexcept : held_(initial) {}
@@ -46,6 +49,7 @@ class InputSource {
  private:
   HeldInput held_;
   std::array<Tick, kHands> ticks_since_heard_{};
+  Tick ticks_since_pedal_ = 0;
 };
 
 }  // namespace carpus::session

@@ -42,11 +42,21 @@ std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
   return std::nullopt;
 }
 
+double room_rotation_of(protocol::AngleReference reference,
+                        double rotation_deg,
+                        const simulation::WristPose& wrist) noexcept {
+  return reference == protocol::AngleReference::Room
+             ? rotation_deg
+             : simulation::room_rotation_deg(rotation_deg, wrist.pronation_rad);
+}
+
 }  // namespace
 
 HeldInput resting(const simulation::Snapshot& now) noexcept {
   HeldInput held;
   held.wrist = now.wrist;
+  held.c_arm = now.c_arm;
+  held.c_arm.pedal_is_down = false;
   for (std::size_t hand = 0; hand < kHands; ++hand) {
     const std::uint8_t item = now.hands[hand].item;
     if (item >= simulation::kMaxItems) continue;
@@ -71,6 +81,18 @@ void hold(HeldInput& held, const protocol::Wrist& message) noexcept {
                 radians_from_degrees(message.pronation_deg), message.traction_n};
 }
 
+void hold(HeldInput& held,
+          const protocol::CArm& message,
+          const simulation::WristPose& wrist) noexcept {
+  held.c_arm.rotation_deg = room_rotation_of(message.reference, message.rotation_deg, wrist);
+  held.c_arm.tilt_deg = message.tilt_deg;
+}
+
+void hold(HeldInput& held, const protocol::Pedal& message) noexcept {
+  held.c_arm.pedal_is_down = message.down;
+  ++held.pedal_heard;
+}
+
 Result<Command> command_of(const protocol::Act& message) {
   const auto kind = kind_of(message.id);
   if (!kind) return Refusal{"A picture is asked for with take_shot"};
@@ -93,10 +115,7 @@ Result<Command> command_of(const protocol::Act& message) {
 Command command_of(const protocol::TakeShot& message, const simulation::WristPose& wrist) noexcept {
   Command command;
   command.kind = CommandKind::TakeShot;
-  const bool is_room = message.reference == protocol::AngleReference::Room;
-  command.rotation_deg =
-      is_room ? message.rotation_deg
-              : simulation::room_rotation_deg(message.rotation_deg, wrist.pronation_rad);
+  command.rotation_deg = room_rotation_of(message.reference, message.rotation_deg, wrist);
   command.tilt_deg = message.tilt_deg;
   return command;
 }

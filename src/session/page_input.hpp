@@ -14,9 +14,14 @@ namespace carpus::session {
 /// Everything at rest where it is: what is held at the beginning, and when nobody holds anything.
 [[nodiscard]] HeldInput resting(const simulation::Snapshot& now) noexcept;
 
-/// Takes over what is said of one hand, and of the wrist.
+/// Takes over what is said of one hand, of the wrist, of the C-arm and its pedal.
+/// @param wrist  as it is held now: angles may be counted from it.
 void hold(HeldInput& held, const protocol::Hand& message) noexcept;
 void hold(HeldInput& held, const protocol::Wrist& message) noexcept;
+void hold(HeldInput& held,
+          const protocol::CArm& message,
+          const simulation::WristPose& wrist) noexcept;
+void hold(HeldInput& held, const protocol::Pedal& message) noexcept;
 
 /// A refusal says what is missing or not known, for the page that sent it. Whether it makes sense
 /// now, the simulation says.

@@ -33,8 +33,21 @@ Result<simulation::Command> Session::take(const protocol::Act& message) const {
   return command_of(message);
 }
 
-simulation::Command Session::take(const protocol::TakeShot& message) const noexcept {
-  return command_of(message, latest_.wrist);
+simulation::Command Session::take(const protocol::TakeShot& message) noexcept {
+  const simulation::Command command = command_of(message, latest_.wrist);
+  held_.c_arm.rotation_deg = command.rotation_deg;
+  held_.c_arm.tilt_deg = command.tilt_deg;
+  return command;
+}
+
+const HeldInput& Session::take(const protocol::CArm& message) noexcept {
+  hold(held_, message, latest_.wrist);
+  return held_;
+}
+
+const HeldInput& Session::take(const protocol::Pedal& message) noexcept {
+  hold(held_, message);
+  return held_;
 }
 
 const HeldInput& Session::let_go() noexcept {

@@ -33,7 +33,11 @@ class Session {
   const HeldInput& take(const protocol::Hand& message) noexcept;
   const HeldInput& take(const protocol::Wrist& message) noexcept;
   [[nodiscard]] Result<simulation::Command> take(const protocol::Act& message) const;
-  [[nodiscard]] simulation::Command take(const protocol::TakeShot& message) const noexcept;
+  /// Moves the C-arm there, too.
+  [[nodiscard]] simulation::Command take(const protocol::TakeShot& message) noexcept;
+  const HeldInput& take(const protocol::CArm& message) noexcept;
+  const HeldInput& take(const protocol::Pedal& message) noexcept;
+  [[nodiscard]] const HeldInput& held() const noexcept { return held_; }
   /// The page is gone: drivers off, everything stays where it is.
   const HeldInput& let_go() noexcept;
 

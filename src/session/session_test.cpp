@@ -113,6 +113,14 @@ class Page {
     source_.hold(session_.take(message));
     return {};
   }
+  std::string take(const protocol::CArm& message) {
+    source_.hold(session_.take(message));
+    return {};
+  }
+  std::string take(const protocol::Pedal& message) {
+    source_.hold(session_.take(message));
+    return {};
+  }
   std::string take(const protocol::Act& message) {
     const auto command = session_.take(message);
     if (!command) return command.error();
@@ -309,6 +317,31 @@ TEST(Session, ActionsThatLackSomethingAreRefusedByName) {
   EXPECT_THAT(page.say(take("spoon")), HasSubstr("no instrument 'spoon'"));
   EXPECT_THAT(page.say(act(protocol::ActionId::PickUp)), HasSubstr("needs an item"));
   EXPECT_THAT(page.say(act(protocol::ActionId::TakeShot)), HasSubstr("take_shot"));
+}
+
+TEST(Session, CArmStaysInTheRoomAndThePedalIsLetGoWhenNothingIsHeardOfIt) {
+  Page page;
+  page.run(10);
+  EXPECT_EQ(page.say(protocol::CArm{45, 10, protocol::AngleReference::HeldForearm}), "");
+  EXPECT_EQ(page.say(protocol::Pedal{true}), "");
+  page.run(100);
+  EXPECT_TRUE(page.snapshot.c_arm.live);
+  EXPECT_NEAR(page.snapshot.c_arm.rotation_deg, 45, 0.02);
+  EXPECT_NEAR(page.snapshot.c_arm.tilt_deg, 10, 0.02);
+  page.update(true);
+  EXPECT_FALSE(page.snapshot.c_arm.live) << "while time stands still no tube is on";
+  page.run(100);
+  EXPECT_FALSE(page.snapshot.c_arm.live) << "nothing was heard of it for 150 ms";
+  EXPECT_EQ(page.snapshot.shots, 1);
+  EXPECT_TRUE(page.has_event("live_ended"));
+  EXPECT_THAT(page.events.back().text, HasSubstr("0.2 s")) << page.events.back().text;
+
+  protocol::Wrist wrist;
+  wrist.flexion_deg = page.snapshot.wrist.flexion_deg;
+  wrist.pronation_deg = 20;
+  EXPECT_EQ(page.say(wrist), "");
+  page.run(2000);
+  EXPECT_NEAR(page.snapshot.c_arm.rotation_deg, 25, 0.1) << "the forearm turned under it";
 }
 
 }  // namespace

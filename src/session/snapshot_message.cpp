@@ -10,6 +10,7 @@
 #include "instruments/instrument.hpp"
 #include "procedure/shots.hpp"
 #include "session/descriptions.hpp"
+#include "simulation/c_arm_angles.hpp"
 
 namespace carpus::session {
 
@@ -97,8 +98,10 @@ protocol::Snapshot snapshot_message(const simulation::Snapshot& now,
   if (now.gauge_reading_mm >= 0) message.gauge_reading_mm = now.gauge_reading_mm;
   message.holding_share = std::clamp(now.holding_share, 0.0, 1.0);
   message.passes = now.passes;
-  message.shots = now.shots;
-  message.dose_cgy_cm2 = now.shots * procedure::kDosePerShotCgyCm2;
+  message.c_arm = {simulation::held_rotation_deg(now.c_arm.rotation_deg, now.wrist.pronation_rad),
+                   now.c_arm.tilt_deg, now.c_arm.pedal_is_down && !host.paused && !now.finished};
+  message.shots = now.looks;
+  message.dose_cgy_cm2 = procedure::dose_cgy_cm2(now.pulses);
   message.undos = now.undos;
   message.tick_rate_hz = host.tick_rate_hz;
   message.tick_p99_us = host.tick_p99_us;

@@ -9,6 +9,16 @@
 
 namespace carpus::simulation {
 
+/// How far the C-arm turns and tilts in the room [deg].
+inline constexpr double kGreatestRotationDeg = 180.0;
+inline constexpr double kGreatestTiltDeg = 60.0;
+
+/// Whether it can stand so. False for what is not a number.
+[[nodiscard]] constexpr bool can_stand(double rotation_deg, double tilt_deg) noexcept {
+  return rotation_deg >= -kGreatestRotationDeg && rotation_deg <= kGreatestRotationDeg &&
+         tilt_deg >= -kGreatestTiltDeg && tilt_deg <= kGreatestTiltDeg;
+}
+
 /// In (-180, 180], for angles that are no farther out than one turn.
 [[nodiscard]] constexpr double wrapped_deg(double angle_deg) noexcept {
   if (angle_deg > 180.0) return angle_deg - 360.0;

@@ -20,6 +20,8 @@ Input quantised(const Input& input) noexcept {
   wrist.radial_deviation_rad = quantised(wrist.radial_deviation_rad, kAngleUnitRad);
   wrist.pronation_rad = quantised(wrist.pronation_rad, kAngleUnitRad);
   wrist.traction_n = quantised(wrist.traction_n, kForceUnitN);
+  result.c_arm.rotation_deg = quantised(input.c_arm.rotation_deg, kViewUnitDeg);
+  result.c_arm.tilt_deg = quantised(input.c_arm.tilt_deg, kViewUnitDeg);
   result.command.rotation_deg = quantised(input.command.rotation_deg, kViewUnitDeg);
   result.command.tilt_deg = quantised(input.command.tilt_deg, kViewUnitDeg);
   return result;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What an operator does in one tick: the only way anything reaches the simulation, from whatever
-// device, script or recording. Two hands, the wrist that is operated on, one command.
+// device, script or recording. Two hands, the wrist that is operated on, the C-arm, one command.
 #pragma once
 
 #include <array>
@@ -62,9 +62,19 @@ struct HandInput {
   constexpr bool operator==(const HandInput&) const = default;
 };
 
+/// The C-arm, as it stands in the room, and its foot pedal.
+struct CArmInput {
+  double rotation_deg = 0.0;   ///< from the forearm as scanned
+  double tilt_deg = 0.0;       ///< towards proximal (positive) or distal
+  bool pedal_is_down = false;  ///< live pictures, kPulsesPerSecond of them
+
+  constexpr bool operator==(const CArmInput&) const = default;
+};
+
 struct Input {
   std::array<HandInput, kHands> hands;
   WristPose wrist;  ///< where it is wanted; it follows at a hand's speed, within its limits
+  CArmInput c_arm;
   Command command;
 
   constexpr bool operator==(const Input&) const = default;

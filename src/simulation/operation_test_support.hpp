@@ -222,6 +222,14 @@ class Operator {
     return world_.now();
   }
 
+  /// With the foot pedal down.
+  const Snapshot& look_live(double rotation_deg, int ticks) {
+    input_.c_arm = {rotation_deg, 0.0, true};
+    hold(Driver::Off, 0.0, ticks);
+    input_.c_arm.pedal_is_down = false;
+    return hold(Driver::Off, 0.0, 1);
+  }
+
   /// Holds the wrist so until it is there.
   const Snapshot& bend(const WristPose& pose, int ticks = 3000) {
     input_.wrist = pose;
@@ -259,6 +267,7 @@ inline void operate(Operator& op) {
   op.place_on_entry({{0.4, 0.3, 0}, {0.5, 0, 0}});
   op.drive_to(24.0);
   op.command(shot(45));
+  op.look_live(20, 250);
   op.bend({kOpenFlexionRad - 0.1, 0.1, 0.2, 20.0}, 400);
   op.command(take("depth_gauge", 1));
   op.command(simple(CommandKind::ReadGauge, 1));

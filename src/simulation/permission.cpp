@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <array>
 
+#include "simulation/c_arm_angles.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::simulation {
 namespace {
-
-constexpr double kGreatestRotationDeg = 180.0;
-constexpr double kGreatestTiltDeg = 60.0;
-
-bool is_within(double value, double limit) noexcept { return value >= -limit && value <= limit; }
 
 bool rides(const instruments::Instrument& kind) noexcept {
   return kind.bore_radius_mm > 0.0 && !kind.is_sleeve;
@@ -118,10 +114,7 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::None:
       return Refusal::None;
     case CommandKind::TakeShot:
-      if (!is_within(command.rotation_deg, kGreatestRotationDeg) ||
-          !is_within(command.tilt_deg, kGreatestTiltDeg)) {
-        return Refusal::ShotOutOfRange;
-      }
+      if (!can_stand(command.rotation_deg, command.tilt_deg)) return Refusal::ShotOutOfRange;
       return now.shots < kMaxShots ? Refusal::None : Refusal::TooManyShots;
     case CommandKind::Take:
       return why_not_take(procedure, now, command);

@@ -20,10 +20,11 @@ constexpr std::string_view kMagic = "CARPREC1";
 constexpr std::size_t kMostInstruments = 255;
 constexpr std::size_t kMostKeyframes = kMaxRecordedTicks / 1000;
 
-/// Bits of the mask of what changed: five a hand, then wrist and command.
+/// Bits of the mask of what changed: five a hand, then wrist, C-arm and command.
 constexpr unsigned kBitsPerHand = 5;
 constexpr unsigned kWristBit = kBitsPerHand * kHands;
-constexpr unsigned kCommandBit = kWristBit + 1;
+constexpr unsigned kCArmBit = kWristBit + 1;
+constexpr unsigned kCommandBit = kCArmBit + 1;
 constexpr unsigned kAllBits = (1U << (kCommandBit + 1)) - 1;
 
 /// An input as whole numbers: what is written, and what differs.
@@ -45,7 +46,13 @@ struct InputUnits {
     bool operator==(const What&) const = default;
   };
   std::array<Hand, kHands> hands;
+  struct CArm {
+    std::array<std::int64_t, 2> stand{};
+    std::uint8_t pedal = 0;
+    bool operator==(const CArm&) const = default;
+  };
   std::array<std::int64_t, 4> wrist{};
+  CArm c_arm;
   What command;
   bool operator==(const InputUnits&) const = default;
 };
@@ -69,6 +76,9 @@ InputUnits in_units(const Input& input) {
                  units_of(input.wrist.radial_deviation_rad, kAngleUnitRad),
                  units_of(input.wrist.pronation_rad, kAngleUnitRad),
                  units_of(input.wrist.traction_n, kForceUnitN)};
+  units.c_arm = {{units_of(input.c_arm.rotation_deg, kViewUnitDeg),
+                  units_of(input.c_arm.tilt_deg, kViewUnitDeg)},
+                 static_cast<std::uint8_t>(input.c_arm.pedal_is_down)};
   const Command& command = input.command;
   units.command = {static_cast<std::uint8_t>(command.kind), command.hand, command.index,
                    units_of(command.rotation_deg, kViewUnitDeg),
@@ -92,6 +102,8 @@ Input input_of(const InputUnits& units) {
   input.wrist = {
       from_units(units.wrist[0], kAngleUnitRad), from_units(units.wrist[1], kAngleUnitRad),
       from_units(units.wrist[2], kAngleUnitRad), from_units(units.wrist[3], kForceUnitN)};
+  input.c_arm = {from_units(units.c_arm.stand[0], kViewUnitDeg),
+                 from_units(units.c_arm.stand[1], kViewUnitDeg), units.c_arm.pedal != 0};
   const InputUnits::What& command = units.command;
   input.command = {static_cast<CommandKind>(command.kind), command.hand, command.index,
                    from_units(command.rotation, kViewUnitDeg),
@@ -110,6 +122,7 @@ unsigned changes(const InputUnits& a, const InputUnits& b) {
     if (a.hands[h].guidance != b.hands[h].guidance) mask |= 1U << (first + 4);
   }
   if (a.wrist != b.wrist) mask |= 1U << kWristBit;
+  if (a.c_arm != b.c_arm) mask |= 1U << kCArmBit;
   if (a.command != b.command) mask |= 1U << kCommandBit;
   return mask;
 }
@@ -145,6 +158,10 @@ void put_run(Writer& out, const InputRun& run, const InputUnits& before, InputUn
     if ((bits & 16U) != 0) out.put(hand.guidance, 1);
   }
   if ((mask >> kWristBit & 1U) != 0) put_differences(out, now.wrist, before.wrist);
+  if ((mask >> kCArmBit & 1U) != 0) {
+    put_differences(out, now.c_arm.stand, before.c_arm.stand);
+    out.put(now.c_arm.pedal, 1);
+  }
   if ((mask >> kCommandBit & 1U) != 0) {
     out.put(now.command.kind, 1);
     out.put(now.command.hand, 1);
@@ -173,6 +190,11 @@ bool get_changes(Reader& in, unsigned mask, InputUnits& units) {
                hand.guidance <= static_cast<std::uint8_t>(Guidance::Planned);
   }
   if ((mask >> kWristBit & 1U) != 0) add_differences(in, units.wrist);
+  if ((mask >> kCArmBit & 1U) != 0) {
+    add_differences(in, units.c_arm.stand);
+    units.c_arm.pedal = static_cast<std::uint8_t>(in.get(1));
+    is_sound = is_sound && units.c_arm.pedal <= 1;
+  }
   if ((mask >> kCommandBit & 1U) != 0) {
     units.command.kind = static_cast<std::uint8_t>(in.get(1));
     units.command.hand = static_cast<std::uint8_t>(in.get(1));
@@ -357,11 +379,11 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   }
   const auto format = in.get(2);
   if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
-  if (format == 1) {
+  if (format == 1 || format == 2) {
     return carpus::Refusal{
-        "recording: format 1, of a wrist that did not move; it cannot be replayed, its stored "
-        "score "
-        "can be shown"};
+        "recording: format " + std::to_string(format) +
+        (format == 1 ? ", of a wrist that did not move" : ", of a C-arm without a pedal") +
+        "; it cannot be replayed, its stored score can be shown"};
   }
   if (format != kRecordingFormat) {
     return carpus::Refusal{"recording: format " + std::to_string(format) + ", this program reads " +

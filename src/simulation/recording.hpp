@@ -28,8 +28,9 @@
 
 namespace carpus::simulation {
 
-/// 1 was of a world of one wire; such recordings show their stored score only.
-inline constexpr std::uint16_t kRecordingFormat = 2;
+/// 1 was of a world of one wire, 2 of a C-arm without a pedal; such recordings show their stored
+/// score only.
+inline constexpr std::uint16_t kRecordingFormat = 3;
 
 /// Longest exercise that is recorded: 4 hours. Bounds what decoding untrusted bytes may allocate.
 inline constexpr std::uint64_t kMaxRecordedTicks = 4ULL * 3600 * 1000;

@@ -82,6 +82,7 @@ enum class EventKind : std::uint8_t {
   WrongBone = 14,     ///< a bone was entered that is neither target nor allowed; detail: body
   Slipped = 15,       ///< a turning tip slipped along a surface it met too flat; detail: body
   WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
+  LiveEnded = 17,     ///< the pedal was let go; detail: number of the look's shot, value: s
 };
 
 struct Event {
@@ -112,7 +113,10 @@ struct Snapshot {
   double gauge_reading_mm = -1.0;     ///< last reading, -1 before any
   double holding_share = 1.0;         ///< of the screw in the target, of that in untouched bone
   std::uint32_t passes = 0;           ///< how often bone was entered anew
-  std::uint32_t shots = 0;
+  CArmInput c_arm;                    ///< as it stands; pedal_is_down while it is looked through
+  std::uint32_t shots = 0;            ///< kept of all looks: OperationRecord::shots
+  std::uint32_t looks = 0;            ///< shots taken and times that the pedal went down
+  std::uint32_t pulses = 0;           ///< of the tube in all, for the dose
   std::uint32_t undos = 0;
   bool can_undo = false;
   std::array<Event, kMaxEventsPerTick> events{};

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One tick: quantise and check the input -> move the wrist and its bones -> carry out the command
-// -> move what each hand holds (free, or along its line in bone) -> tick off steps -> force,
-// limited last -> snapshot and hash.
+// -> look through the C-arm -> move what each hand holds (free, or along its line in bone) -> tick
+// off steps -> force, limited last -> snapshot and hash.
 #include "simulation/world.hpp"
 
 #include <cstdint>
 #include <utility>
 
 #include "core/error.hpp"
+#include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -74,6 +75,8 @@ World::State::State(const Model& model) : tissue(model.fields), scene(model.fiel
 /// host that holds it there must not start with it across the bones.
 void World::State::open(const Model& model) noexcept {
   spent.wrist = model.data.hand_motion.limits.clamp(model.opening.wrist);
+  // PA over the forearm as it lies, as at the procedure's beginning.
+  spent.c_arm.rotation_deg = room_rotation_deg(0.0, spent.wrist.pronation_rad);
   pose_bodies(model);
   Item& first = now.items[0];
   first.instrument = model.procedure.tray.front();
@@ -167,6 +170,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     advance(hand.plan, hand.wish, item == nullptr || !item->is_fixed());
   }
   obey(model, input.command);
+  look_through(input.c_arm);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

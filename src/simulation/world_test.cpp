@@ -307,6 +307,9 @@ TEST(World, AWireThroughTwoBonesHoldsTheWrist) {
   const double held = op.now().wrist.flexion_rad;
   EXPECT_TRUE(has_event(op.bend(open, 1), EventKind::WristStopped));
   EXPECT_EQ(op.bend(open, 300).wrist.flexion_rad, held);
+  op.hold(Driver::Reverse, 0.0, 500);
+  EXPECT_GT(op.item().depth_mm, 0.0) << "it lies in the scaphoid still";
+  EXPECT_NE(op.bend(open, 300).wrist.flexion_rad, held) << "drawn back out of the second bone";
 }
 
 TEST(World, WhatIsFixedInBoneGoesWithIt) {

@@ -38,6 +38,9 @@ void write(FieldWriter& out, const BodyPose& in);
 void read(FieldReader& in, WristPose& out);
 void write(FieldWriter& out, const WristPose& in);
 
+void read(FieldReader& in, CArmStand& out);
+void write(FieldWriter& out, const CArmStand& in);
+
 void read(FieldReader& in, Range& out);
 void write(FieldWriter& out, const Range& in);
 

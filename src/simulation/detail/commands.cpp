@@ -1,12 +1,10 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is done once: shots, taking and putting down instruments, reading the gauge, undo, finish.
+// What is done once: taking and putting down instruments, reading the gauge, undo, finish.
 // Whether it may be done is decided in permission.cpp alone.
 #include <cstdint>
 
-#include "core/units.hpp"
-#include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -39,17 +37,6 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       is_finishing = true;
       return;
   }
-}
-
-void World::State::take_shot(const Command& command) noexcept {
-  procedure::Shot& shot = shots[spent.shot_count++];
-  // What is seen hangs on how the forearm lies under the C-arm.
-  shot.rotation_deg = held_rotation_deg(command.rotation_deg, spent.wrist.pronation_rad);
-  shot.tilt_deg = command.tilt_deg;
-  shot.tick = spent.tick;
-  shot.completed_steps = now.completed_steps;
-  shot.wrist = spent.wrist;
-  emit(EventKind::ShotTaken, kNoItem, static_cast<std::int32_t>(spent.shot_count), 0.0);
 }
 
 void World::State::take(const Model& model,

@@ -32,6 +32,15 @@ constexpr double kCutStepMm = 0.05;      // removed at once by a wire: a fifth o
 constexpr double kWideCutStepMm = 0.25;  // by what is wide and slow: half a voxel
 constexpr double kCutReachMm = 0.3;      // farther from a tool's side no bone feels it
 
+/// The tip has come into this body.
+void note_crossing(Item& item, std::uint8_t body) noexcept {
+  for (std::size_t i = 0; i < item.crossing_count; ++i) {
+    if (item.crossings[i].body == body) return;
+  }
+  if (item.crossing_count == detail::kMaxCrossings) return;
+  item.crossings[item.crossing_count++] = {body, item.travel_mm};
+}
+
 }  // namespace
 
 /// Density at a point of what is left: of the body that it lies in, or in whose blur.
@@ -232,6 +241,10 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
   const detail::BodyPose& pose = poses[item.body];
   const Vec3 tip =
       (pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.travel_mm}).v;
+  while (item.crossing_count > 0 &&
+         item.crossings[item.crossing_count - 1].at_mm > item.travel_mm) {
+    --item.crossing_count;
+  }
   detail::PassState unkept;
   detail::PassState& pass = item.pass != 255 ? spent.passes[item.pass] : unkept;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
@@ -241,7 +254,10 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
     if (!(depth > 0.0)) continue;
     const bool is_target = (model.kinds.target & bit_of(b)) != 0;
     if (is_target && !item.in_target) enter_target(model, item, b, item.travel_mm);
-    if (depth > kScratchMm) pass.bodies_entered |= bit_of(b);
+    if (depth > kScratchMm) {
+      pass.bodies_entered |= bit_of(b);
+      note_crossing(item, b);
+    }
     const bool is_wrong = !is_target && (model.kinds.allowed & bit_of(b)) == 0;
     if (is_wrong && depth > kScratchMm && (item.told_bodies & bit_of(b)) == 0) {
       item.told_bodies |= bit_of(b);
@@ -281,6 +297,7 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
     item.in_target = false;
     item.has_left = false;
     item.hole = kNoHole;
+    item.crossing_count = 0;
     now.gauge_reading_mm = -1.0;  // of a line that is no more
     scene.forget();
   }

@@ -28,6 +28,13 @@ inline constexpr std::size_t kMaxCheckpoints = 16;
 template <typename Some, typename T>
 concept Is = std::is_same_v<std::remove_const_t<Some>, T>;
 
+/// A body through which an instrument's line now passes.
+struct Crossing {
+  std::uint8_t body = kNoBody;
+  double at_mm = 0.0;  ///< travel at which the tip came in
+};
+inline constexpr std::size_t kMaxCrossings = 4;
+
 /// An instrument that is out of the tray. While `body` is set its line is fixed in that body:
 /// origin + direction * travel, frame Bone; else it is free and lies at tip, shaft.
 struct Item {
@@ -49,6 +56,8 @@ struct Item {
   double chord_mm = 0.0;          ///< of this line inside the target, gap included
   double cut_to_mm = 0.0;         ///< travel up to which bone was removed
   std::uint32_t told_bodies = 0;  ///< wrong bones told of on this line, bit by body
+  std::array<Crossing, kMaxCrossings> crossings{};  ///< first `crossing_count`, as they came
+  std::uint8_t crossing_count = 0;
 
   [[nodiscard]] bool is_there() const noexcept { return instrument != kNoInstrument; }
   [[nodiscard]] bool is_fixed() const noexcept { return body != kNoBody; }
@@ -75,6 +84,11 @@ void visit(SomeItem& item, Visitor&& v) noexcept {
   v(item.chord_mm);
   v(item.cut_to_mm);
   v(item.told_bodies);
+  v(item.crossing_count);
+  for (std::size_t i = 0; i < item.crossing_count && i < kMaxCrossings; ++i) {
+    v(item.crossings[i].body);
+    v(item.crossings[i].at_mm);
+  }
 }
 
 /// What an undo brings back, but the tissue, which undoes itself (detail/tissue).
@@ -166,6 +180,11 @@ struct Spent {
   Tick tick = 0;
   std::uint32_t undos = 0;
   std::uint32_t shot_count = 0;
+  std::uint32_t looks = 0;
+  std::uint32_t pulses = 0;
+  std::uint32_t live_ticks = 0;  ///< since the pedal went down; 0 while it is up
+  std::uint32_t live_shot = 0;   ///< number of the shot with which that began
+  CArmInput c_arm;
   bool finished = false;
   bool wrist_is_told = false;  ///< that it came to its limit or is held
   WristPose wrist;             ///< as it is held now
@@ -182,6 +201,13 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
   v(spent.tick);
   v(spent.undos);
   v(spent.shot_count);
+  v(spent.looks);
+  v(spent.pulses);
+  v(spent.live_ticks);
+  v(spent.live_shot);
+  v(spent.c_arm.rotation_deg);
+  v(spent.c_arm.tilt_deg);
+  v(spent.c_arm.pedal_is_down);
   v(spent.finished);
   v(spent.wrist_is_told);
   v(spent.wrist.flexion_rad);
@@ -213,6 +239,8 @@ void visit_shot(SomeShot& shot, Visitor&& v) noexcept {
   v(shot.wrist.radial_deviation_rad);
   v(shot.wrist.pronation_rad);
   v(shot.wrist.traction_n);
+  v(shot.look);
+  v(shot.pulses);
 }
 
 }  // namespace carpus::simulation::detail

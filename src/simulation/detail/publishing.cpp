@@ -100,7 +100,10 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.gauge_reading_mm = now.gauge_reading_mm;
   snapshot.holding_share = now.holding_share;
   snapshot.passes = spent.pass_count;
+  snapshot.c_arm = spent.c_arm;
   snapshot.shots = spent.shot_count;
+  snapshot.looks = spent.looks;
+  snapshot.pulses = spent.pulses;
   snapshot.undos = spent.undos;
   snapshot.can_undo = checkpoint_count > 0 && !spent.finished;
   snapshot.finished = spent.finished;

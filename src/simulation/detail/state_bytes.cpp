@@ -70,7 +70,10 @@ bool are_indices_sound(const detail::Operated& now,
     const bool is_known = is_in(item.hand, kHands) && is_in(item.body, bodies) &&
                           is_in(item.wire, kMaxItems) && item.wire != i &&
                           is_in(item.hole, now.hole_count) && is_in(item.pass, detail::kMaxPasses);
-    if (!is_known) return false;
+    if (!is_known || item.crossing_count > detail::kMaxCrossings) return false;
+    for (std::size_t c = 0; c < item.crossing_count; ++c) {
+      if (item.crossings[c].body >= bodies) return false;
+    }
     if (item.hand < kHands && now.held[item.hand] != i) return false;
     if (item.wire < kMaxItems &&
         (!now.items[item.wire].is_there() || !now.items[item.wire].is_fixed() ||
@@ -89,11 +92,14 @@ bool are_indices_sound(const detail::Operated& now,
       return false;
     }
     if (!is_in(spent.hands[h].touched_body, bodies)) return false;
+    if (spent.hands[h].plan.phase > HandPhase::Lowering) return false;
   }
   for (std::size_t i = 0; i < now.track_count; ++i) {
     if (now.tracks[i].body >= bodies) return false;
   }
-  return now.track_count <= kMaxTracks && spent.shot_count <= kMaxShots;
+  // While the pedal is down a look is on record.
+  const bool is_live_sound = spent.live_ticks == 0 || spent.shot_count > 0;
+  return now.track_count <= kMaxTracks && spent.shot_count <= kMaxShots && is_live_sound;
 }
 
 }  // namespace
@@ -136,6 +142,9 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   if (!is_sound) return carpus::Refusal{"keyframe: its state is not one that a tick could leave"};
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);
+  }
+  for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
+    is_sound = is_sound && next->shots[i].look <= procedure::Look::LiveOn;
   }
   if (!is_sound || in.is_spoilt()) return carpus::Refusal{"keyframe: cut off among the shots"};
   const Result<std::size_t> tissue = next->tissue.cuts().read_from(body.subspan(in.at()));

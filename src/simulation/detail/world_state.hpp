@@ -72,12 +72,17 @@ struct World::State {
 
   // commands.cpp
   void obey(const Model& model, const Command& command) noexcept;
-  void take_shot(const Command& command) noexcept;
   void take(const Model& model, std::uint8_t hand, InstrumentIndex instrument) noexcept;
   void pick_up(std::uint8_t hand, std::uint8_t item) noexcept;
   void put_down(const Model& model, std::uint8_t hand) noexcept;
   void read_gauge(const Model& model, std::uint8_t hand) noexcept;
   void ride_on(const Model& model, detail::Item& item, std::uint8_t wire) noexcept;
+
+  // fluoroscopy.cpp
+  void take_shot(const Command& command) noexcept;
+  void look_through(const CArmInput& raw) noexcept;
+  void note_look(double rotation_deg, double tilt_deg, procedure::Look look) noexcept;
+  void pulse() noexcept;
 
   // wrist_motion.cpp
   void move_wrist(const Model& model, const WristPose& raw) noexcept;

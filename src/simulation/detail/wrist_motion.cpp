@@ -43,8 +43,11 @@ bool is_input(const WristPose& pose) noexcept {
 /// An instrument that lies in two bones which move against each other holds the wrist.
 bool World::State::is_wrist_pinned(const Model& model) const noexcept {
   for (const Item& item : now.items) {
-    if (!item.is_there() || !item.is_fixed() || item.pass == 255) continue;
-    const detail::BodySet entered = spent.passes[item.pass].bodies_entered;
+    if (!item.is_there() || !item.is_fixed()) continue;
+    detail::BodySet entered = 0;
+    for (std::size_t i = 0; i < item.crossing_count; ++i) {
+      entered |= bit_of(item.crossings[i].body);
+    }
     const bool in_target = (entered & model.kinds.target) != 0;
     const detail::BodySet others = entered & ~model.kinds.target;
     if ((in_target && others != 0) || (others & (others - 1U)) != 0) return true;

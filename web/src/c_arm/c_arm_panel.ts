@@ -3,19 +3,24 @@
 //
 // The C-arm's side of the screen: last picture, views, free angles, dose, the last pictures.
 import { button, make, setText } from "../dom";
-import type { CArmPicture, NamedView } from "../protocol";
+import type { CArmPicture, CArmStand, NamedView } from "../protocol";
 import "./c_arm.css";
 import { drawPicture } from "./picture_canvas";
+import { Pedal, type PedalHandlers } from "./pedal";
 import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
-export interface CArmHandlers {
+export interface CArmHandlers extends PedalHandlers {
   takeShot(rotationDeg: number, tiltDeg: number): void;
+  /** The C-arm was moved there, without a picture. */
+  stand(rotationDeg: number, tiltDeg: number): void;
 }
 
 const HISTORY = 6;
 const MAX_TILT_DEG = 60;
 /** What a mini C-arm shows for a wrist; the host's spectrum is one of about 40 keV. */
 const KV_TEXT = "60 kV";
+/** What the host says of the C-arm counts again so long after it was moved here. */
+const OWN_WORD_MS = 300;
 
 export class CArmPanel {
   readonly element: HTMLElement;
@@ -40,8 +45,14 @@ export class CArmPanel {
   private inverted = false;
   private rotationDeg = 0;
   private tiltDeg = 0;
+  private movedAtMs = -Infinity;
+  /** Newest of the live look that goes on. */
+  private live: CArmPicture | undefined;
+  private readonly liveSign = make("span.c-arm-live", { role: "status" });
+  readonly pedal: Pedal;
 
   constructor(private readonly handlers: CArmHandlers) {
+    this.pedal = new Pedal(handlers);
     this.invertButton = button("Invert", "I", () => {
       this.invert();
     });
@@ -51,7 +62,7 @@ export class CArmPanel {
       "section.c-arm",
       { "aria-label": "C-arm" },
       make("header.panel-title", {}, make("h2", {}, "C-arm"), this.name),
-      make("div.c-arm-frame", {}, this.canvas, this.empty),
+      make("div.c-arm-frame", {}, this.canvas, this.empty, this.liveSign),
       this.viewGroup,
       this.standRow(),
       this.count,
@@ -89,6 +100,7 @@ export class CArmPanel {
       button("Shoot", "X", () => {
         this.shootFree();
       }),
+      this.pedal.button,
       this.invertButton,
     );
   }
@@ -124,6 +136,7 @@ export class CArmPanel {
   }
 
   shootFree(): void {
+    this.movedAtMs = performance.now();
     this.showStand();
     this.handlers.takeShot(this.rotationDeg, this.tiltDeg);
   }
@@ -131,7 +144,9 @@ export class CArmPanel {
   turn(rotationDeg: number, tiltDeg: number): void {
     this.rotationDeg = wrapped(this.rotationDeg + rotationDeg);
     this.tiltDeg = Math.min(MAX_TILT_DEG, Math.max(-MAX_TILT_DEG, this.tiltDeg + tiltDeg));
+    this.movedAtMs = performance.now();
     this.showStand();
+    this.handlers.stand(this.rotationDeg, this.tiltDeg);
   }
 
   invert(): void {
@@ -141,8 +156,26 @@ export class CArmPanel {
     this.redrawStrip();
   }
 
+  /** Where it stands over the forearm: that turns under it, too. */
+  takeStand(stand: CArmStand): void {
+    this.showLive(stand.live);
+    if (performance.now() - this.movedAtMs < OWN_WORD_MS) return;
+    const rotationDeg = Math.round(stand.rotation_deg);
+    const tiltDeg = Math.round(stand.tilt_deg);
+    if (rotationDeg === this.rotationDeg && tiltDeg === this.tiltDeg) return;
+    this.rotationDeg = rotationDeg;
+    this.tiltDeg = tiltDeg;
+    this.showStand();
+  }
+
   /** After a lost connection the last pictures come again: each takes its own place. */
   add(picture: CArmPicture): void {
+    if (picture.kind === "live") {
+      this.live = picture;
+      this.redraw();
+      return;
+    }
+    this.live = undefined;
     const known = this.pictures.findIndex((one) => one.shot === picture.shot);
     if (known >= 0) {
       this.pictures[known] = picture;
@@ -159,6 +192,7 @@ export class CArmPanel {
 
   clear(): void {
     this.pictures.length = 0;
+    this.live = undefined;
     this.shown = -1;
     this.redraw();
     this.redrawStrip();
@@ -179,26 +213,33 @@ export class CArmPanel {
     });
   }
 
+  private showLive(on: boolean): void {
+    setText(this.liveSign, on ? "Live" : "");
+    this.liveSign.hidden = !on;
+  }
+
   private nameOf(picture: CArmPicture): string {
     return viewName(this.views, picture.rotationDeg, picture.tiltDeg);
   }
 
   private redraw(): void {
-    const picture = this.pictures[this.shown];
+    const picture = this.live ?? this.pictures[this.shown];
     const side = Math.round(this.canvas.clientWidth * Math.min(2, window.devicePixelRatio));
     // Setting the size also clears the canvas.
     if (side > 1) this.canvas.width = this.canvas.height = side;
     const view = picture === undefined ? "" : this.nameOf(picture);
     drawPicture(this.canvas, picture, this.inverted, { view, kv: KV_TEXT });
     this.empty.hidden = picture !== undefined;
-    const old = picture !== undefined && this.shown < this.pictures.length - 1;
-    setText(
-      this.name,
-      picture === undefined ? "" : `${view}, shot ${picture.shot}${old ? ", earlier" : ""}`,
-    );
+    setText(this.name, picture === undefined ? "" : `${view}, ${this.whenTaken(picture)}`);
     const says =
       picture === undefined ? "No fluoroscopy picture yet" : `Fluoroscopy picture ${view}`;
     this.canvas.setAttribute("aria-label", says);
+  }
+
+  private whenTaken(picture: CArmPicture): string {
+    if (picture.kind === "live") return "live";
+    const old = this.shown < this.pictures.length - 1 ? ", earlier" : "";
+    return picture.kind === "held" ? `held, ${picture.shot}${old}` : `shot ${picture.shot}${old}`;
   }
 
   private redrawStrip(): void {

@@ -3,4 +3,5 @@
 //
 // The C-arm's panel.
 export { CArmPanel, type CArmHandlers } from "./c_arm_panel";
+export type { Pedal } from "./pedal";
 export { viewName } from "./view_name_model";

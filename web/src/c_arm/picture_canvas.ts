@@ -87,7 +87,8 @@ function write(
   context.textAlign = "left";
   context.fillText(overlay.view, margin, margin);
   context.textAlign = "right";
-  context.fillText(`#${picture.shot}`, side - margin, margin);
+  const number = picture.kind === "live" ? "" : `#${picture.shot}`;
+  context.fillText(number, side - margin, margin);
   context.textBaseline = "bottom";
   context.font = `400 ${Math.round(size * 0.86)}px 'Inter Variable', sans-serif`;
   context.fillStyle = "#9fb0b7";

@@ -73,6 +73,6 @@ describe("HELP", () => {
 
 describe("keysOf", () => {
   it("names the keys of a step's actions once each and passes over what it has none for", () => {
-    expect(keysOf(["shot", "take_shot", "sing", "finish"])).toEqual(["1 … 6, X", "F"]);
+    expect(keysOf(["shot", "take_shot", "sing", "finish"])).toEqual(["1 … 6, X, hold E", "F"]);
   });
 });

@@ -96,6 +96,11 @@ export const MAX_THRUST_N = 60;
 /** The C-arm turns by this much per key press [deg]. */
 export const C_ARM_STEP_DEG = 5;
 
+/** Whether this key is the C-arm's foot pedal. */
+export function isPedal(press: KeyPress): boolean {
+  return !press.ctrl && press.key.toLowerCase() === "e";
+}
+
 /** What this key does while it is held, if anything. */
 export function heldAction(press: KeyPress): HeldAction | undefined {
   const to = ARROWS[press.key];
@@ -206,6 +211,7 @@ export const HELP: readonly HelpGroup[] = [
       { keys: "1 … 6", text: "picture of the view on that button" },
       { keys: ", / .", text: "turn the C-arm by 5°; with Shift: tilt" },
       { keys: "X", text: "picture from where the C-arm stands" },
+      { keys: "E", text: "hold: live pictures, 10 a second" },
       { keys: "I", text: "invert black and white" },
     ],
   },
@@ -240,8 +246,8 @@ const KEYS_OF: Readonly<Record<string, string>> = {
   reverse: "R reverses",
   move_wrist: "J U, K O, N B, W S",
   switch_hand: "H",
-  shot: "1 … 6, X",
-  take_shot: "1 … 6, X",
+  shot: "1 … 6, X, hold E",
+  take_shot: "1 … 6, X, hold E",
   take: "C",
   pick_up: "G",
   put_down: "Q",

@@ -6,17 +6,18 @@ import { describe, expect, it } from "vitest";
 import { parseCArmPicture } from "./c_arm_picture";
 
 function frame(width: number, height: number, pixels = width * height): DataView {
-  const view = new DataView(new ArrayBuffer(32 + pixels));
+  const view = new DataView(new ArrayBuffer(36 + pixels));
   view.setUint32(0, 0x4341524d, false);
-  view.setUint32(4, 1, true);
-  view.setUint32(8, 7, true);
-  view.setUint16(12, width, true);
-  view.setUint16(14, height, true);
-  view.setFloat32(16, 0.25, true);
-  view.setFloat32(20, 45, true);
-  view.setFloat32(24, -10, true);
-  view.setFloat32(28, 0.5, true);
-  for (let i = 0; i < pixels; ++i) view.setUint8(32 + i, i % 256);
+  view.setUint32(4, 2, true);
+  view.setUint32(8, 2, true);
+  view.setUint32(12, 7, true);
+  view.setUint16(16, width, true);
+  view.setUint16(18, height, true);
+  view.setFloat32(20, 0.25, true);
+  view.setFloat32(24, 45, true);
+  view.setFloat32(28, -10, true);
+  view.setFloat32(32, 0.5, true);
+  for (let i = 0; i < pixels; ++i) view.setUint8(36 + i, i % 256);
   return view;
 }
 
@@ -25,19 +26,28 @@ describe("parseCArmPicture", () => {
     const parsed = parseCArmPicture(frame(3, 2).buffer as ArrayBuffer);
     expect(parsed).toMatchObject({
       ok: true,
-      value: { shot: 7, width: 3, height: 2, mmPerPixel: 0.25, rotationDeg: 45, tiltDeg: -10 },
+      value: {
+        kind: "held",
+        shot: 7,
+        width: 3,
+        height: 2,
+        mmPerPixel: 0.25,
+        rotationDeg: 45,
+        tiltDeg: -10,
+      },
     });
     expect(parsed.ok && [...parsed.value.grey]).toEqual([0, 1, 2, 3, 4, 5]);
   });
 
   it.each([
-    ["too short", () => new DataView(new ArrayBuffer(31))],
+    ["too short", () => new DataView(new ArrayBuffer(35))],
     ["pixels missing", () => frame(3, 2, 5)],
     ["pixels too many", () => frame(3, 2, 7)],
     ["no pixels", () => frame(0, 2)],
     ["another kind", () => frameWith((v) => v.setUint8(0, 0x42))],
-    ["another version", () => frameWith((v) => v.setUint32(4, 2, true))],
-    ["a figure that is no number", () => frameWith((v) => v.setFloat32(20, NaN, true))],
+    ["another version", () => frameWith((v) => v.setUint32(4, 1, true))],
+    ["an unknown kind", () => frameWith((v) => v.setUint32(8, 3, true))],
+    ["a figure that is no number", () => frameWith((v) => v.setFloat32(24, NaN, true))],
   ])("refuses %s", (_name, make) => {
     const parsed = parseCArmPicture(make().buffer as ArrayBuffer);
     expect(parsed.ok).toBe(false);

@@ -4,7 +4,13 @@
 // The binary frame of one C-arm picture (protocol/README.md).
 import type { Parsed } from "./validator";
 
+/** A single shot; one pulse of a live look; the last pulse of one, held. */
+export type PictureKind = "shot" | "live" | "held";
+const KINDS: readonly PictureKind[] = ["shot", "live", "held"];
+
 export interface CArmPicture {
+  readonly kind: PictureKind;
+  /** Its number; 0 while live. */
   readonly shot: number;
   readonly width: number;
   readonly height: number;
@@ -16,8 +22,8 @@ export interface CArmPicture {
   readonly grey: Uint8Array;
 }
 
-const HEADER_BYTES = 32;
-const VERSION = 1;
+const HEADER_BYTES = 36;
+const VERSION = 2;
 /** No receptor of a mini C-arm has more; a larger picture is a broken frame. */
 const MAX_SIDE = 4096;
 
@@ -32,8 +38,10 @@ export function parseCArmPicture(buffer: ArrayBuffer): Parsed<CArmPicture> {
   if (view.getUint32(0, false) !== 0x4341524d) return refuse("it does not begin with CARM");
   const version = view.getUint32(4, true);
   if (version !== VERSION) return refuse(`version ${version}, this page reads ${VERSION}`);
-  const width = view.getUint16(12, true);
-  const height = view.getUint16(14, true);
+  const kind = KINDS[view.getUint32(8, true)];
+  if (kind === undefined) return refuse(`no such kind as ${view.getUint32(8, true)}`);
+  const width = view.getUint16(16, true);
+  const height = view.getUint16(18, true);
   if (width === 0 || height === 0 || width > MAX_SIDE || height > MAX_SIDE) {
     return refuse(`${width} x ${height} pixels`);
   }
@@ -41,13 +49,14 @@ export function parseCArmPicture(buffer: ArrayBuffer): Parsed<CArmPicture> {
     return refuse(`${buffer.byteLength} bytes for ${width} x ${height} pixels`);
   }
   const picture: CArmPicture = {
-    shot: view.getUint32(8, true),
+    kind,
+    shot: view.getUint32(12, true),
     width,
     height,
-    mmPerPixel: view.getFloat32(16, true),
-    rotationDeg: view.getFloat32(20, true),
-    tiltDeg: view.getFloat32(24, true),
-    doseCgyCm2: view.getFloat32(28, true),
+    mmPerPixel: view.getFloat32(20, true),
+    rotationDeg: view.getFloat32(24, true),
+    tiltDeg: view.getFloat32(28, true),
+    doseCgyCm2: view.getFloat32(32, true),
     grey: new Uint8Array(buffer, HEADER_BYTES),
   };
   const figures = [picture.mmPerPixel, picture.rotationDeg, picture.tiltDeg, picture.doseCgyCm2];

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 4;
+export const PROTOCOL_VERSION = 5;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -168,6 +168,16 @@ export interface WristPose {
   readonly pronation_deg: number;
   /** [N] 0 to 200 */
   readonly traction_n: number;
+}
+
+/** How the C-arm stands, and whether it is looked through. */
+export interface CArmStand {
+  /** from the forearm as it is held now [deg] -180 to 180 */
+  readonly rotation_deg: number;
+  /** towards proximal (positive) or distal [deg] -60 to 60 */
+  readonly tilt_deg: number;
+  /** the pedal is down: live pictures come */
+  readonly live: boolean;
 }
 
 /** From low to high. */
@@ -444,6 +454,22 @@ export interface TakeShotMessage {
   readonly reference: AngleReference;
 }
 
+/** Where the C-arm is moved to; it stays there in the room when the forearm turns. take_shot moves it too. */
+export interface CArmMessage {
+  readonly type: "c_arm";
+  /** [deg] -180 to 180 */
+  readonly rotation_deg: number;
+  /** towards proximal (positive) or distal [deg] -60 to 60 */
+  readonly tilt_deg: number;
+  readonly reference: AngleReference;
+}
+
+/** The C-arm's foot pedal: live pictures while it is down. It is let go 150 ms after it was last said to be held, so say it again meanwhile. */
+export interface PedalMessage {
+  readonly type: "pedal";
+  readonly down: boolean;
+}
+
 /** Stops or resumes time. */
 export interface PauseMessage {
   readonly type: "pause";
@@ -457,6 +483,8 @@ export type PageMessage =
   | WristMessage
   | ActMessage
   | TakeShotMessage
+  | CArmMessage
+  | PedalMessage
   | PauseMessage;
 
 /** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since when, both empty when none runs. After hello a running exercise is paused until the page goes on with it, and what is being done (exercise), its last events, its pictures and its state follow. */
@@ -511,7 +539,8 @@ export interface SnapshotMessage {
   readonly holding_share: number;
   /** how often bone was entered anew 0 to 4294967295 */
   readonly passes: number;
-  /** 0 to 4294967295 */
+  readonly c_arm: CArmStand;
+  /** pictures taken, and times that the pedal went down 0 to 4294967295 */
   readonly shots: number;
   /** [cGy cm2] 0 to 1000000 */
   readonly dose_cgy_cm2: number;

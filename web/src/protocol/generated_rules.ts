@@ -88,6 +88,11 @@ export const SCHEMA: Schema = {
       pronation_deg: {"type": "number", "min": -180, "max": 180},
       traction_n: {"type": "number", "min": 0, "max": 200},
     } },
+    c_arm_stand: { fields: {
+      rotation_deg: {"type": "number", "min": -180, "max": 180},
+      tilt_deg: {"type": "number", "min": -60, "max": 60},
+      live: {"type": "boolean"},
+    } },
     range: { fields: {
       low: {"type": "number", "min": -1000, "max": 1000},
       high: {"type": "number", "min": -1000, "max": 1000},
@@ -249,6 +254,14 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     tilt_deg: {"type": "number", "min": -60, "max": 60},
     reference: {"type": "angle_reference"},
   },
+  c_arm: {
+    rotation_deg: {"type": "number", "min": -180, "max": 180},
+    tilt_deg: {"type": "number", "min": -60, "max": 60},
+    reference: {"type": "angle_reference"},
+  },
+  pedal: {
+    down: {"type": "boolean"},
+  },
   pause: {
     on: {"type": "boolean"},
   },
@@ -286,6 +299,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     gauge_reading_mm: {"type": "number", "min": 0, "max": 1000, "optional": true},
     holding_share: {"type": "number", "min": 0, "max": 1},
     passes: {"type": "integer", "min": 0, "max": 4294967295},
+    c_arm: {"type": "c_arm_stand"},
     shots: {"type": "integer", "min": 0, "max": 4294967295},
     dose_cgy_cm2: {"type": "number", "min": 0, "max": 1000000},
     undos: {"type": "integer", "min": 0, "max": 4294967295},

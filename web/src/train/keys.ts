@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which keys go where: to the hand while it operates, else to an action; never past an open dialog.
-import { onceAction, type KeyPress, type OnceAction } from "../operation";
+import type { Pedal } from "../c_arm";
+import { isPedal, onceAction, type KeyPress, type OnceAction } from "../operation";
 import type { Hand } from "./hand";
 
 export interface KeyHandlers {
   readonly hand: Hand;
+  readonly pedal: Pedal;
   /** Where the keys belong while one operates. */
   readonly canvas: HTMLCanvasElement;
   act(action: OnceAction): void;
@@ -26,6 +28,7 @@ export function listenToKeys(handlers: KeyHandlers, signal: AbortSignal): void {
   window.addEventListener(
     "keyup",
     (event) => {
+      handlers.pedal.release(event.code);
       handlers.hand.keyUp(event.code, performance.now());
     },
     { signal },
@@ -43,7 +46,7 @@ export function listenToKeys(handlers: KeyHandlers, signal: AbortSignal): void {
   );
 }
 
-function keyDown({ hand, act, closeHelp }: KeyHandlers, event: KeyboardEvent): void {
+function keyDown({ hand, pedal, act, closeHelp }: KeyHandlers, event: KeyboardEvent): void {
   if (event.altKey || event.metaKey) return;
   const press: KeyPress = {
     key: event.key,
@@ -60,6 +63,11 @@ function keyDown({ hand, act, closeHelp }: KeyHandlers, event: KeyboardEvent): v
   const target = event.target instanceof HTMLElement ? event.target : undefined;
   if (target instanceof HTMLInputElement) return;
   if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
+  if (isPedal(press)) {
+    event.preventDefault();
+    if (!event.repeat) pedal.press(event.code);
+    return;
+  }
   if (hand.keyDown(press, performance.now(), event.repeat)) {
     event.preventDefault();
     return;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // All bars, lists and dialogs of the room. They show, and pass on what was asked for; they decide nothing.
-import { CArmPanel } from "../c_arm";
+import { CArmPanel, type CArmHandlers } from "../c_arm";
 import { make } from "../dom";
 import { HelpOverlay } from "../help_overlay";
 import type { HandIndex, OnceAction } from "../operation";
@@ -24,7 +24,8 @@ export interface Wishes {
   act(action: OnceAction): void;
   look(view: ViewId): void;
   skin(opacity: number): void;
-  takeShot(rotationDeg: number, tiltDeg: number): void;
+  /** Pictures, where the C-arm stands, its pedal. */
+  readonly cArm: CArmHandlers;
   useHand(hand: HandIndex): void;
   take(instrument: Instrument, hand: HandIndex): void;
   moveWrist(wish: WristPose): void;
@@ -99,11 +100,7 @@ export function makePanels(
         wishes.act({ kind: "labels" });
       },
     }),
-    arm: new CArmPanel({
-      takeShot: (rotationDeg, tiltDeg) => {
-        wishes.takeShot(rotationDeg, tiltDeg);
-      },
-    }),
+    arm: new CArmPanel(wishes.cArm),
     bottom: new BottomBar({
       hand: (hand) => {
         wishes.useHand(hand);

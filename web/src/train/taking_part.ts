@@ -94,6 +94,7 @@ export class TakingPart {
   private leave(note: string): void {
     const { hand, panels } = this.room;
     hand.setEnabled(false);
+    panels.arm.pedal.releaseAll();
     panels.frozen.hidden = panels.pausedSign.hidden = true;
     for (const { element } of [
       panels.finishQuestion,
@@ -150,6 +151,7 @@ export class TakingPart {
     panels.top.showLink(state === "lost" ? "not connected" : state === "busy" ? "busy" : "");
     panels.start.setReady(open, text);
     hand.setEnabled(open && this.operates);
+    if (!open) panels.arm.pedal.releaseAll();
   }
 
   /** Says of what waits how far it has come. */

@@ -82,18 +82,22 @@ export class TrainPage {
       skin: (opacity) => {
         this.theatre.setSkin(opacity);
       },
-      takeShot: (rotationDeg, tiltDeg) => {
-        const refused = this.seen.offered.whyNot({ id: "take_shot" });
-        if (refused !== undefined) {
-          this.panels.notice.say(refused);
-          return;
-        }
-        this.connection.tell({
-          type: "take_shot",
-          rotation_deg: rotationDeg,
-          tilt_deg: tiltDeg,
-          reference: "held_forearm",
-        });
+      cArm: {
+        takeShot: (rotationDeg, tiltDeg) => {
+          const refused = this.seen.offered.whyNot({ id: "take_shot" });
+          if (refused === undefined) this.moveCArm("take_shot", rotationDeg, tiltDeg);
+          else this.panels.notice.say(refused);
+        },
+        stand: (rotationDeg, tiltDeg) => {
+          if (this.part.operates) this.moveCArm("c_arm", rotationDeg, tiltDeg);
+        },
+        whyNot: () => this.seen.offered.whyNot({ id: "take_shot" }),
+        send: (down) => {
+          if (this.part.operates) this.connection.tell({ type: "pedal", down });
+        },
+        say: (text) => {
+          this.panels.notice.say(text);
+        },
       },
       useHand: (hand) => {
         this.actions.useHand(hand);
@@ -120,6 +124,15 @@ export class TrainPage {
       finish: () => {
         this.actions.ask({ id: "finish" });
       },
+    });
+  }
+
+  private moveCArm(type: "take_shot" | "c_arm", rotationDeg: number, tiltDeg: number): void {
+    this.connection.tell({
+      type,
+      rotation_deg: rotationDeg,
+      tilt_deg: tiltDeg,
+      reference: "held_forearm",
     });
   }
 
@@ -167,10 +180,11 @@ export class TrainPage {
   }
 
   private listenToKeys(): void {
-    const { help } = this.panels;
+    const { arm, help } = this.panels;
     listenToKeys(
       {
         hand: this.hand,
+        pedal: arm.pedal,
         canvas: this.theatre.canvas,
         act: (action) => {
           this.actions.act(action);
@@ -206,6 +220,7 @@ export class TrainPage {
     return startFrameLoop({
       hand: (nowMs) => {
         this.hand.frame(nowMs);
+        this.panels.arm.pedal.frame(nowMs);
       },
       draw: () => {
         this.theatre.draw();

@@ -117,6 +117,7 @@ export class WhatIsSeen {
     bottom.show(s, hand.active, hand.driver, hand.thrust);
     bottom.showWays(ways);
     wrist.show(s.wrist);
+    arm.takeStand(s.c_arm);
     arm.showCount(s.shots, s.dose_cgy_cm2);
     const stuck = hand.driver === "forward" ? whyStuck(s, hand.active, hand.thrust) : undefined;
     if (stuck !== undefined) notice.say(stuck);

@@ -1,0 +1,92 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The C-arm's foot pedal: down while its key or its button is held, by whichever; said again and again,
+// since the host lets go of what it does not hear of.
+import { make } from "../dom";
+
+/** The host lets go after 150 ms. */
+const REPEAT_MS = 40;
+
+export interface PedalHandlers {
+  /** Why it cannot be pressed now, if it cannot. */
+  whyNot(): string | undefined;
+  send(down: boolean): void;
+  say(text: string): void;
+}
+
+export class Pedal {
+  readonly button: HTMLButtonElement;
+  /** What holds it down: codes of keys, "pointer". */
+  private readonly holders = new Set<string>();
+  private lastSentMs = -Infinity;
+
+  constructor(private readonly handlers: PedalHandlers) {
+    this.button = make(
+      "button.c-arm-pedal",
+      { type: "button", "aria-pressed": "false", title: "Hold for live pictures (E)" },
+      "Live",
+      make("kbd", {}, "hold E"),
+    );
+    this.button.setAttribute("aria-keyshortcuts", "E");
+    this.button.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.button.setPointerCapture(event.pointerId);
+      this.press("pointer");
+    });
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const) {
+      this.button.addEventListener(end, () => {
+        this.release("pointer");
+      });
+    }
+    this.button.addEventListener("keydown", (event) => {
+      if (event.code !== "Space" && event.code !== "Enter") return;
+      event.preventDefault();
+      if (!event.repeat) this.press(`button ${event.code}`);
+    });
+    this.button.addEventListener("keyup", (event) => {
+      this.release(`button ${event.code}`);
+    });
+    this.button.addEventListener("blur", () => {
+      this.releaseAll();
+    });
+    window.addEventListener("blur", () => {
+      this.releaseAll();
+    });
+  }
+
+  get isDown(): boolean {
+    return this.holders.size > 0;
+  }
+
+  press(holder: string): void {
+    const why = this.handlers.whyNot();
+    if (why !== undefined) {
+      this.handlers.say(why);
+      return;
+    }
+    this.holders.add(holder);
+    this.tell();
+  }
+
+  release(holder: string): void {
+    if (this.holders.delete(holder)) this.tell();
+  }
+
+  releaseAll(): void {
+    if (!this.isDown) return;
+    this.holders.clear();
+    this.tell();
+  }
+
+  /** Once per frame. */
+  frame(nowMs: number): void {
+    if (this.isDown && nowMs - this.lastSentMs >= REPEAT_MS) this.tell(nowMs);
+  }
+
+  private tell(nowMs = performance.now()): void {
+    this.lastSentMs = nowMs;
+    this.button.setAttribute("aria-pressed", String(this.isDown));
+    this.handlers.send(this.isDown);
+  }
+}
