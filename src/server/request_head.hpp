@@ -1,0 +1,58 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The head of an HTTP request, read strictly: what two readers could take for different requests
+// is refused (RFC 9112). Stricter than a general server must be: only requests without a body are
+// ever answered here, so none is read, and chunks and trailers have no place to hide in.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace carpus::server {
+
+/// A longer head is refused (431).
+inline constexpr std::size_t kMaxHeadBytes = 16384;
+/// As are more fields than these.
+inline constexpr std::size_t kMaxHeadFields = 100;
+
+struct RequestField {
+  std::string name;   ///< lower case
+  std::string value;  ///< without white space at its ends
+};
+
+struct RequestHead {
+  std::string method;     ///< "GET" or "HEAD"
+  std::string target;     ///< path and query, "/a?b", of the absolute form too
+  std::string authority;  ///< whom the request is for: the one Host field, "127.0.0.1:8080"
+  bool is_http_1_1 = true;
+  bool keep_alive = true;
+  std::vector<RequestField> fields;
+
+  /// The value of the first field of this name (lower case); nothing where there is none.
+  [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const;
+};
+
+/// Why a request is refused.
+struct RequestProblem {
+  unsigned status = 400;
+  std::string reason;  ///< a sentence
+};
+
+/// Where the head ends in what has arrived (behind its empty line); 0 while it has not.
+struct HeadEnd {
+  std::size_t end = 0;
+  std::optional<RequestProblem> problem;  ///< nothing that may follow could mend it
+};
+
+/// @param bytes  of which the first `scanned` were looked at before.
+[[nodiscard]] HeadEnd find_head_end(std::string_view bytes, std::size_t scanned = 0);
+
+/// @param head  with its empty line, as found by find_head_end.
+[[nodiscard]] std::variant<RequestHead, RequestProblem> parse_request_head(std::string_view head);
+
+}  // namespace carpus::server
