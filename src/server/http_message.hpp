@@ -9,18 +9,23 @@
 #include <string>
 #include <utility>
 
+#include "server/guest.hpp"
+
 namespace carpus::server {
 
 struct HttpRequest {
   std::string method;  ///< "GET"
   std::string target;  ///< path and query as sent, percent-encoded
+  Guest guest;         ///< who asks
 };
 
 struct HttpResponse {
   unsigned status = 200;
   std::string content_type = "text/plain; charset=utf-8";
   std::string cache_control = "no-store";
-  std::string download_name;  ///< not empty: the browser saves it under this name
+  std::string download_name;   ///< not empty: the browser saves it under this name
+  std::string set_cookie;      ///< not empty: the browser keeps this cookie
+  unsigned retry_after_s = 0;  ///< not 0: worth asking again after so long
   std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
 };
 
