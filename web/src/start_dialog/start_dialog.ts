@@ -4,6 +4,7 @@
 // Who operates, on which case, and that it is no patient where it is none.
 import { button, make, setText } from "../dom";
 import type { CaseDescription, ProcedureSummary } from "../protocol";
+import { nameProblem } from "./name_model";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
 
@@ -97,6 +98,10 @@ export class StartDialog {
       ),
       make("p.start-foot", {}, "For training and research. Not a medical device."),
     );
+    this.name.addEventListener("input", () => {
+      this.name.setCustomValidity(nameProblem(this.name.value.trim()) ?? "");
+    });
+    this.name.setCustomValidity(nameProblem(this.name.value.trim()) ?? "");
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       onStart(this.choice());
