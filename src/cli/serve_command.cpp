@@ -2,18 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/serve_command.hpp"
 
+#include <sys/stat.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "case_io/glb.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "procedures/built_in.hpp"
+#include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
+#include "server/access_links.hpp"
 #include "server/network_server.hpp"
 #include "server/station.hpp"
 #include "server/station_http.hpp"
@@ -29,6 +34,12 @@ struct ServeArguments {
   std::uint16_t port = 8080;
   std::string listen = "127.0.0.1";
   std::string web;
+  bool open = false;
+  bool new_links = false;
+  std::string link_file;
+  std::string certificate;
+  std::string key;
+  std::string public_url;
 };
 
 /// The page beside the program: in the build tree (build/<preset>/bin/carpus) or installed
@@ -56,29 +67,107 @@ void make_parent_folder(const fs::path& file) {
 
 void log_line(const std::string& line) { std::fprintf(stderr, "carpus: %s\n", line.c_str()); }
 
-void run(const ServeArguments& arguments) {
-  const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
-  make_parent_folder(arguments.records);
-  records::AttemptKeeper records(arguments.records);
-  const cases::CaseData data = load_case(arguments.case_folder);
-  const procedure::ProcedureList& procedures = procedures::built_in();
-  const server::StationHttp http(data, procedures, case_io::make_case_glb(data), records, web);
-  server::Station station(data, procedures, records, log_line);
+bool is_for_this_machine(const ServeArguments& arguments) {
+  return (arguments.listen == "127.0.0.1" || arguments.listen == "::1") &&
+         arguments.public_url.empty();
+}
+
+server::NetworkOptions network_options(const ServeArguments& arguments) {
   server::NetworkOptions options;
   options.address = arguments.listen;
   options.port = arguments.port;
+  options.certificate = arguments.certificate;
+  options.key = arguments.key;
+  options.public_url = arguments.public_url;
+  options.is_slow = server::StationHttp::reads_records;
+  if (arguments.open) {
+    if (is_for_this_machine(arguments)) return options;
+    throw UsageError(
+        "--open lets everybody in, so it is for this machine alone; leave it out, and hand on the "
+        "links that are printed, or leave out --listen and --public-url");
+  }
+  // Beside the records: whoever may read those needs no link.
+  options.links = server::keep_access_links(fs::path(arguments.records).replace_extension(".links"),
+                                            arguments.new_links);
+  return options;
+}
+
+std::string link(const std::string& url, const std::string& token) {
+  return url + "/?token=" + token;
+}
+
+/// A page that leads on to the link: unlike an argument, others cannot see it in a list of
+/// processes.
+class LinkFile {
+ public:
+  LinkFile(fs::path file, const std::string& target) : file_(std::move(file)) {
+    if (file_.empty()) return;
+    const ::mode_t before = ::umask(0077);
+    const std::string page =
+        "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=" + target +
+        "\"><title>Carpus</title>\n";
+    try {
+      records::write_file_atomically(file_, page);
+    } catch (...) {
+      ::umask(before);
+      throw;
+    }
+    ::umask(before);
+  }
+  ~LinkFile() {
+    std::error_code ignored;
+    if (!file_.empty()) fs::remove(file_, ignored);
+  }
+  LinkFile(const LinkFile&) = delete;
+  LinkFile& operator=(const LinkFile&) = delete;
+
+ private:
+  fs::path file_;
+};
+
+void say_ready(const ServeArguments& arguments,
+               const server::NetworkOptions& options,
+               const std::string& url,
+               const cases::CaseData& data) {
+  const std::string about = "(case '" + data.pseudonym +
+                            (data.provenance.simulated ? "', simulated" : "'") + "; Ctrl+C stops)";
+  if (!options.links) {
+    std::printf("Carpus is ready: %s  %s\n", url.c_str(), about.c_str());
+  } else if (is_for_this_machine(arguments)) {
+    std::printf("Carpus is ready: %s  %s\n", link(url, options.links->instructor).c_str(),
+                about.c_str());
+  } else {
+    std::printf("Carpus is ready: %s  %s\n", url.c_str(), about.c_str());
+    std::printf("  for trainees:    %s\n", link(url, options.links->trainee).c_str());
+    std::printf("  for instructors: %s\n", link(url, options.links->instructor).c_str());
+    if (url.starts_with("http://")) {
+      log_line(
+          "what is said on this network is not enciphered, the links included: give --certificate "
+          "and --key, or put a proxy before it (docs/network.md)");
+    }
+  }
+  std::fflush(stdout);
+}
+
+void run(const ServeArguments& arguments) {
+  const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
+  make_parent_folder(arguments.records);
+  const server::NetworkOptions options = network_options(arguments);
+  records::AttemptKeeper records(arguments.records);
+  const cases::CaseData data = load_case(arguments.case_folder);
+  const procedure::ProcedureList& procedures = procedures::built_in();
+  server::Station station(data, procedures, records, log_line);
+  const server::StationHttp http(data, procedures, case_io::make_case_glb(data), records,
+                                 station.owners(), web);
   server::NetworkServer network(
       options, [&http](const server::HttpRequest& request) { return http.answer(request); },
       station);
   station.attach(network);
   network.stop_on_signals();
-  std::printf("Carpus is ready: %s  (case '%s'%s; Ctrl+C stops)\n", network.url().c_str(),
-              data.pseudonym.c_str(), data.provenance.simulated ? ", simulated" : "");
-  std::fflush(stdout);
-  if (options.address != "127.0.0.1" && options.address != "::1") {
-    log_line("every machine that reaches " + options.address +
-             " can operate and read the records: there is no password");
-  }
+  const std::string url = network.url();
+  const LinkFile link_file(arguments.link_file,
+                           options.links ? link(url, options.links->instructor) : url);
+  say_ready(arguments, options, url, data);
   network.run();
   station.detach();
   if (records.waiting() > 0) {
@@ -98,8 +187,22 @@ void add_serve_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes a free one")
       ->capture_default_str();
-  command->add_option("--listen", arguments->listen, "IP address to listen on")
+  command
+      ->add_option("--listen", arguments->listen,
+                   "IP address to listen on; 0.0.0.0 is the whole network")
       ->capture_default_str();
+  command->add_flag("--open", arguments->open,
+                    "Let everybody on this machine in, without the link's token");
+  command->add_flag("--new-links", arguments->new_links,
+                    "Make new links; whoever came in by the old ones is out");
+  command->add_option("--link-file", arguments->link_file,
+                      "Write a page here, readable by its owner alone, that opens the link");
+  command->add_option("--certificate", arguments->certificate,
+                      "Speak TLS with this certificate (PEM, its chain behind it)");
+  command->add_option("--key", arguments->key, "The certificate's key (PEM, no pass phrase)");
+  command->add_option("--public-url", arguments->public_url,
+                      "What people open where a proxy stands before this station, such as "
+                      "https://train.example.org");
   command->add_option("--web", arguments->web, "Folder of the built page");
   command->callback([arguments] { run(*arguments); });
 }

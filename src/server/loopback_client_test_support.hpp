@@ -6,14 +6,16 @@
 
 #include <utility>  // before asio: its 1.74 needs std::exchange and does not include it
 //
+#include <sys/socket.h>
+
+#include <array>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <cerrno>
 #include <chrono>
 #include <deque>
 #include <functional>
@@ -68,16 +70,62 @@ inline unsigned upgrade_status(std::uint16_t port,
   return request(port, target, headers).result_int();
 }
 
+/// A connection that says what a test tells it to, byte by byte, and waits for nothing for long.
+class RawClient {
+ public:
+  explicit RawClient(std::uint16_t port) : socket_(context_) {
+    socket_.connect(loopback(port));
+    const timeval limit{10, 0};
+    ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+    ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+  }
+
+  /// False when the other side has closed.
+  bool send(const std::string& bytes) {
+    return ::send(socket_.native_handle(), bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(bytes.size());
+  }
+  /// What has come when the other side closes, or says nothing for 10 s.
+  std::string read_to_end() {
+    std::string answer;
+    while (append_to(answer)) {
+    }
+    return answer;
+  }
+  /// What has come when `end` has.
+  std::string read_until(const std::string& end) {
+    std::string answer;
+    while (answer.find(end) == std::string::npos && append_to(answer)) {
+    }
+    return answer;
+  }
+  /// Whether the other side has closed, whatever it said before.
+  bool wait_until_closed() {
+    std::array<char, 4096> piece{};
+    while (true) {
+      const ssize_t size = ::recv(socket_.native_handle(), piece.data(), piece.size(), 0);
+      if (size > 0) continue;
+      return size == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
+    }
+  }
+
+ private:
+  bool append_to(std::string& answer) {
+    std::array<char, 4096> piece{};
+    const ssize_t size = ::recv(socket_.native_handle(), piece.data(), piece.size(), 0);
+    if (size > 0) answer.append(piece.data(), static_cast<std::size_t>(size));
+    return size > 0;
+  }
+
+  asio::io_context context_;
+  tcp::socket socket_;
+};
+
 /// Sends bytes as they are and returns all that comes back until the server closes.
 inline std::string exchange_raw(std::uint16_t port, const std::string& bytes) {
-  asio::io_context context;
-  tcp::socket socket(context);
-  socket.connect(loopback(port));
-  boost::system::error_code error;
-  asio::write(socket, asio::buffer(bytes), error);
-  std::string answer;
-  asio::read(socket, asio::dynamic_buffer(answer), error);
-  return answer;
+  RawClient client(port);
+  client.send(bytes);
+  return client.read_to_end();
 }
 
 /// A page: connects to /ws, sends frames, collects what arrives.

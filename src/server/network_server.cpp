@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <unordered_map>
 #include <vector>
@@ -13,12 +14,17 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 
 #include "core/error.hpp"
+#include "server/access.hpp"
+#include "server/answer_budget.hpp"
 #include "server/detail/http_session.hpp"
+#include "server/detail/tls_context.hpp"
 #include "server/detail/web_socket_session.hpp"
 #include "server/origin_guard.hpp"
+#include "server/work_thread.hpp"
 
 namespace carpus::server {
 
@@ -27,6 +33,11 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
+
+/// Connections that are told that there is no room, at once; more are closed without a word.
+constexpr std::size_t kMaxTurnedAway = 16;
+/// Requests that wait for a disk.
+constexpr std::size_t kMaxSlowRequests = 32;
 
 tcp::acceptor open_acceptor(asio::io_context& context, const NetworkOptions& options) {
   error_code error;
@@ -64,18 +75,29 @@ std::vector<std::string> own_names() {
 }  // namespace
 
 struct NetworkServer::Implementation {
+  using Session = detail::HttpSession;
+  using Sessions = std::unordered_map<Session*, std::shared_ptr<Session>>;
+
   Implementation(const NetworkOptions& network_options, HttpHandler http_handler, PageHandler& p)
       : options(network_options),
+        public_url(options.public_url.empty() ? PublicUrl{} : parse_public_url(options.public_url)),
+        tls(detail::make_tls_context(options.certificate, options.key)),
         acceptor(open_acceptor(context, options)),
-        guard(acceptor.local_endpoint().port(), own_names()),
+        guard(acceptor.local_endpoint().port(), own_names(), tls.has_value(), public_url),
         http(std::move(http_handler)),
         pages(p),
-        signals(context) {}
+        signals(context) {
+    if (!options.links) return;
+    const bool is_secure =
+        public_url.authority.empty() ? tls.has_value() : public_url.scheme == "https";
+    access.emplace(*options.links, acceptor.local_endpoint().port(), is_secure);
+    session_context.access = &*access;
+  }
 
   void accept_next() {
     acceptor.async_accept([this](error_code error, tcp::socket socket) {
       if (stopping) return;
-      if (!error && connections() < options.max_connections) begin(std::move(socket));
+      if (!error) begin(std::move(socket));
       if (error) return accept_later();
       accept_next();
     });
@@ -89,24 +111,83 @@ struct NetworkServer::Implementation {
     });
   }
 
-  [[nodiscard]] std::size_t connections() const { return https.size() + sockets.size(); }
-
   void begin(tcp::socket socket) {
-    error_code ignored;
-    socket.set_option(tcp::no_delay(true), ignored);
-    auto session = std::make_shared<detail::HttpSession>(
-        std::move(socket), session_context, [this](detail::HttpSession* s) { https.erase(s); });
-    https.emplace(session.get(), session);
-    session->read_next();
+    error_code error;
+    const auto peer = socket.remote_endpoint(error);
+    if (error) return;  // it has gone already
+    socket.set_option(tcp::no_delay(true), error);
+    const std::string address = peer.address().to_string();
+    const bool has_room = make_room(address);
+    Sessions& place = has_room ? https : turned_away;
+    if (!has_room && turned_away.size() >= kMaxTurnedAway) return;
+    detail::DoorStream stream =
+        tls ? detail::DoorStream(std::move(socket), *tls) : detail::DoorStream(std::move(socket));
+    auto session = std::make_shared<Session>(std::move(stream), address, session_context,
+                                             [&place](Session* s) { place.erase(s); });
+    place.emplace(session.get(), session);
+    if (has_room) {
+      session->begin();
+    } else {
+      session->turn_away();
+    }
   }
 
-  void upgrade(boost::beast::tcp_stream&& stream,
-               const boost::beast::http::request<boost::beast::http::string_body>& request) {
+  /// Whether one more may come from this address, after closing one that has nothing to say.
+  bool make_room(const std::string& address) {
+    const auto is_from_here = [&](const auto& entry) { return entry.first->address() == address; };
+    const auto from_here =
+        static_cast<std::size_t>(std::count_if(https.begin(), https.end(), is_from_here) +
+                                 std::count_if(sockets.begin(), sockets.end(), is_from_here));
+    const std::size_t limit =
+        public_url.authority.empty() ? options.max_per_address : options.max_connections;
+    if (from_here >= limit) return displace(&address);
+    if (https.size() + sockets.size() < options.max_connections) return true;
+    // Whoever comes with many displaces their own first.
+    return displace(&address) || displace(nullptr);
+  }
+
+  /// Closes the one that has been silent longest, of this address where one is given.
+  bool displace(const std::string* address) {
+    detail::HttpSession* silent_http = nullptr;
+    detail::WebSocketSession* silent_page = nullptr;
+    auto since = std::chrono::steady_clock::time_point::max();
+    const auto is_longest = [&](const auto& session) {
+      return session.is_silent() && session.silent_since() < since &&
+             (address == nullptr || session.address() == *address);
+    };
+    for (const auto& [key, session] : https) {
+      if (!is_longest(*session)) continue;
+      silent_http = key;
+      since = session->silent_since();
+    }
+    for (const auto& [key, session] : sockets) {
+      if (!is_longest(*session)) continue;
+      silent_page = key;
+      since = session->silent_since();
+    }
+    if (silent_page != nullptr) {
+      silent_page->abort();
+    } else if (silent_http != nullptr) {
+      silent_http->abort();
+    }
+    return silent_page != nullptr || silent_http != nullptr;
+  }
+
+  void upgrade(detail::DoorStream&& stream,
+               const std::string& address,
+               const boost::beast::http::request<boost::beast::http::string_body>& request,
+               const Guest& guest) {
     auto session = std::make_shared<detail::WebSocketSession>(
-        std::move(stream), options, pages,
+        std::move(stream), detail::WebSocketSession::Peer{address, guest}, options, pages,
         [this](detail::WebSocketSession* s) { sockets.erase(s); });
     sockets.emplace(session.get(), session);
     session->accept(request);
+  }
+
+  bool run_aside(std::function<HttpResponse()> work, std::function<void(HttpResponse)> done) {
+    return slow_thread.post([this, work = std::move(work), done = std::move(done)] {
+      asio::post(context, [done, response = work()]() mutable { done(std::move(response)); });
+    });
   }
 
   void stop() {
@@ -114,7 +195,8 @@ struct NetworkServer::Implementation {
     error_code ignored;
     acceptor.close(ignored);
     for (const auto& [key, session] : std::unordered_map(sockets)) session->abort();
-    for (const auto& [key, session] : std::unordered_map(https)) session->abort();
+    for (const auto& [key, session] : Sessions(https)) session->abort();
+    for (const auto& [key, session] : Sessions(turned_away)) session->abort();
     context.stop();
   }
 
@@ -137,19 +219,32 @@ struct NetworkServer::Implementation {
   }
 
   NetworkOptions options;
+  PublicUrl public_url;
+  AnswerBudget budget{options.max_answer_bytes};  // before whatever may hold a share of it
+  std::optional<asio::ssl::context> tls;
   asio::io_context context{1};
   tcp::acceptor acceptor;
   OriginGuard guard;
+  std::optional<Access> access;
   HttpHandler http;
   PageHandler& pages;
   asio::signal_set signals;
   asio::steady_timer retry{context};
   detail::HttpSessionContext session_context{
-      options, guard, http,
-      [this](auto&& stream, const auto& request) { upgrade(std::move(stream), request); }};
-  std::unordered_map<detail::HttpSession*, std::shared_ptr<detail::HttpSession>> https;
+      options,
+      guard,
+      http,
+      nullptr,
+      budget,
+      [this](auto work, auto done) { return run_aside(std::move(work), std::move(done)); },
+      [this](auto&& stream, const auto& address, const auto& request, const auto& guest) {
+        upgrade(std::move(stream), address, request, guest);
+      }};
+  Sessions https;
+  Sessions turned_away;
   std::unordered_map<detail::WebSocketSession*, std::shared_ptr<detail::WebSocketSession>> sockets;
   bool stopping = false;
+  WorkThread slow_thread{kMaxSlowRequests};  ///< last: it uses what is above
 };
 
 NetworkServer::NetworkServer(const NetworkOptions& options, HttpHandler http, PageHandler& pages)
@@ -158,11 +253,14 @@ NetworkServer::NetworkServer(const NetworkOptions& options, HttpHandler http, Pa
 NetworkServer::~NetworkServer() = default;
 
 std::string NetworkServer::url() const {
+  const PublicUrl& proxy = implementation_->public_url;
+  if (!proxy.authority.empty()) return proxy.scheme + "://" + proxy.authority;
   const auto endpoint = implementation_->acceptor.local_endpoint();
   std::string host = implementation_->options.address;
   if (endpoint.address().is_v6()) host = "[" + host + "]";
   if (endpoint.address().is_unspecified()) host = own_names().empty() ? host : own_names().front();
-  return "http://" + host + ":" + std::to_string(endpoint.port());
+  const char* const scheme = implementation_->tls ? "https://" : "http://";
+  return scheme + host + ":" + std::to_string(endpoint.port());
 }
 
 std::uint16_t NetworkServer::port() const noexcept {

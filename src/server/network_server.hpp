@@ -8,11 +8,15 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "server/access_links.hpp"
+#include "server/guest.hpp"
 #include "server/http_message.hpp"
 
 namespace carpus::server {
@@ -29,6 +33,10 @@ class PageConnection {
   [[nodiscard]] virtual std::size_t waiting_frames() const = 0;
   /// Says goodbye after what is queued.
   virtual void close() = 0;
+  /// It has said who it is; one that has not is closed after a while, or when another needs room.
+  virtual void keep() = 0;
+  /// By which link it came.
+  [[nodiscard]] virtual const Guest& guest() const = 0;
 };
 
 /// What happens on /ws. Called in the network thread, never after `on_close` of that connection.
@@ -46,26 +54,48 @@ class PageHandler {
 struct NetworkOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0 lets the system choose
-  /// For a request to arrive as a whole, a handshake.
+  /// For a request's head to arrive as a whole, and for a handshake.
   std::chrono::milliseconds request_timeout{10000};
   /// For an answer to leave: a busy page reads a large scene slowly.
   std::chrono::milliseconds answer_timeout{60000};
+  /// For the other side to hear a refusal before its connection is closed.
+  std::chrono::milliseconds linger_timeout{2000};
+  /// For a page to say who it is (PageConnection::keep).
+  std::chrono::milliseconds hello_timeout{10000};
   /// A page that does not answer pings for so long is gone.
   std::chrono::milliseconds page_timeout{30000};
   std::chrono::milliseconds ping_interval{400};
+  /// Where there is no room, a newcomer takes the place of the connection that has been silent
+  /// longest; who operates, waits in turn or is being answered keeps theirs.
   std::size_t max_connections = 64;
+  /// From one address; behind a proxy all come from its own, and this does not count.
+  std::size_t max_per_address = 32;
+  /// Of answers that are on their way together; one alone may be larger.
+  std::size_t max_answer_bytes = std::size_t{48} << 20U;
+  /// Which requests are answered in a thread of their own, one after another: those that may have
+  /// to wait for a disk. None where it is empty.
+  std::function<bool(const HttpRequest&)> is_slow;
+
+  /// Who may come in: those who have one of these. All, where there are none.
+  std::optional<AccessLinks> links;
+  /// PEM files; TLS is spoken where both are given.
+  std::filesystem::path certificate;
+  std::filesystem::path key;
+  /// "https://train.example.org": what people open where a proxy passes it on; empty: no proxy.
+  std::string public_url;
 };
 
 class NetworkServer {
  public:
   /// Takes the port.
-  /// @throws IoError  naming the port or address and the option to change it.
+  /// @throws IoError  naming the port, address or file and the option to change it;
+  /// @throws InvalidInput  an address that is none.
   NetworkServer(const NetworkOptions& options, HttpHandler http, PageHandler& pages);
   ~NetworkServer();
   NetworkServer(const NetworkServer&) = delete;
   NetworkServer& operator=(const NetworkServer&) = delete;
 
-  /// "http://127.0.0.1:8080"
+  /// What people open: "http://127.0.0.1:8080", or the proxy's.
   [[nodiscard]] std::string url() const;
   [[nodiscard]] std::uint16_t port() const noexcept;
 

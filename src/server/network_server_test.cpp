@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include "core/error.hpp"
+#include "server/echo_test_support.hpp"
 #include "server/loopback_client_test_support.hpp"
 
 namespace carpus::server {
@@ -16,34 +18,12 @@ namespace {
 
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
+using testing::Echo;
 using testing::exchange_raw;
 using testing::host_of;
 using testing::PageClient;
 using testing::request;
 using testing::upgrade_status;
-
-/// Answers each text frame with itself.
-class Echo : public PageHandler {
- public:
-  void on_open(const std::shared_ptr<PageConnection>&) override { ++opened; }
-  void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) override {
-    if (text == "flood") {
-      for (int i = 0; i < 40; ++i) page->send_binary(std::string(1U << 20U, 'x'));
-    } else if (text == "close") {
-      page->send_text("goodbye");
-      page->close();
-    } else {
-      page->send_text(std::string(text));
-    }
-  }
-  void on_binary(const std::shared_ptr<PageConnection>& page) override { page->send_text("text!"); }
-  void on_alive(const std::shared_ptr<PageConnection>&) override { ++alive; }
-  void on_close(const std::shared_ptr<PageConnection>&) override { ++closed; }
-
-  std::atomic<int> opened{0};
-  std::atomic<int> alive{0};
-  std::atomic<int> closed{0};
-};
 
 class NetworkServerTest : public ::testing::Test {
  protected:
@@ -90,6 +70,9 @@ TEST_F(NetworkServerTest, RefusesOtherMethodsOtherHostsAndBodies) {
   EXPECT_EQ(request(port(), "/", {{"Host", "127.0.0.1:1"}}).result_int(), 421U);
   EXPECT_THAT(exchange_raw(port(), "POST / HTTP/1.1\r\nHost: " + host_of(port()) +
                                        "\r\nContent-Length: 5\r\n\r\nhello"),
+              HasSubstr("HTTP/1.1 405"));
+  EXPECT_THAT(exchange_raw(port(), "GET / HTTP/1.1\r\nHost: " + host_of(port()) +
+                                       "\r\nContent-Length: 5\r\n\r\nhello"),
               HasSubstr("HTTP/1.1 413"));
   EXPECT_EQ(request(port(), "/still-there").result_int(), 200U);
 }
@@ -105,7 +88,7 @@ TEST_F(NetworkServerTest, MalformedAndOversizedRequestsAreAnsweredAndClosed) {
   start();
   EXPECT_THAT(exchange_raw(port(), "rubbish\r\n\r\n"), HasSubstr("HTTP/1.1 400"));
   EXPECT_THAT(exchange_raw(port(), "GET / HTTP/1.1\r\nX: " + std::string(100000, 'x') + "\r\n\r\n"),
-              HasSubstr("HTTP/1.1 413"));
+              HasSubstr("HTTP/1.1 431"));
   EXPECT_EQ(request(port(), "/still-there").result_int(), 200U);
 }
 
@@ -120,17 +103,22 @@ TEST_F(NetworkServerTest, ClientThatSendsItsRequestTooSlowlyIsClosed) {
   EXPECT_LT(waited, 5s);
 }
 
-TEST_F(NetworkServerTest, ConnectionsBeyondTheLimitAreClosedAndOthersGoOn) {
+TEST_F(NetworkServerTest, ConnectionsBeyondTheLimitAreToldAndOthersGoOn) {
   NetworkOptions options;
   options.max_connections = 3;
   start(options);
-  PageClient one(port());
-  PageClient two(port());
-  PageClient three(port());
-  ASSERT_TRUE(three.is_connected());
-  EXPECT_EQ(exchange_raw(port(), "GET / HTTP/1.1\r\n\r\n"), "");
-  one.send("still here");
-  EXPECT_EQ(one.wait_for([](const auto&) { return true; })->content, "still here");
+  std::vector<std::unique_ptr<PageClient>> pages;
+  for (int i = 0; i < 3; ++i) {
+    pages.push_back(std::make_unique<PageClient>(port()));
+    ASSERT_TRUE(pages.back()->is_connected());
+    pages.back()->send("keep");
+    EXPECT_TRUE(pages.back()->wait_for([](const auto&) { return true; }).has_value());
+  }
+  const auto answer = request(port(), "/");
+  EXPECT_EQ(answer.result_int(), 503U);
+  EXPECT_EQ(answer["Retry-After"], "5");
+  pages[0]->send("still here");
+  EXPECT_EQ(pages[0]->wait_for([](const auto&) { return true; })->content, "still here");
 }
 
 TEST_F(NetworkServerTest, WebSocketNeedsThePagesOwnOrigin) {

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace carpus::server {
 
 namespace {
 
 constexpr std::uint16_t kHttpPort = 80;
+constexpr std::uint16_t kHttpsPort = 443;
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -33,14 +36,38 @@ bool is_ip_address(std::string_view host) {
 
 }  // namespace
 
-OriginGuard::OriginGuard(std::uint16_t port, std::vector<std::string> host_names)
-    : port_(port), host_names_(std::move(host_names)) {
+PublicUrl parse_public_url(std::string_view text) {
+  const std::string url = lower(text.ends_with('/') ? text.substr(0, text.size() - 1) : text);
+  for (const std::string scheme : {"https", "http"}) {
+    if (!url.starts_with(scheme + "://")) continue;
+    const std::string authority = url.substr(scheme.size() + 3);
+    if (!consists_of(authority, "abcdefghijklmnopqrstuvwxyz0123456789.-:[]")) break;
+    return {scheme, authority};
+  }
+  throw InvalidInput("'" + std::string(text) +
+                     "' is no address of a site; give the one that people open, such as "
+                     "https://train.example.org, with --public-url");
+}
+
+OriginGuard::OriginGuard(std::uint16_t port,
+                         std::vector<std::string> host_names,
+                         bool is_secure,
+                         PublicUrl public_url)
+    : port_(port),
+      host_names_(std::move(host_names)),
+      is_secure_(is_secure),
+      public_url_(std::move(public_url)) {
   for (std::string& name : host_names_) name = lower(name);
 }
 
+bool OriginGuard::is_public(std::string_view host) const {
+  return !public_url_.authority.empty() && lower(host) == public_url_.authority;
+}
+
 bool OriginGuard::accepts_host(std::string_view host) const {
+  if (is_public(host)) return true;
   std::string name = lower(host);
-  std::string port = std::to_string(kHttpPort);
+  std::string port = std::to_string(is_secure_ ? kHttpsPort : kHttpPort);
   const std::size_t colon = name.rfind(':');
   if (colon != std::string::npos && name.find(']', colon) == std::string::npos) {
     port = name.substr(colon + 1);
@@ -52,7 +79,11 @@ bool OriginGuard::accepts_host(std::string_view host) const {
 }
 
 bool OriginGuard::accepts_origin(std::string_view origin, std::string_view host) const {
-  return accepts_host(host) && lower(origin) == "http://" + lower(host);
+  if (is_public(host)) {
+    return lower(origin) == public_url_.scheme + "://" + public_url_.authority;
+  }
+  const std::string scheme = is_secure_ ? "https://" : "http://";
+  return accepts_host(host) && lower(origin) == scheme + lower(host);
 }
 
 }  // namespace carpus::server

@@ -162,6 +162,7 @@ void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol:
                "Reload the page.");
     return page->close();
   }
+  page->keep();
   if (std::string reason = why_busy(*page, hello.page); !reason.empty()) {
     return page->send_text(serialize(protocol::HostMessage(protocol::Busy{std::move(reason)})));
   }

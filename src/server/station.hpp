@@ -17,6 +17,7 @@
 #include "procedure/procedure.hpp"
 #include "protocol/messages.hpp"
 #include "records/attempt_keeper.hpp"
+#include "server/attempt_owners.hpp"
 #include "server/exercise.hpp"
 #include "server/network_server.hpp"
 #include "server/picture_worker.hpp"
@@ -54,6 +55,9 @@ class Station : public PageHandler {
   void attach(NetworkServer& network);
   /// Stores what runs; the network may go after this, and must not before.
   void detach();
+
+  /// From which browser the attempts were made.
+  [[nodiscard]] const AttemptOwners& owners() const noexcept { return owners_; }
 
   void on_open(const std::shared_ptr<PageConnection>& page) override;
   void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) override;
@@ -125,6 +129,7 @@ class Station : public PageHandler {
   bool paused_by_silence_ = false;
   std::chrono::steady_clock::time_point last_heard_;
   NetworkServer* network_ = nullptr;
+  AttemptOwners owners_;
   std::unique_ptr<PictureWorker> pictures_;
   std::deque<std::string> shown_;  ///< the exercise's last pictures, for a page that comes back
 };

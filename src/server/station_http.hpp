@@ -5,12 +5,15 @@
 // practised with which instruments, and the records.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "cases/case_data.hpp"
 #include "procedure/procedure.hpp"
 #include "records/attempt_keeper.hpp"
+#include "server/attempt_owners.hpp"
 #include "server/http_message.hpp"
 #include "server/static_files.hpp"
 
@@ -18,20 +21,26 @@ namespace carpus::server {
 
 class StationHttp {
  public:
-  /// Prepares what never changes. @param records must outlive it.
+  /// Prepares what never changes. @param records  and owners must outlive it.
   StationHttp(const cases::CaseData& data,
               const procedure::ProcedureList& procedures,
               std::string scene_glb,
               const records::AttemptKeeper& records,
+              const AttemptOwners& owners,
               const std::filesystem::path& web_root);
 
   /// Never throws for a bad request; IoError when the records cannot be read.
+  /// May be called from several threads.
   [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
 
+  /// Whether the answer may have to wait for the records' disk.
+  [[nodiscard]] static bool reads_records(const HttpRequest& request);
+
  private:
-  [[nodiscard]] HttpResponse answer_api(std::string_view path) const;
-  [[nodiscard]] HttpResponse answer_attempts() const;
-  [[nodiscard]] HttpResponse answer_attempt(std::string_view rest) const;
+  [[nodiscard]] HttpResponse answer_api(std::string_view path, const Guest& guest) const;
+  [[nodiscard]] HttpResponse answer_attempts(const Guest& guest) const;
+  [[nodiscard]] HttpResponse answer_attempt(std::string_view rest, const Guest& guest) const;
+  [[nodiscard]] bool may_see(const Guest& guest, std::int64_t attempt) const;
 
   std::string case_fingerprint_;
   std::string case_json_;
@@ -39,6 +48,7 @@ class StationHttp {
   std::string instruments_json_;
   std::shared_ptr<const std::string> scene_glb_;
   const records::AttemptKeeper& records_;
+  const AttemptOwners& owners_;
   StaticFiles files_;
 };
 

@@ -25,13 +25,15 @@ class StationHttpTest : public ::testing::Test {
   StationHttpTest()
       : folder_(new_folder()),
         records_(folder_ / "attempts.sqlite"),
-        http_(wrist_, procedures_, "glTF", records_, folder_) {}
+        http_(wrist_, procedures_, "glTF", records_, owners_, folder_) {}
   ~StationHttpTest() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] Json get(const std::string& target) const {
-    HttpRequest request;
-    request.target = target;
-    return Json::parse(*http_.answer(request).body);
+  [[nodiscard]] HttpResponse ask(const std::string& target, const Guest& guest) const {
+    return http_.answer({"GET", target, guest});
+  }
+  [[nodiscard]] Json get(const std::string& target,
+                         const Guest& guest = {Role::Instructor, {}}) const {
+    return Json::parse(*ask(target, guest).body);
   }
 
   static std::filesystem::path new_folder() {
@@ -46,6 +48,7 @@ class StationHttpTest : public ::testing::Test {
   const procedure::ProcedureList procedures_;
   std::filesystem::path folder_;
   records::AttemptKeeper records_;
+  AttemptOwners owners_;
   StationHttp http_;
 };
 
@@ -58,6 +61,33 @@ TEST_F(StationHttpTest, TellsWhetherAnAttemptWasMadeOnTheOpenCase) {
   (void)records_.save(elsewhere);
   EXPECT_EQ(get("/api/attempts/1")["case_is_open"], true);
   EXPECT_EQ(get("/api/attempts/2")["case_is_open"], false);
+}
+
+TEST_F(StationHttpTest, TraineeSeesTheAttemptsOfTheirOwnBrowserAlone) {
+  for (int i = 0; i < 3; ++i) (void)records_.save({});
+  owners_.add(1, "ada");
+  owners_.add(2, "bela");
+  const Guest ada{Role::Trainee, "ada"};
+  const Json own = get("/api/attempts", ada)["attempts"];
+  ASSERT_EQ(own.size(), 1U);
+  EXPECT_EQ(own[0]["id"], 1);
+  EXPECT_EQ(ask("/api/attempts/1", ada).status, 200U);
+  EXPECT_EQ(ask("/api/attempts/1/recording", ada).status, 200U);
+  for (const char* target : {"/api/attempts/2", "/api/attempts/2/recording", "/api/attempts/3"}) {
+    EXPECT_EQ(ask(target, ada).status, 404U) << target;
+    EXPECT_EQ(ask(target, {Role::Trainee, ""}).status, 404U) << target;
+    EXPECT_EQ(ask(target, {Role::Instructor, "ada"}).status, 200U) << target;
+  }
+  EXPECT_EQ(get("/api/attempts", {Role::Trainee, ""})["attempts"].size(), 0U);
+  EXPECT_EQ(get("/api/attempts", {Role::Instructor, "x"})["attempts"].size(), 3U);
+}
+
+TEST_F(StationHttpTest, WhatWaitsForTheRecordsIsKnownHoweverItIsWritten) {
+  for (const char* target : {"/api/attempts", "/api/attempts/1", "/api/%61ttempts?x"}) {
+    EXPECT_TRUE(StationHttp::reads_records({"GET", target, {}})) << target;
+  }
+  EXPECT_FALSE(StationHttp::reads_records({"GET", "/api/scene.glb", {}}));
+  EXPECT_FALSE(StationHttp::reads_records({"GET", "/", {}}));
 }
 
 TEST_F(StationHttpTest, TellsWhetherTheCaseOfAnAttemptIsSimulatedWhereThatWasNoted) {

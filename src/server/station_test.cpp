@@ -56,7 +56,8 @@ class StationTest : public ::testing::Test {
     records_ = std::make_unique<records::AttemptKeeper>(folder_ / "attempts.sqlite");
     station_ = std::make_unique<Station>(
         wrist(), procedures(), *records_, [](const std::string&) {}, patience());
-    http_ = std::make_unique<StationHttp>(wrist(), procedures(), "glTF", *records_, folder_);
+    http_ = std::make_unique<StationHttp>(wrist(), procedures(), "glTF", *records_,
+                                          station_->owners(), folder_);
     NetworkOptions options;
     options.port = 0;
     options.ping_interval = 100ms;

@@ -2,19 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/detail/http_session.hpp"
 
+#include <algorithm>
+#include <boost/asio/ip/address.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "core/version.hpp"
 
 namespace carpus::server::detail {
 
+namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 using boost::system::error_code;
 
 namespace {
-
-constexpr std::uint32_t kMaxHeaderBytes = 16384;
 
 /// Scripts, styles and connections of our own only; pictures and workers also from memory.
 constexpr const char* kContentSecurityPolicy =
@@ -22,72 +23,167 @@ constexpr const char* kContentSecurityPolicy =
     "img-src 'self' data: blob:; worker-src 'self' blob:; connect-src 'self' data: blob:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-std::string text(beast::string_view view) { return {view.data(), view.size()}; }
+/// What is still read, and thrown away, of a connection that is being closed: closing with bytes
+/// unread would take back the answer that the other side has not read yet.
+constexpr std::size_t kMaxLingerBytes = 256U << 10U;
+
+http::request<http::string_body> as_beast(const RequestHead& head) {
+  http::request<http::string_body> request(http::verb::get, head.target, 11);
+  for (const RequestField& field : head.fields) request.insert(field.name, field.value);
+  return request;
+}
+
+/// Behind a proxy of this machine, the address that the proxy saw: the last that was added.
+std::string client_address(const RequestHead& head, const std::string& peer, bool behind_proxy) {
+  const auto forwarded = head.find("x-forwarded-for");
+  if (!behind_proxy || !forwarded) return peer;
+  error_code error;
+  if (!asio::ip::make_address(peer, error).is_loopback() || error) return peer;
+  const std::size_t begin = forwarded->find_last_of(", ");
+  const std::string last(begin == std::string_view::npos ? *forwarded
+                                                         : forwarded->substr(begin + 1));
+  (void)asio::ip::make_address(last, error);
+  return error ? peer : last;
+}
 
 }  // namespace
 
-HttpSession::HttpSession(boost::asio::ip::tcp::socket&& socket,
+HttpSession::HttpSession(DoorStream&& stream,
+                         std::string address,
                          const HttpSessionContext& context,
                          std::function<void(HttpSession*)> on_end)
-    : stream_(std::move(socket)), context_(context), on_end_(std::move(on_end)) {}
+    : stream_(std::move(stream)),
+      address_(std::move(address)),
+      context_(context),
+      on_end_(std::move(on_end)) {}
 
-void HttpSession::read_next() {
-  parser_.emplace();
-  parser_->header_limit(kMaxHeaderBytes);
-  parser_->body_limit(0);
-  stream_.expires_after(context_.options.request_timeout);
-  http::async_read(stream_, buffer_, *parser_,
-                   [self = shared_from_this()](error_code error, std::size_t) {
-                     if (self->ended_) return;
-                     if (error) return self->refuse_unreadable(error);
-                     self->on_request();
-                   });
+void HttpSession::begin() {
+  DoorStream::Tls* const tls = stream_.tls();
+  if (tls == nullptr) return read_next();
+  stream_.tcp().expires_after(context_.options.request_timeout);
+  tls->async_handshake(asio::ssl::stream_base::server,
+                       [self = shared_from_this()](error_code error) {
+                         if (self->ended_) return;
+                         if (error) return self->end();
+                         self->read_next();
+                       });
 }
 
-void HttpSession::refuse_unreadable(const error_code& error) {
-  const bool is_ours = error.category() == make_error_code(http::error::bad_method).category();
-  if (!is_ours || error == http::error::end_of_stream) return end();
-  const bool too_large = error == http::error::header_limit || error == http::error::body_limit;
-  answer(make_problem(too_large ? 413 : 400, "The request is malformed or too large."));
-}
-
-void HttpSession::on_request() {
-  const auto& request = parser_->get();
-  const std::string host = text(request[http::field::host]);
-  if (!context_.guard.accepts_host(host)) {
-    return answer(make_problem(421, "This station is not called '" + host.substr(0, 200) +
-                                        "'; open the address that it printed."));
-  }
-  if (beast::websocket::is_upgrade(request)) return upgrade();
-  if (request.method() != http::verb::get && request.method() != http::verb::head) {
-    return answer(make_problem(405, "Only GET and HEAD are answered here."));
-  }
-  HttpResponse response;
-  try {
-    response = context_.handler({text(request.method_string()), text(request.target())});
-  } catch (const std::exception& error) {
-    response = make_problem(500, error.what());
-  }
+void HttpSession::turn_away() {
+  if (stream_.tls() != nullptr) return end();
+  HttpResponse response = make_problem(503, "Too many connections are open; try again.");
+  response.retry_after_s = 5;
   answer(response);
 }
 
-void HttpSession::upgrade() {
-  const auto& request = parser_->get();
-  if (request.target() != "/ws") return answer(make_problem(404, "The WebSocket is at /ws."));
-  if (!context_.guard.accepts_origin(text(request[http::field::origin]),
-                                     text(request[http::field::host]))) {
+void HttpSession::read_next() {
+  silent_ = true;
+  silent_since_ = Clock::now();
+  has_head_ = false;
+  scanned_ = 0;
+  // For the whole head, however slowly it comes.
+  stream_.tcp().expires_after(context_.options.request_timeout);
+  look_for_request();
+}
+
+void HttpSession::look_for_request() {
+  const HeadEnd found = find_head_end(received_, scanned_);
+  scanned_ = received_.size();
+  if (found.problem) return refuse(*found.problem);
+  if (found.end == 0) return read_more();
+  auto parsed = parse_request_head(std::string_view(received_).substr(0, found.end));
+  if (const auto* problem = std::get_if<RequestProblem>(&parsed)) return refuse(*problem);
+  head_ = std::move(*std::get_if<RequestHead>(&parsed));
+  received_.erase(0, found.end);
+  has_head_ = true;
+  on_request();
+}
+
+void HttpSession::read_more() {
+  stream_.async_read_some(asio::buffer(piece_),
+                          [self = shared_from_this()](error_code error, std::size_t size) {
+                            if (self->ended_) return;
+                            if (error) return self->end();
+                            self->received_.append(self->piece_.data(), size);
+                            self->look_for_request();
+                          });
+}
+
+void HttpSession::on_request() {
+  silent_ = false;
+  if (!context_.guard.accepts_host(head_.authority)) {
+    return refuse({421, "This station is not called '" + head_.authority.substr(0, 200) +
+                            "'; open the address that it printed."});
+  }
+  Guest guest{Role::Instructor, {}};
+  if (context_.access != nullptr) {
+    const std::string from = client_address(head_, address_, !context_.options.public_url.empty());
+    auto verdict = context_.access->judge(head_, from, Clock::now());
+    if (const auto* response = std::get_if<HttpResponse>(&verdict)) return answer(*response);
+    guest = std::move(*std::get_if<Guest>(&verdict));
+  }
+  if (head_.method == "GET" && beast::websocket::is_upgrade(as_beast(head_))) {
+    return upgrade(guest);
+  }
+  handle(guest);
+}
+
+void HttpSession::handle(const Guest& guest) {
+  HttpRequest request{head_.method, head_.target, guest};
+  auto work = [&handler = context_.handler, request] {
+    try {
+      return handler(request);
+    } catch (const std::exception& error) {
+      return make_problem(500, error.what());
+    }
+  };
+  const auto& is_slow = context_.options.is_slow;
+  if (!is_slow || !is_slow(request)) return answer(work());
+  stream_.tcp().expires_never();
+  const bool is_taken =
+      context_.run_aside(std::move(work), [self = shared_from_this()](const HttpResponse& made) {
+        if (!self->ended_) self->answer(made);
+      });
+  if (is_taken) return;
+  HttpResponse response = make_problem(503, "Too many requests are waiting; try again.");
+  response.retry_after_s = 1;
+  answer(response);
+}
+
+void HttpSession::upgrade(const Guest& guest) {
+  if (head_.target != "/ws") return answer(make_problem(404, "The WebSocket is at /ws."));
+  if (!context_.guard.accepts_origin(head_.find("origin").value_or(""), head_.authority)) {
     return answer(make_problem(403, "Only this station's own page may operate."));
   }
+  // No page sends frames before it was answered.
+  if (!received_.empty()) return refuse({400, "Something follows the request for a WebSocket."});
   const auto self = shared_from_this();
   ended_ = true;
-  context_.upgrade(std::move(stream_), request);
+  context_.upgrade(std::move(stream_), address_, as_beast(head_), guest);
   on_end_(this);
 }
 
+void HttpSession::refuse(const RequestProblem& problem) {
+  // What follows a request that cannot be trusted cannot be either.
+  head_.keep_alive = false;
+  received_.clear();
+  answer(make_problem(problem.status, problem.reason));
+}
+
 void HttpSession::answer(const HttpResponse& from) {
-  const bool was_read = parser_->is_done();
-  const bool head_only = was_read && parser_->get().method() == http::verb::head;
-  body_ = from.body;
+  auto share = context_.budget.admit(from.body);
+  if (!share) {
+    HttpResponse busy = make_problem(503, "Too much is being sent just now; try again.");
+    busy.retry_after_s = 2;
+    return answer(busy);
+  }
+  silent_ = false;
+  share_ = std::move(*share);
+  fill_response(from);
+  write();
+}
+
+void HttpSession::fill_response(const HttpResponse& from) {
   response_.emplace(static_cast<http::status>(from.status), 11);
   auto& response = *response_;
   response.set(http::field::server, kProgramVersion);
@@ -102,28 +198,61 @@ void HttpSession::answer(const HttpResponse& from) {
     response.set(http::field::content_disposition,
                  "attachment; filename=\"" + from.download_name + "\"");
   }
+  if (!from.set_cookie.empty()) response.set(http::field::set_cookie, from.set_cookie);
+  if (from.retry_after_s > 0) {
+    response.set(http::field::retry_after, std::to_string(from.retry_after_s));
+  }
   if (from.status == 405) response.set(http::field::allow, "GET, HEAD");
-  if (!head_only) response.body() = Body::value_type(body_->data(), body_->size());
-  response.content_length(body_->size());
-  const bool keep_alive = was_read && from.status != 421 && parser_->get().keep_alive();
-  response.keep_alive(keep_alive);
-  write(keep_alive);
+  const std::string& body = share_.text();
+  response.body() = Body::value_type(body.data(), body.size());
+  response.content_length(body.size());
+  keep_alive_ = has_head_ && head_.keep_alive;
+  response.keep_alive(keep_alive_);
 }
 
-void HttpSession::write(bool keep_alive) {
-  stream_.expires_after(context_.options.answer_timeout);
+void HttpSession::write() {
+  stream_.tcp().expires_after(context_.options.answer_timeout);
   serializer_.emplace(*response_);
-  const bool head_only = parser_->is_done() && parser_->get().method() == http::verb::head;
-  auto done = [self = shared_from_this(), keep_alive](error_code error, std::size_t) {
+  auto done = [self = shared_from_this()](error_code error, std::size_t) {
     if (self->ended_) return;
-    if (error || !keep_alive) return self->end();
-    self->read_next();
+    if (error) return self->end();
+    self->on_written();
   };
-  if (head_only) {
+  if (has_head_ && head_.method == "HEAD") {
     http::async_write_header(stream_, *serializer_, std::move(done));
   } else {
     http::async_write(stream_, *serializer_, std::move(done));
   }
+}
+
+void HttpSession::on_written() {
+  serializer_.reset();
+  response_.reset();
+  share_ = {};
+  if (keep_alive_) return read_next();
+  silent_ = true;
+  silent_since_ = Clock::time_point::min();  // the first to go
+  stream_.tcp().expires_after(context_.options.linger_timeout);
+  DoorStream::Tls* const tls = stream_.tls();
+  if (tls == nullptr) return linger();
+  tls->async_shutdown([self = shared_from_this()](error_code) {
+    if (!self->ended_) self->linger();
+  });
+}
+
+void HttpSession::linger() {
+  error_code ignored;
+  stream_.tcp().socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+  drain(kMaxLingerBytes);
+}
+
+void HttpSession::drain(std::size_t left) {
+  stream_.tcp().async_read_some(
+      asio::buffer(piece_), [self = shared_from_this(), left](error_code error, std::size_t size) {
+        if (self->ended_) return;
+        if (error || size >= left) return self->end();
+        self->drain(left - size);
+      });
 }
 
 void HttpSession::abort() { end(); }
@@ -132,9 +261,8 @@ void HttpSession::end() {
   if (ended_) return;
   ended_ = true;
   const auto self = shared_from_this();
-  error_code ignored;
-  stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
-  stream_.close();
+  stream_.tcp().close();
+  share_ = {};
   on_end_(this);
 }
 

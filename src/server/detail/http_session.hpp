@@ -5,17 +5,21 @@
 // network server.
 #pragma once
 
-#include <utility>  // before asio: its 1.74 needs std::exchange and does not include it
+#include "server/detail/door_stream.hpp"
 //
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core.hpp>
+#include <array>
 #include <boost/beast/http.hpp>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "server/access.hpp"
+#include "server/answer_budget.hpp"
 #include "server/network_server.hpp"
 #include "server/origin_guard.hpp"
+#include "server/request_head.hpp"
 
 namespace carpus::server::detail {
 
@@ -24,42 +28,76 @@ struct HttpSessionContext {
   const NetworkOptions& options;
   const OriginGuard& guard;
   const HttpHandler& handler;
+  Access* access;  ///< null: whoever reaches the station may use it
+  AnswerBudget& budget;
+  /// Calls `work` in another thread, then `done` in the network's; false when too much waits.
+  std::function<bool(std::function<HttpResponse()> work, std::function<void(HttpResponse)> done)>
+      run_aside;
   /// Takes over a connection that asked for /ws and may have it.
-  std::function<void(boost::beast::tcp_stream&&,
-                     const boost::beast::http::request<boost::beast::http::string_body>&)>
+  std::function<void(DoorStream&&,
+                     const std::string& address,
+                     const boost::beast::http::request<boost::beast::http::string_body>&,
+                     const Guest&)>
       upgrade;
 };
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket&& socket,
+  using Clock = std::chrono::steady_clock;
+
+  /// @param address  of the other side
+  HttpSession(DoorStream&& stream,
+              std::string address,
               const HttpSessionContext& context,
               std::function<void(HttpSession*)> on_end);
   ~HttpSession() = default;
   HttpSession(const HttpSession&) = delete;
   HttpSession& operator=(const HttpSession&) = delete;
 
-  void read_next();
+  void begin();
+  /// Answers at once that there is no room, and closes.
+  void turn_away();
   void abort();
+
+  [[nodiscard]] const std::string& address() const noexcept { return address_; }
+  /// Nothing is owed to it: it has not said a whole request since `silent_since`, or listens no
+  /// more.
+  [[nodiscard]] bool is_silent() const noexcept { return silent_; }
+  [[nodiscard]] Clock::time_point silent_since() const noexcept { return silent_since_; }
 
  private:
   using Body = boost::beast::http::span_body<const char>;
 
+  void read_next();
+  void read_more();
+  void look_for_request();
   void on_request();
-  void upgrade();
+  void handle(const Guest& guest);
+  void upgrade(const Guest& guest);
   void answer(const HttpResponse& response);
-  void refuse_unreadable(const boost::system::error_code& error);
-  void write(bool keep_alive);
+  void refuse(const RequestProblem& problem);
+  void fill_response(const HttpResponse& from);
+  void write();
+  void on_written();
+  void linger();
+  void drain(std::size_t left);
   void end();
 
-  boost::beast::tcp_stream stream_;
+  DoorStream stream_;
+  std::string address_;
   const HttpSessionContext& context_;
   std::function<void(HttpSession*)> on_end_;
-  boost::beast::flat_buffer buffer_;
-  std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
+  std::string received_;  ///< at most a head and what came with it
+  std::size_t scanned_ = 0;
+  std::array<char, 4096> piece_{};
+  RequestHead head_;
+  bool has_head_ = false;  ///< of the request that is being answered
+  bool keep_alive_ = false;
   std::optional<boost::beast::http::response<Body>> response_;
   std::optional<boost::beast::http::response_serializer<Body>> serializer_;
-  std::shared_ptr<const std::string> body_;  ///< lives until it is written
+  AnswerBudget::Share share_;  ///< holds the body until it is written
+  bool silent_ = true;
+  Clock::time_point silent_since_ = Clock::now();
   bool ended_ = false;
 };
 

@@ -2,17 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/detail/web_socket_session.hpp"
 
+#include "core/version.hpp"
+
 namespace carpus::server::detail {
 
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using boost::system::error_code;
 
-WebSocketSession::WebSocketSession(beast::tcp_stream&& stream,
+WebSocketSession::WebSocketSession(DoorStream&& stream,
+                                   Peer peer,
                                    const NetworkOptions& options,
                                    PageHandler& handler,
                                    std::function<void(WebSocketSession*)> on_end)
     : socket_(std::move(stream)),
+      peer_(std::move(peer)),
       ping_timer_(socket_.get_executor()),
       options_(options),
       handler_(handler),
@@ -26,9 +30,14 @@ void WebSocketSession::accept(const beast::http::request<beast::http::string_bod
   timeout.keep_alive_pings = false;
   socket_.set_option(timeout);
   socket_.read_message_max(kMaxFrameBytes);
-  socket_.control_callback(
-      [this](websocket::frame_type, beast::string_view) { heard(); });  // owned by the stream
-  beast::get_lowest_layer(socket_).expires_never();
+  // Compression stays off, as it is unless asked for: a small frame cannot grow.
+  socket_.control_callback([this](websocket::frame_type, beast::string_view) {
+    on_control();  // the callback is owned by the stream
+  });
+  socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+    response.set(beast::http::field::server, kProgramVersion);
+  }));
+  socket_.next_layer().tcp().expires_never();
   socket_.async_accept(request, [self = shared_from_this()](error_code error) {
     if (error) return self->end();
     self->on_accept();
@@ -71,14 +80,22 @@ void WebSocketSession::heard() {
   if (open_) handler_.on_alive(shared_from_this());
 }
 
+void WebSocketSession::on_control() {
+  if (!control_frames_.allows(Clock::now())) return abort_later();
+  heard();
+}
+
+/// Because the caller does not expect on_close meanwhile.
+void WebSocketSession::abort_later() {
+  closing_ = true;
+  boost::asio::post(socket_.get_executor(), [self = shared_from_this()] { self->abort(); });
+}
+
 void WebSocketSession::enqueue(Frame frame) {
   if (ended_ || closing_) return;
   waiting_bytes_ += frame.content.size();
-  if (waiting_bytes_ > kMaxWaitingBytes) {
-    // Later, because the caller does not expect on_close while it sends.
-    closing_ = true;
-    boost::asio::post(socket_.get_executor(), [self = shared_from_this()] { self->abort(); });
-    return;
+  if (waiting_bytes_ > kMaxWaitingBytes || queue_.size() >= kMaxWaitingFrames) {
+    return abort_later();
   }
   queue_.push_back(std::move(frame));
   if (!writing_) write_next();
@@ -110,7 +127,9 @@ void WebSocketSession::ping_later() {
 }
 
 void WebSocketSession::check_alive() {
-  if (std::chrono::steady_clock::now() - last_heard_ > options_.page_timeout) return abort();
+  const auto now = Clock::now();
+  if (now - last_heard_ > options_.page_timeout) return abort();
+  if (!is_kept_ && now - opened_at_ > options_.hello_timeout) return abort();
   if (!pinging_) {
     pinging_ = true;
     socket_.async_ping({}, [self = shared_from_this()](error_code error) {
@@ -134,7 +153,7 @@ void WebSocketSession::close_socket() {
 
 void WebSocketSession::abort() {
   error_code ignored;
-  beast::get_lowest_layer(socket_).socket().close(ignored);
+  socket_.next_layer().tcp().socket().close(ignored);
   end();
 }
 
@@ -144,7 +163,7 @@ void WebSocketSession::end() {
   ping_timer_.cancel();
   const auto self = shared_from_this();
   error_code ignored;
-  beast::get_lowest_layer(socket_).socket().close(ignored);
+  socket_.next_layer().tcp().socket().close(ignored);
   if (open_) handler_.on_close(self);
   open_ = false;
   on_end_(this);

@@ -4,9 +4,8 @@
 // One connection to a page over WebSocket (RFC 6455). Private to the network server.
 #pragma once
 
-#include <utility>  // before asio: its 1.74 needs std::exchange and does not include it
+#include "server/detail/door_stream.hpp"
 //
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
@@ -18,19 +17,31 @@
 #include <string>
 
 #include "server/network_server.hpp"
+#include "server/rate_limit.hpp"
 
 namespace carpus::server::detail {
 
 /// Frames longer than this end the connection: nobody sends such a thing by mistake. Shorter ones
 /// that exceed the protocol's limit are answered by an error and the exercise goes on.
-inline constexpr std::size_t kMaxFrameBytes = 1U << 20U;
+inline constexpr std::size_t kMaxFrameBytes = 128U << 10U;
 /// A page that lets more than this wait does not read; it is disconnected.
 inline constexpr std::size_t kMaxWaitingBytes = 16U << 20U;
+/// The same of small frames.
+inline constexpr std::size_t kMaxWaitingFrames = 2048;
+/// Control frames a second (pings, pongs); a page that sends more is disconnected.
+inline constexpr double kControlFramesPerSecond = 50;
 
 class WebSocketSession final : public PageConnection,
                                public std::enable_shared_from_this<WebSocketSession> {
  public:
-  WebSocketSession(boost::beast::tcp_stream&& stream,
+  using Clock = std::chrono::steady_clock;
+  struct Peer {
+    std::string address;
+    Guest guest;
+  };
+
+  WebSocketSession(DoorStream&& stream,
+                   Peer peer,
                    const NetworkOptions& options,
                    PageHandler& handler,
                    std::function<void(WebSocketSession*)> on_end);
@@ -44,6 +55,13 @@ class WebSocketSession final : public PageConnection,
   void send_binary(std::string bytes) override { enqueue({std::move(bytes), true}); }
   [[nodiscard]] std::size_t waiting_frames() const override { return queue_.size(); }
   void close() override;
+  void keep() override { is_kept_ = true; }
+  [[nodiscard]] const Guest& guest() const override { return peer_.guest; }
+
+  [[nodiscard]] const std::string& address() const noexcept { return peer_.address; }
+  /// It has not said who it is.
+  [[nodiscard]] bool is_silent() const noexcept { return !is_kept_; }
+  [[nodiscard]] Clock::time_point silent_since() const noexcept { return opened_at_; }
 
  private:
   struct Frame {
@@ -59,18 +77,24 @@ class WebSocketSession final : public PageConnection,
   void ping_later();
   void check_alive();
   void heard();
+  void on_control();
+  void abort_later();
   void close_socket();
   void end();
 
-  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  boost::beast::websocket::stream<DoorStream> socket_;
+  Peer peer_;
   boost::asio::steady_timer ping_timer_;
   boost::beast::flat_buffer buffer_;
   std::deque<Frame> queue_;
   std::size_t waiting_bytes_ = 0;
-  NetworkOptions options_;
+  const NetworkOptions& options_;
   PageHandler& handler_;
   std::function<void(WebSocketSession*)> on_end_;
-  std::chrono::steady_clock::time_point last_heard_;
+  Clock::time_point opened_at_ = Clock::now();
+  Clock::time_point last_heard_;
+  RateLimit control_frames_{kControlFramesPerSecond, 4 * kControlFramesPerSecond};
+  bool is_kept_ = false;
   bool open_ = false;
   bool closing_ = false;
   bool ended_ = false;
