@@ -3,11 +3,13 @@
 //
 // The real page on the real station in a real browser: the wire is placed with mouse and keyboard,
 // driven and measured, pictures are taken, a screw goes in, the score is shown and the attempt is in
-// the list. Then what goes wrong: a second page, broken messages, a lost connection.
+// the list. Then what goes wrong: a second page, broken messages, a lost connection. Last the way in by
+// a link.
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
 import { accessibilityFaults, focusFaults } from "./accessibility.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
+import { followFromElsewhere, printedLink } from "./link.mjs";
 import { startStation } from "./station.mjs";
 
 const TRAINEE = "Browser test";
@@ -523,6 +525,54 @@ async function goesWrong(browser, station, problems) {
   await page.close();
 }
 
+/** A station that is not open to all: its link is the only way in. */
+async function byItsLink(browser) {
+  const station = await startStation([]);
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  try {
+    const link = await printedLink(station);
+    const token = new URL(link).searchParams.get("token");
+    await check(page, "without the link a page says what to do", async () => {
+      const answer = await page.goto(station.url);
+      expect(answer.status() === 403, `status ${answer.status()}`);
+      await page.getByText("Open the link that the station printed").waitFor();
+      await expectAccessible(page);
+      await page.goto(`${station.url}/?token=${token.slice(1)}A`);
+      await page.getByText("is not valid").waitFor();
+      for (const path of ["/api/case", "/api/attempts", "/carpus.svg"]) {
+        const { status } = await fetch(`${station.url}${path}`);
+        expect(status === 403, `${path} is answered with ${status}`);
+      }
+    });
+    await check(page, "the link opens the room, from another site too", async () => {
+      await followFromElsewhere(page, link);
+      await page
+        .locator("dialog.start button[type=submit]:not([disabled])")
+        .waitFor();
+      expect(!page.url().includes(token), "the token stays in the address");
+      const seen = await page.evaluate(() => document.cookie);
+      expect(seen === "", "scripts see the cookie");
+      const [cookie] = await page.context().cookies(station.url);
+      expect(
+        cookie.httpOnly && cookie.sameSite === "Strict",
+        `the cookie is ${JSON.stringify(cookie)}`,
+      );
+      await page.click("dialog.start button[type=submit]");
+      await operator.until((s) => s.tick > 0, "the first ticks");
+      await page.goBack();
+      expect(!page.url().includes(token), "the token is in the history");
+    });
+    await check(page, "the station's lines do not hold the token again", () => {
+      const lines = station.output.join("").split(token).length - 1;
+      expect(lines === 1, `it is there ${lines} times`);
+    });
+  } finally {
+    await page.close();
+    await station.stop();
+  }
+}
+
 const station = await startStation();
 const browser = await startBrowser();
 const problems = [];
@@ -537,6 +587,7 @@ try {
   await page.close();
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
+  await byItsLink(browser);
 } finally {
   await browser.close();
   await station.stop();

@@ -28,8 +28,11 @@ function need(path, how) {
   return path;
 }
 
-/** @return {url, caseFolder, stop} */
-export async function startStation() {
+/**
+ * @param options  of `carpus serve` besides; --open unless the link is what is tried
+ * @return {url, caseFolder, stop}
+ */
+export async function startStation(options = ["--open"]) {
   const program = need(
     process.env.CARPUS_BIN ?? join(root, "build/release/bin/carpus"),
     "Build it with ./run --build-only, or set CARPUS_BIN.",
@@ -53,7 +56,7 @@ export async function startStation() {
       caseFolder,
       "--records",
       join(records, "attempts.sqlite"),
-    ].concat(["--web", page, "--port", String(port)]),
+    ].concat(["--web", page, "--port", String(port)], options),
     { stdio: ["ignore", "pipe", "pipe"] },
   );
   let ended = false;
@@ -67,7 +70,7 @@ export async function startStation() {
       throw new Error(`carpus serve did not start:\n${output.join("")}`);
     }
     const answer = await fetch(`${url}/api/case`).catch(() => undefined);
-    if (answer?.ok) break;
+    if (answer?.ok || answer?.status === 403) break;
     await new Promise((done) => setTimeout(done, 200));
   }
   return {
