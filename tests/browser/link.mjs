@@ -25,7 +25,9 @@ export async function followFromElsewhere(page, link) {
   try {
     await page.goto(`http://localhost:${server.address().port}/`);
     await page.click("a");
-    await page.waitForURL((url) => url.hostname === "127.0.0.1" && url.search === "");
+    await page.waitForURL(
+      (url) => url.hostname === "127.0.0.1" && url.search === "",
+    );
   } finally {
     server.closeAllConnections?.();
     server.close();

@@ -545,24 +545,28 @@ async function byItsLink(browser) {
         expect(status === 403, `${path} is answered with ${status}`);
       }
     });
-    await check(page, "the link opens the room, from another site too", async () => {
-      await followFromElsewhere(page, link);
-      await page
-        .locator("dialog.start button[type=submit]:not([disabled])")
-        .waitFor();
-      expect(!page.url().includes(token), "the token stays in the address");
-      const seen = await page.evaluate(() => document.cookie);
-      expect(seen === "", "scripts see the cookie");
-      const [cookie] = await page.context().cookies(station.url);
-      expect(
-        cookie.httpOnly && cookie.sameSite === "Strict",
-        `the cookie is ${JSON.stringify(cookie)}`,
-      );
-      await page.click("dialog.start button[type=submit]");
-      await operator.until((s) => s.tick > 0, "the first ticks");
-      await page.goBack();
-      expect(!page.url().includes(token), "the token is in the history");
-    });
+    await check(
+      page,
+      "the link opens the room, from another site too",
+      async () => {
+        await followFromElsewhere(page, link);
+        await page
+          .locator("dialog.start button[type=submit]:not([disabled])")
+          .waitFor();
+        expect(!page.url().includes(token), "the token stays in the address");
+        const seen = await page.evaluate(() => document.cookie);
+        expect(seen === "", "scripts see the cookie");
+        const [cookie] = await page.context().cookies(station.url);
+        expect(
+          cookie.httpOnly && cookie.sameSite === "Strict",
+          `the cookie is ${JSON.stringify(cookie)}`,
+        );
+        await page.click("dialog.start button[type=submit]");
+        await operator.until((s) => s.tick > 0, "the first ticks");
+        await page.goBack();
+        expect(!page.url().includes(token), "the token is in the history");
+      },
+    );
     await check(page, "the station's lines do not hold the token again", () => {
       const lines = station.output.join("").split(token).length - 1;
       expect(lines === 1, `it is there ${lines} times`);

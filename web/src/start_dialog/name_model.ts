@@ -4,7 +4,7 @@
 // What cannot be a person's name, as the host judges it too (src/core/person_name.hpp).
 
 /** Line breaks and other control characters. */
-const CONTROL = /[\u0000-\u001f\u007f-\u009f\u2028\u2029]/;
+const CONTROL = /[\p{Cc}\u2028\u2029]/u;
 /** What embeds, overrides or isolates the direction of writing. */
 const DIRECTION = /[\u202a-\u202e\u2066-\u2069]/;
 
