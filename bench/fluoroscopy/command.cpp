@@ -21,9 +21,11 @@
 #include "bench/fluoroscopy/accuracy.hpp"
 #include "bench/fluoroscopy/report.hpp"
 #include "bench/fluoroscopy/resampled_ct.hpp"
+#include "bench/fluoroscopy/scene.hpp"
 #include "bench/fluoroscopy/speed.hpp"
 #include "bench/output_file.hpp"
 #include "case_io/case_folder.hpp"
+#include "cases/make_hand_motion.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -37,12 +39,11 @@ using fluoroscopy::CArmPose;
 using fluoroscopy::ComposedRenderer;
 using fluoroscopy::Exposure;
 using fluoroscopy::FluoroscopyRenderer;
-using BonePose = Pose<frame::Patient, frame::Bone>;
 
 constexpr int kFull = 512;
 constexpr int kLive = 256;
 constexpr double kStepMm = 0.05;
-constexpr std::size_t kStride = 16;       ///< of the pixels that are also summed in small steps
+constexpr std::size_t kStride = 15;       ///< of the pixels that are also summed in small steps
 constexpr double kMostMeanPercent = 0.5;  ///< against small steps: beyond this nothing is timed
 
 /// PA, lateral and the 45 degree pronated oblique.
@@ -52,6 +53,7 @@ struct Measured {
   const cases::CaseData& data;
   ComposedRenderer& composed;
   const FluoroscopyRenderer& plain;
+  const RigidBones& bones;
   double flexion_deg;
   std::filesystem::path pictures;
 };
@@ -86,9 +88,9 @@ void save(const Measured& m,
 }
 
 void compare_as_scanned(const Measured& m, std::vector<Difference>& rows) {
-  const BodyPoses still = poses_of(m.data, {});
+  const BodyPoses still(m.data.bones.size());
   for (const fluoroscopy::NamedView& view : kViews) {
-    const CArmPose pose = c_arm(m.data, view.angles, {}, kFull);
+    const CArmPose pose = c_arm(m.data, view.angles, kFull);
     const AttenuationMap map = m.composed.projector().project(pose, still);
     const auto add = [&](const char* oracle, const AttenuationMap& other) {
       Difference d = difference_of(map, other);
@@ -102,15 +104,13 @@ void compare_as_scanned(const Measured& m, std::vector<Difference>& rows) {
 }
 
 void compare_flexed(const Measured& m, double flexion_deg, std::vector<Difference>& rows) {
-  const WristTurn turn = flexion(m.data, radians_from_degrees(flexion_deg));
-  const BonePose forearm = turn.patient_from_forearm();
-  const BodyPoses poses = poses_of(m.data, forearm);
-  const Grid<std::int16_t> ct = resampled_ct(m.data, turn);
+  const BodyPoses poses = flexed(m.data, flexion_deg);
+  const Grid<std::int16_t> ct = m.bones.resampled_ct(m.composed.projector().bending(), poses);
   const FluoroscopyRenderer resampled(ct.view());
-  const Grid<std::int16_t> both = bones_in_one_place(m.data, turn);
+  const Grid<std::int16_t> both = m.bones.bones_in_one_place(poses);
   const FluoroscopyRenderer overlap(both.view());
   for (const fluoroscopy::NamedView& view : kViews) {
-    const CArmPose pose = c_arm(m.data, view.angles, forearm, kFull);
+    const CArmPose pose = c_arm(m.data, view.angles, kFull);
     const AttenuationMap map = m.composed.projector().project(pose, poses);
     const auto add = [&](const char* oracle, const AttenuationMap& other, double left_out) {
       Difference d = difference_of(map, other);
@@ -189,27 +189,25 @@ std::vector<PictureTimes> measure_speed(const Measured& m) {
   constexpr double kBudgetSeconds = 1.5;
   std::vector<PictureTimes> rows;
   const Exposure exposure;
-  const BodyPoses still = poses_of(m.data, {});
-  const BonePose bent = flexion(m.data, radians_from_degrees(m.flexion_deg)).patient_from_forearm();
-  const BodyPoses flexed = poses_of(m.data, bent);
+  const BodyPoses still(m.data.bones.size());
+  const BodyPoses bent = flexed(m.data, m.flexion_deg);
   for (const int pixels : {kLive, kFull}) {
-    const CArmPose pa = c_arm(m.data, {}, {}, pixels);
+    const CArmPose pa = c_arm(m.data, {}, pixels);
     const auto measure = [&](const char* what, const auto& take) {
       rows.push_back(time_pictures(what, pixels, kBudgetSeconds, take));
     };
     measure("plain CT", [&](int) { (void)m.plain.render(pa, {}, exposure); });
     measure("composed, all anew", [&](int i) {
-      const CArmPose pose = c_arm(m.data, {i % 2 == 0 ? 0.0 : 0.01, 0}, {}, pixels);
+      const CArmPose pose = c_arm(m.data, {i % 2 == 0 ? 0.0 : 0.01, 0}, pixels);
       (void)m.composed.render({pose, still, {}}, exposure);
     });
     measure("bones move", [&](int i) {
       const double deg = m.flexion_deg * (i % 10 + 1) / 10;
-      const BonePose forearm = flexion(m.data, radians_from_degrees(deg)).patient_from_forearm();
-      (void)m.composed.render({pa, poses_of(m.data, forearm), {}}, exposure);
+      (void)m.composed.render({pa, flexed(m.data, deg), {}}, exposure);
     });
     measure("C-arm moves, hand flexed", [&](int i) {
-      const CArmPose pose = c_arm(m.data, {i % 20 * 5.0, 0}, bent, pixels);
-      (void)m.composed.render({pose, flexed, {}}, exposure);
+      const CArmPose pose = c_arm(m.data, {i % 20 * 5.0, 0}, pixels);
+      (void)m.composed.render({pose, bent, {}}, exposure);
     });
     measure("all rests, a wire moves", [&](int i) {
       const auto& axis = m.data.scaphoid.central_axis;
@@ -233,12 +231,14 @@ void run(const FluoroscopyArguments& a) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                       [&](const auto& range) { body(range.begin(), range.end()); });
   });
-  const cases::CaseData data = case_io::read_case(a.case_folder);
+  cases::CaseData data = case_io::read_case(a.case_folder);
+  cases::ensure_hand_motion(data);
   const FluoroscopyRenderer plain(data.ct.view());
   ComposedRenderer composed(data.ct.view(), data.labels.view(), bodies_of(data));
   FluoroscopyReport report{
       data.pseudonym, data.provenance.simulated, data.ct.geometry().size, {}, {}};
-  const Measured measured{data, composed, plain, a.flexion_deg, a.pictures};
+  const RigidBones bones(data);
+  const Measured measured{data, composed, plain, bones, a.flexion_deg, a.pictures};
   report.differences = measure_accuracy(measured);
   report.times = measure_speed(measured);
   std::fputs(text_of(report).c_str(), stdout);

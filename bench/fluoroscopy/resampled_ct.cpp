@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <utility>
 
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/trilinear.hpp"
@@ -15,50 +16,67 @@
 namespace carpus::bench {
 namespace {
 
+using BonePose = Pose<frame::Patient, frame::Bone>;
+
 constexpr double kBoneMarginMm = 1.2;
+constexpr int kBoxMargin = 8;  // voxels around a bone
+constexpr double kFarMm = 1e3;
 constexpr std::int16_t kAirHu = -1000;
 constexpr std::int16_t kSoftTissueHu = 40;  // muscle; fills where a bent path would repeat a bone
+constexpr std::size_t kGrain = 1U << 14U;
 
-/// Distance to the voxels of hand or forearm [mm].
-Grid<float> distance_to(const Grid<std::uint8_t>& labels, bool forearm) {
-  Grid<std::uint8_t> mask(labels.geometry());
+/// Distance to one bone on the part of the scan around it.
+Grid<float> distance_around(const Grid<std::uint8_t>& labels, std::uint8_t label) {
+  const GridGeometry& scan = labels.geometry();
+  std::array<int, 3> low = scan.size;
+  std::array<int, 3> high{-1, -1, -1};
   for (std::size_t i = 0; i < labels.values().size(); ++i) {
-    const std::uint8_t label = labels[i];
-    if (label == kBackgroundLabel || label == kFractureGapLabel) continue;
-    const bool is_forearm = label == static_cast<std::uint8_t>(BoneId::Radius) ||
-                            label == static_cast<std::uint8_t>(BoneId::Ulna);
-    if (is_forearm == forearm) mask[i] = 1;
+    if (labels[i] != label) continue;
+    const VoxelIndex v = scan.index_of(i);
+    const std::array<int, 3> at{v.x, v.y, v.z};
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], at[a]);
+      high[a] = std::max(high[a], at[a]);
+    }
+  }
+  if (high[0] < 0) return {};
+  GridGeometry box = scan;
+  Vec3 first;
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] -= kBoxMargin;
+    first[a] = low[a];
+    box.size[a] = high[a] + kBoxMargin + 1 - low[a];
+  }
+  box.origin = scan.patient_from_voxel(first);
+  Grid<std::uint8_t> mask(box);
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    VoxelIndex v = box.index_of(i);
+    v = {v.x + low[0], v.y + low[1], v.z + low[2]};
+    if (scan.contains(v) && labels[scan.offset_of(v)] == label) mask[i] = 1;
   }
   return imaging::distance_to_value(std::as_const(mask).view(), 1);
 }
 
-/// Beyond the grid, the nearest voxel's plus the way to it.
-double value_at(const Grid<float>& grid, const Vec3& p) {
-  const GridGeometry& g = grid.geometry();
-  const Vec3 v = g.voxel_from_patient(p);
-  Vec3 inside;
-  Vec3 away;
-  for (std::size_t a = 0; a < 3; ++a) {
-    inside[a] = std::clamp(v[a], 0.0, g.size[a] - 1.0);
-    away[a] = (v[a] - inside[a]) * g.spacing[a];
-  }
-  return sample_trilinear(grid.view(), inside, 0.0) + length(away);
+Vec3 place_of(const GridGeometry& grid, std::size_t index) {
+  const VoxelIndex v = grid.index_of(index);
+  return grid.patient_from_voxel(
+      {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
 }
 
-double share_of(double hand_mm, double forearm_mm) {
-  const double s =
-      std::clamp((hand_mm / std::max(hand_mm + forearm_mm, 1e-6) - 0.2) / 0.6, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
+std::vector<Pose<frame::Bone, frame::Patient>> inverses_of(std::span<const BonePose> poses) {
+  std::vector<Pose<frame::Bone, frame::Patient>> back;
+  for (const BonePose& pose : poses) back.push_back(pose.inverse());
+  return back;
 }
 
-GridGeometry grid_for(const GridGeometry& scan, const Pose<frame::Patient, frame::Bone>& motion) {
+/// Holds the scan at each of the poses, in voxels of its size.
+GridGeometry grid_for(const GridGeometry& scan, std::span<const BonePose> poses) {
   Aabb voxels;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3 v;
     for (std::size_t a = 0; a < 3; ++a) v[a] = ((corner >> a) & 1) == 0 ? 0.0 : scan.size[a] - 1.0;
-    voxels.include(v);
-    voxels.include(
-        scan.voxel_from_patient((motion * Point<frame::Bone>{scan.patient_from_voxel(v)}).v));
+    const Point<frame::Bone> scanned{scan.patient_from_voxel(v)};
+    for (const BonePose& pose : poses) voxels.include(scan.voxel_from_patient((pose * scanned).v));
   }
   GridGeometry result = scan;
   Vec3 first;
@@ -72,72 +90,83 @@ GridGeometry grid_for(const GridGeometry& scan, const Pose<frame::Patient, frame
 
 }  // namespace
 
-Pose<frame::Patient, frame::Bone> WristTurn::patient_from_forearm() const {
-  const Mat3 turn = rotation_about(axis, angle_rad);
-  return {turn, pivot - turn * pivot};
+RigidBones::RigidBones(const cases::CaseData& data) : data_(data) {
+  for (const cases::Bone& bone : data.bones) {
+    distances_.push_back(distance_around(data.labels, bone.label));
+  }
 }
 
-WristTurn flexion(const cases::CaseData& data, double flexion_rad) {
-  const cases::Bone* capitate = cases::find_bone(data, BoneId::Capitate);
-  if (capitate == nullptr) throw InvalidInput("the case has no capitate to turn the wrist about");
-  const auto patient_from_wrist = data.wrist_from_patient.inverse();
-  const Vec3 proximal = (patient_from_wrist * Direction<frame::Wrist>{{1, 0, 0}}).v;
-  Aabb along;
-  for (const Vec3& v : capitate->surface.vertices) along.include(Vec3{dot(v, proximal), 0, 0});
-  // Between its proximal and middle third [clinical: S65].
-  const double level = along.high.x - along.extent().x / 3;
-  const Vec3 centre = centroid_of(capitate->surface);
-  WristTurn turn;
-  turn.pivot = centre + proximal * (level - dot(centre, proximal));
-  turn.axis = (patient_from_wrist * Direction<frame::Wrist>{{0, 1, 0}}).v;
-  turn.angle_rad = -flexion_rad;  // the hand stays: the forearm turns the other way
-  return turn;
+double RigidBones::distance_mm(std::size_t bone, const Vec3& scanned) const {
+  const Grid<float>& field = distances_[bone];
+  if (field.values().empty()) return kFarMm;
+  const Vec3 v = field.geometry().voxel_from_patient(scanned);
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!(v[a] >= 0 && v[a] <= field.geometry().size[a] - 1)) return kFarMm;
+  }
+  return sample_trilinear(field.view(), v, kFarMm);
 }
 
-Grid<std::int16_t> resampled_ct(const cases::CaseData& data, const WristTurn& turn) {
-  const Grid<float> to_hand = distance_to(data.labels, false);
-  const Grid<float> to_forearm = distance_to(data.labels, true);
-  const auto back = [&](const Vec3& p, double share) {
-    return rotation_about(turn.axis, -turn.angle_rad * share) * (p - turn.pivot) + turn.pivot;
-  };
-  const GridView<const std::int16_t> scan = data.ct.view();
-  const auto hu_at = [&](const Vec3& p) -> std::int16_t {
-    const Vec3 with_forearm = back(p, 1.0);
-    const double hand = value_at(to_hand, p);
-    const double forearm = value_at(to_forearm, with_forearm);
-    Vec3 source = hand <= forearm ? p : with_forearm;
-    if (std::min(hand, forearm) > kBoneMarginMm) {
-      source = back(p, share_of(hand, forearm));
-      const double bone = std::min(value_at(to_hand, source), value_at(to_forearm, source));
-      if (bone <= kBoneMarginMm) return kSoftTissueHu;
-    }
-    return static_cast<std::int16_t>(std::lround(sample_at(scan, source, kAirHu)));
-  };
-  Grid<std::int16_t> ct(grid_for(data.ct.geometry(), turn.patient_from_forearm()), kAirHu);
+bool RigidBones::is_in_bone(const Vec3& scanned) const {
+  for (std::size_t b = 0; b < distances_.size(); ++b) {
+    if (distance_mm(b, scanned) <= kBoneMarginMm) return true;
+  }
+  return false;
+}
+
+/// In the scan that place belonged to a neighbour: it goes with that one.
+bool RigidBones::is_anothers(std::size_t bone, const Vec3& scanned) const {
+  const double own = distance_mm(bone, scanned);
+  for (std::size_t b = 0; b < distances_.size(); ++b) {
+    if (b != bone && distance_mm(b, scanned) < own) return true;
+  }
+  return false;
+}
+
+Grid<std::int16_t> RigidBones::resampled_ct(const fluoroscopy::TissueBending& bending,
+                                            std::span<const BonePose> poses) const {
+  const fluoroscopy::BentTissue tissue(bending, poses);
+  const auto back = inverses_of(poses);
+  const GridView<const std::int16_t> scan = data_.ct.view();
+  Grid<std::int16_t> ct(grid_for(data_.ct.geometry(), poses), kAirHu);
   const GridGeometry& g = ct.geometry();
-  parallel_for(ct.values().size(), 1U << 14U, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const VoxelIndex v = g.index_of(i);
-      ct[i] = hu_at(g.patient_from_voxel(
-          {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}));
+  const auto hu_at = [&](const Point<frame::Patient>& now) {
+    double nearest = kBoneMarginMm;
+    std::optional<Vec3> scanned;
+    for (std::size_t b = 0; b < back.size(); ++b) {
+      const Vec3 in_bone = (back[b] * now).v;
+      const double distance = distance_mm(b, in_bone);
+      if (!(distance <= nearest) || is_anothers(b, in_bone)) continue;
+      nearest = distance;
+      scanned = in_bone;
     }
+    if (!scanned) {
+      scanned = tissue.source_of(now);
+      if (is_in_bone(*scanned)) return kSoftTissueHu;
+    }
+    return static_cast<std::int16_t>(std::lround(sample_at(scan, *scanned, kAirHu)));
+  };
+  parallel_for(ct.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ct[i] = hu_at({place_of(g, i)});
   });
   return ct;
 }
 
-Grid<std::int16_t> bones_in_one_place(const cases::CaseData& data, const WristTurn& turn) {
-  const Grid<float> to_hand = distance_to(data.labels, false);
-  const Grid<float> to_forearm = distance_to(data.labels, true);
-  const Mat3 back = rotation_about(turn.axis, -turn.angle_rad);
-  Grid<std::int16_t> both(data.ct.geometry(), kAirHu);
+Grid<std::int16_t> RigidBones::bones_in_one_place(std::span<const BonePose> poses) const {
+  const auto back = inverses_of(poses);
+  Grid<std::int16_t> both(data_.ct.geometry(), kAirHu);
   const GridGeometry& g = both.geometry();
-  for (std::size_t i = 0; i < both.values().size(); ++i) {
-    if (to_hand[i] > kBoneMarginMm) continue;
-    const VoxelIndex v = g.index_of(i);
-    const Vec3 p = g.patient_from_voxel(
-        {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
-    if (value_at(to_forearm, back * (p - turn.pivot) + turn.pivot) <= kBoneMarginMm) both[i] = 1000;
-  }
+  parallel_for(both.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point<frame::Patient> now{place_of(g, i)};
+      int bones = 0;
+      for (std::size_t b = 0; b < back.size(); ++b) {
+        const Vec3 in_bone = (back[b] * now).v;
+        if (distance_mm(b, in_bone) > 0) continue;
+        ++bones;
+      }
+      if (bones > 1) both[i] = 1000;
+    }
+  });
   return both;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
+#include "core/units.hpp"
 #include "fluoroscopy/c_arm.hpp"
 #include "fluoroscopy/tissue_bending.hpp"
 
@@ -24,30 +25,27 @@ using BodyPoses = std::vector<Pose<frame::Patient, frame::Bone>>;
   return bodies;
 }
 
-[[nodiscard]] inline BodyPoses poses_of(
-    const cases::CaseData& data,
-    const Pose<frame::Patient, frame::Bone>& patient_from_forearm) {
+/// The hand flexed by so much from how it was scanned, every carpal bone where it then goes; the
+/// forearm keeps still.
+[[nodiscard]] inline BodyPoses flexed(const cases::CaseData& data, double flexion_deg) {
+  anatomy::HandPose pose = data.hand_motion.scan;
+  pose.flexion_rad += radians_from_degrees(flexion_deg);
   BodyPoses poses;
   for (const cases::Bone& bone : data.bones) {
-    poses.push_back(belongs_to_forearm(bone.bone) ? patient_from_forearm
-                                                  : Pose<frame::Patient, frame::Bone>{});
+    poses.push_back(data.hand_motion.pose_of(bone.bone, pose));
   }
   return poses;
 }
 
-/// Centred between the scaphoid's ends, as for the operation.
-[[nodiscard]] inline fluoroscopy::CArmPose c_arm(
-    const cases::CaseData& data,
-    const fluoroscopy::ViewAngles& view,
-    const Pose<frame::Patient, frame::Bone>& patient_from_forearm,
-    int pixels) {
+/// Centred between the scaphoid's ends as scanned.
+[[nodiscard]] inline fluoroscopy::CArmPose c_arm(const cases::CaseData& data,
+                                                 const fluoroscopy::ViewAngles& view,
+                                                 int pixels) {
   fluoroscopy::CArmGeometry geometry;
   geometry.pixels = pixels;
   const auto& axis = data.scaphoid.central_axis;
-  const Pose<frame::Patient, frame::Patient> turned{patient_from_forearm.rotation,
-                                                    patient_from_forearm.translation};
   return fluoroscopy::make_c_arm_pose(view, {(axis.proximal + axis.distal) * 0.5},
-                                      data.wrist_from_patient * turned.inverse(),
+                                      data.wrist_from_patient,
                                       {{0, data.side == Side::Left ? 1.0 : -1.0, 0}}, geometry);
 }
 

@@ -8,6 +8,7 @@
 // 3. Bodies: take the fan into each body's own frame; only pixels that its box falls on.
 #include "fluoroscopy/composed_projector.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
@@ -22,6 +23,8 @@ namespace carpus::fluoroscopy {
 namespace {
 
 constexpr std::size_t kRowGrain = 4;
+/// Soft tissue is summed for one pixel in so many; two, as the halves in `project_soft_tissue` say.
+constexpr std::size_t kSoftStride = 2;
 
 using BodyPose = Pose<frame::Patient, frame::Bone>;
 
@@ -41,6 +44,15 @@ std::vector<BodyPose> distinct(std::span<const BodyPose> poses) {
   }
   if (result.empty()) result.push_back({});
   return result;
+}
+
+/// So far out that no pixel of the round field reads it.
+bool is_far_outside_field(std::size_t i, std::size_t j, std::size_t side) noexcept {
+  const double centre = 0.5 * (static_cast<double>(side) - 1);
+  const double x = static_cast<double>(i) - centre;
+  const double y = static_cast<double>(j) - centre;
+  const double far = 0.5 * static_cast<double>(side) + 2.0 * kSoftStride;
+  return x * x + y * y > far * far;
 }
 
 }  // namespace
@@ -82,24 +94,42 @@ AttenuationMap ComposedProjector::project_soft_tissue(
     }
     return false;
   };
-  AttenuationMap map{
-      pose.geometry.pixels, pose.geometry.pixels, std::vector<float>(side * side), {}};
-  parallel_for(side, kRowGrain, [&](std::size_t from, std::size_t to) {
+  // Every second pixel of every second row, one more at either end; without bones in it soft tissue
+  // has nothing finer.
+  const std::size_t nodes = side / kSoftStride + 2;
+  std::vector<float> lattice(nodes * nodes, 0.0F);
+  parallel_for(nodes, kRowGrain / 2, [&](std::size_t from, std::size_t to) {
     std::vector<detail::BentFan::Knot> row;
     std::vector<detail::BentFan::Knot> ray;
-    for (std::size_t j = from; j < to; ++j) {
+    for (std::size_t r = from; r < to; ++r) {
+      const std::size_t j = std::min(r * kSoftStride, side - 1);
       bent.read_row(j, row);
-      for (std::size_t i = 0; i < side; ++i) {
-        float& value = map.values[j * side + i];
-        value = std::numeric_limits<float>::quiet_NaN();
-        if (detail::is_outside_field(i, j, pose.geometry.pixels) || is_behind_leaf(i, j)) continue;
+      for (std::size_t c = 0; c < nodes; ++c) {
+        const std::size_t i = std::min(c * kSoftStride, side - 1);
+        if (is_far_outside_field(i, j, side)) continue;
         const auto depths = bent.read_ray(i, j, row, ray);
         double sum = 0.0;
         for (std::size_t k = 0; k + 1 < ray.size(); ++k) {
           sum += bent.share_between(depths[k], depths[k + 1]) *
                  static_cast<double>(soft_.mean_between(ray[k].voxel(), ray[k + 1].voxel()));
         }
-        value = static_cast<float>(sum * length(rays.pixel(i, j) - rays.source));
+        lattice[r * nodes + c] = static_cast<float>(sum * length(rays.pixel(i, j) - rays.source));
+      }
+    }
+  });
+  AttenuationMap map{
+      pose.geometry.pixels, pose.geometry.pixels, std::vector<float>(side * side), {}};
+  parallel_for(side, kRowGrain, [&](std::size_t from, std::size_t to) {
+    for (std::size_t j = from; j < to; ++j) {
+      const float* const above = lattice.data() + j / kSoftStride * nodes;
+      const float* const below = above + (j % kSoftStride == 0 ? 0 : nodes);
+      for (std::size_t i = 0; i < side; ++i) {
+        float& value = map.values[j * side + i];
+        value = std::numeric_limits<float>::quiet_NaN();
+        if (detail::is_outside_field(i, j, pose.geometry.pixels) || is_behind_leaf(i, j)) continue;
+        const std::size_t left = i / kSoftStride;
+        const std::size_t right = left + (i % kSoftStride == 0 ? 0 : 1);
+        value = 0.25F * (above[left] + above[right] + below[left] + below[right]);
       }
     }
   });
