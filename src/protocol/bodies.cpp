@@ -44,9 +44,17 @@ void write(FieldWriter& out, const InstrumentList& in) {
   out.records("instruments", in.instruments);
 }
 
-void read(FieldReader& in, AttemptList& out) { in.records("attempts", 0, 20000, out.attempts); }
+void read(FieldReader& in, AttemptList& out) {
+  in.records("attempts", 0, 50, out.attempts);
+  out.older = in.boolean("older");
+  out.total = in.integer("total", 0, 9007199254740991);
+}
 
-void write(FieldWriter& out, const AttemptList& in) { out.records("attempts", in.attempts); }
+void write(FieldWriter& out, const AttemptList& in) {
+  out.records("attempts", in.attempts);
+  out.value("older", in.older);
+  out.value("total", in.total);
+}
 
 void read(FieldReader& in, Attempt& out) {
   read(in, static_cast<AttemptSummary&>(out));
@@ -126,7 +134,7 @@ std::string serialize(const InstrumentList& body, int indent) {
 }
 
 Result<AttemptList> parse_attempt_list(std::string_view text) {
-  JsonText json(text, 67108864);
+  JsonText json(text, 262144);
   FieldReader in(json);
   AttemptList out;
   read(in, out);
@@ -191,6 +199,23 @@ std::string serialize_stored_events(const std::vector<LoggedEvent>& value, int i
   FieldWriter out = json.root();
   out.records("stored_events", value);
   return json.dump_field("stored_events", indent);
+}
+
+Result<RunningExercise> parse_stored_exercise(std::string_view text) {
+  JsonText json(text, 16384);
+  FieldReader in(json);
+  RunningExercise out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize_stored_exercise(const RunningExercise& value, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, value);
+  return json.dump(indent);
 }
 
 }  // namespace carpus::protocol

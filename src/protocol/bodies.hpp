@@ -69,10 +69,15 @@ struct InstrumentList {
 [[nodiscard]] std::string serialize(const InstrumentList& body, int indent = -1);
 
 /// Most `attempts` of one AttemptList.
-inline constexpr std::size_t kMaxAttemptListAttempts = 20000;
-/// GET /api/attempts. Newest first; the newest where there are more than fit.
+inline constexpr std::size_t kMaxAttemptListAttempts = 50;
+/// GET /api/attempts?before=<id>. A page, newest first: those with numbers below `before`, the
+/// newest without it.
 struct AttemptList {
   std::vector<AttemptSummary> attempts;
+  /// there are older ones than the last of these
+  bool older = false;
+  /// attempts in the records 0 to 9007199254740991
+  std::int64_t total = 0;
   bool operator==(const AttemptList&) const = default;
 };
 
@@ -109,5 +114,9 @@ inline constexpr std::size_t kMaxStoredEvents = 50000;
 [[nodiscard]] Result<std::vector<LoggedEvent>> parse_stored_events(std::string_view text);
 [[nodiscard]] std::string serialize_stored_events(const std::vector<LoggedEvent>& value,
                                                   int indent = -1);
+
+/// Whose a running exercise is: the head of its journal.
+[[nodiscard]] Result<RunningExercise> parse_stored_exercise(std::string_view text);
+[[nodiscard]] std::string serialize_stored_exercise(const RunningExercise& value, int indent = -1);
 
 }  // namespace carpus::protocol

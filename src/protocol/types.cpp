@@ -485,4 +485,24 @@ void write(FieldWriter& out, const AttemptSummary& in) {
   out.text("state_hash", in.state_hash, 16);
 }
 
+void read(FieldReader& in, RunningExercise& out) {
+  out.origin = in.string("origin", 32);
+  out.exercise = in.integer("exercise", 0, 9007199254740991);
+  out.trainee = in.string("trainee", 64);
+  out.case_ = in.string("case", 128);
+  out.case_simulated = in.boolean("case_simulated");
+  out.input_device = in.string("input_device", 32);
+  out.started_at = in.string("started_at", 32);
+}
+
+void write(FieldWriter& out, const RunningExercise& in) {
+  out.text("origin", in.origin, 32);
+  out.value("exercise", in.exercise);
+  out.text("trainee", in.trainee, 64);
+  out.text("case", in.case_, 128);
+  out.value("case_simulated", in.case_simulated);
+  out.text("input_device", in.input_device, 32);
+  out.text("started_at", in.started_at, 32);
+}
+
 }  // namespace carpus::protocol

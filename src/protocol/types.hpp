@@ -479,4 +479,21 @@ struct AttemptSummary {
   bool operator==(const AttemptSummary&) const = default;
 };
 
+/// An exercise that has begun, in the head of its journal; what its recording says is beside it.
+struct RunningExercise {
+  /// no two attempts have the same
+  std::string origin;
+  /// as in welcome 0 to 9007199254740991
+  std::int64_t exercise = 0;
+  /// as typed; may be empty
+  std::string trainee;
+  /// its pseudonym
+  std::string case_;
+  bool case_simulated = false;
+  std::string input_device;
+  /// UTC, ISO 8601
+  std::string started_at;
+  bool operator==(const RunningExercise&) const = default;
+};
+
 }  // namespace carpus::protocol

@@ -25,6 +25,7 @@ enum class Outcome : std::uint8_t {
 /// What the list of attempts shows.
 struct AttemptSummary {
   std::int64_t id = 0;    ///< given by the store; 0 until stored
+  std::string origin;     ///< no two attempts have the same; empty in records from before
   std::string trainee;    ///< as typed; may be empty
   std::string case_name;  ///< the case's pseudonym
   std::string case_fingerprint;

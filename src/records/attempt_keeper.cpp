@@ -2,94 +2,172 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "records/attempt_keeper.hpp"
 
-#include <array>
-#include <system_error>
+#include <algorithm>
+#include <future>
+#include <memory>
 #include <utility>
 
 #include "core/error.hpp"
+#include "records/rescue_file.hpp"
 
 namespace carpus::records {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-/// A name that says when the attempt was made: "attempts.rescued-20260131T120000000Z.sqlite".
-fs::path rescue_name(const fs::path& records, const Attempt& attempt) {
-  std::string stamp;
-  for (const char c : attempt.summary.ended_at) {
-    if ((c >= '0' && c <= '9') || c == 'T' || c == 'Z') stamp += c;
-  }
-  return records.stem().string() + ".rescued-" + stamp + ".sqlite";
+AttemptKeeper::AttemptKeeper(const fs::path& file, Say say, KeeperPatience patience)
+    : writing_(file, patience.busy),
+      reading_(file, kReadPatience),
+      say_(std::move(say)),
+      patience_(patience) {
+  thread_ = std::thread([this] { run(); });
 }
 
-/// Writes one attempt to a records file of its own; empty where that is impossible too.
-fs::path rescue(const fs::path& records, const Attempt& attempt) {
-  std::error_code ignored;
-  const fs::path name = rescue_name(records, attempt);
-  for (const fs::path& folder : {records.parent_path(), fs::temp_directory_path(ignored)}) {
-    const fs::path file = folder / name;
-    const bool existed = fs::exists(file, ignored);
-    try {
-      AttemptStore(file).save(attempt);
-      return file;
-    } catch (const Error&) {
-      if (existed) continue;
-      for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
-        fs::remove(file.string() + suffix, ignored);
-      }
-    }
+AttemptKeeper::~AttemptKeeper() {
+  (void)settle();
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
   }
-  return {};
+  changed_.notify_all();
+  thread_.join();
 }
 
-}  // namespace
-
-KeptAttempt AttemptKeeper::save(const Attempt& attempt) {
-  const std::lock_guard lock(mutex_);
-  try {
-    const std::int64_t id = store_.save(attempt);
-    retry_waiting();
-    return {id, {}};
-  } catch (const Error& error) {
-    fs::path file = rescue(store_.file(), attempt);
-    KeptAttempt kept{0, error.what()};
-    kept.problem += file.empty()
-                        ? ". The attempt is kept in memory and stored with the next one that "
-                          "succeeds; do not stop the program before"
-                        : ". The attempt was saved to " + file.string() +
-                              " instead, which 'carpus attempts --records' reads";
-    waiting_.push_back({attempt, std::move(file)});
-    return kept;
-  }
-}
-
-void AttemptKeeper::retry_waiting() {
-  while (!waiting_.empty()) {
-    try {
-      store_.save(waiting_.front().attempt);
-    } catch (const Error&) {
+void AttemptKeeper::save(Attempt attempt, Done done) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (queue_.size() + waiting_ < kMostWaiting) {
+      queue_.push_back({std::move(attempt), std::move(done)});
+      changed_.notify_all();
       return;
     }
-    std::error_code ignored;
-    if (!waiting_.front().rescue_file.empty()) fs::remove(waiting_.front().rescue_file, ignored);
-    waiting_.erase(waiting_.begin());
   }
+  done({0,
+        "records " + file().string() + ": " + std::to_string(kMostWaiting) +
+            " attempts wait to be stored, this one was not taken; free some space",
+        false});
 }
 
-std::vector<AttemptSummary> AttemptKeeper::list() const {
-  const std::lock_guard lock(mutex_);
-  return store_.list();
+KeptAttempt AttemptKeeper::save(const Attempt& attempt) {
+  auto kept = std::make_shared<std::promise<KeptAttempt>>();
+  save(Attempt(attempt), [kept](const KeptAttempt& answer) { kept->set_value(answer); });
+  return kept->get_future().get();
 }
 
-std::optional<Attempt> AttemptKeeper::find(std::int64_t id) const {
-  const std::lock_guard lock(mutex_);
-  return store_.find(id);
+std::size_t AttemptKeeper::settle() {
+  std::unique_lock lock(mutex_);
+  const std::uint64_t mine = ++asked_to_settle_;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return settled_ >= mine; });
+  return waiting_;
 }
 
 std::size_t AttemptKeeper::waiting() const {
   const std::lock_guard lock(mutex_);
-  return waiting_.size();
+  return waiting_;
+}
+
+void AttemptKeeper::run() {
+  try_what_waits();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    const auto is_due = [this] {
+      return stopping_ || !queue_.empty() || asked_to_settle_ > settled_;
+    };
+    const bool is_time = !changed_.wait_for(lock, patience_.retry, is_due);
+    if (!queue_.empty()) {
+      Job job = std::move(queue_.front());
+      queue_.pop_front();
+      lock.unlock();
+      job.done(keep(std::move(job.attempt)));
+      lock.lock();
+      continue;
+    }
+    if (stopping_) return;
+    if (is_time && waiting_ == 0) continue;
+    const std::uint64_t asked = asked_to_settle_;
+    lock.unlock();
+    try_what_waits();
+    lock.lock();
+    settled_ = std::max(settled_, asked);
+    changed_.notify_all();
+  }
+}
+
+KeptAttempt AttemptKeeper::keep(Attempt attempt) {
+  try {
+    const std::int64_t id = writing_.save(attempt);
+    if (waiting() > 0) try_what_waits();
+    return {id, {}, true};
+  } catch (const Error& error) {
+    const fs::path rescued = rescue(writing_.file(), attempt);
+    KeptAttempt kept{0, error.what(), !rescued.empty()};
+    if (rescued.empty()) {
+      in_memory_.push_back(std::move(attempt));
+      kept.problem +=
+          ". The attempt is kept in memory and stored when the records can be written again; do "
+          "not stop the program before";
+    } else {
+      kept.problem += ". The attempt was saved to " + rescued.string() +
+                      " instead, and is taken from there when the records can be written again";
+    }
+    const std::lock_guard lock(mutex_);
+    ++waiting_;
+    return kept;
+  }
+}
+
+void AttemptKeeper::try_what_waits() {
+  while (!in_memory_.empty()) {
+    try {
+      const std::int64_t id = writing_.save(in_memory_.front());
+      say("an attempt that waited in memory is stored as attempt " + std::to_string(id));
+    } catch (const Error&) {
+      break;
+    }
+    in_memory_.erase(in_memory_.begin());
+  }
+  take_back_rescued();
+}
+
+void AttemptKeeper::take_back_rescued() {
+  std::size_t left = 0;
+  for (const fs::path& file : rescue_files(writing_.file())) {
+    try {
+      for (const std::int64_t id : take_back(writing_, file)) {
+        say(file.string() + ": the attempt that was rescued here is stored as attempt " +
+            std::to_string(id));
+      }
+    } catch (const Error& error) {
+      ++left;
+      if (waiting() == 0) say(file.string() + ": a rescued attempt waits: " + error.what());
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  waiting_ = in_memory_.size() + left;
+}
+
+void AttemptKeeper::say(const std::string& line) const {
+  if (say_) say_(line);
+}
+
+std::vector<AttemptSummary> AttemptKeeper::list() const {
+  const std::lock_guard lock(reading_mutex_);
+  return reading_.list();
+}
+
+AttemptPage AttemptKeeper::page(std::int64_t before, std::size_t most) const {
+  const std::lock_guard lock(reading_mutex_);
+  return reading_.page(before, most);
+}
+
+std::optional<Attempt> AttemptKeeper::find(std::int64_t id) const {
+  const std::lock_guard lock(reading_mutex_);
+  return reading_.find(id);
+}
+
+bool AttemptKeeper::holds(const std::string& origin) const {
+  const std::lock_guard lock(reading_mutex_);
+  return reading_.holds(origin);
 }
 
 }  // namespace carpus::records

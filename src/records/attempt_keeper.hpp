@@ -1,15 +1,21 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Saving that loses nothing. Called from one thread, but for list and find, which may be called
-// from any.
+// Saving that loses nothing and that nobody waits for: a thread of its own stores attempts, tries
+// again, and takes back what it had to put elsewhere. All but construction may be called from any
+// thread.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "records/attempt.hpp"
@@ -19,40 +25,88 @@ namespace carpus::records {
 
 /// What became of an attempt.
 struct KeptAttempt {
-  std::int64_t id = 0;  ///< its number in the records; 0 when it could not be stored there
-  std::string problem;  ///< empty, or what went wrong, where the attempt is now and what to do
+  std::int64_t id = 0;      ///< its number in the records; 0 when it could not be stored there
+  std::string problem;      ///< empty, or what went wrong, where the attempt is now and what to do
+  bool is_on_disk = false;  ///< in the records or in a file beside them
 };
 
-/// Stores attempts; what cannot be stored goes to a records file of its own beside the first (or
-/// in the folder for temporary files), and stays in memory until a later save succeeds.
+struct KeeperPatience {
+  /// For a file that another program holds, before the attempt goes to a rescue file.
+  std::chrono::milliseconds busy{5000};
+  /// Between tries to store what waits.
+  std::chrono::milliseconds retry{10'000};
+};
+
 class AttemptKeeper {
  public:
-  /// @throws as AttemptStore: a station must not start without a place for its records.
-  explicit AttemptKeeper(const std::filesystem::path& file) : store_(file) {}
+  using Done = std::function<void(const KeptAttempt&)>;
+  /// One line for the person who runs the station; called in the keeper's thread.
+  using Say = std::function<void(const std::string&)>;
 
-  /// Never throws for a disk that fails: it says so in the answer.
+  /// More wait nowhere: a further attempt is refused with a word.
+  static constexpr std::size_t kMostWaiting = 64;
+  /// A list or an attempt is not worth more waiting than this while another program writes.
+  static constexpr std::chrono::milliseconds kReadPatience{50};
+
+  /// Takes back what was rescued before, by and by.
+  /// @throws as AttemptStore: a station must not start without a place for its records.
+  explicit AttemptKeeper(const std::filesystem::path& file,
+                         Say say = {},
+                         KeeperPatience patience = {});
+  /// As `settle`.
+  ~AttemptKeeper();
+  AttemptKeeper(const AttemptKeeper&) = delete;
+  AttemptKeeper& operator=(const AttemptKeeper&) = delete;
+
+  /// Never waits, never throws for a disk that fails. @param done  called once in the keeper's
+  /// thread, or at once where too many wait.
+  void save(Attempt attempt, Done done);
+  /// The same, waited for: for a command that has nothing else to do.
   KeptAttempt save(const Attempt& attempt);
 
-  /// Newest first; those that wait in memory are not among them.
-  [[nodiscard]] std::vector<AttemptSummary> list() const;
-  [[nodiscard]] std::optional<Attempt> find(std::int64_t id) const;
+  /// Waits until all that came was tried, tries what waits once more, and returns how many still
+  /// do.
+  std::size_t settle();
 
-  /// How many wait in memory for a disk that accepts them.
+  /// How many attempts are not in the records yet: in memory or in rescue files.
   [[nodiscard]] std::size_t waiting() const;
 
+  /// What is in the records; those that wait are not. @throws IoError
+  [[nodiscard]] std::vector<AttemptSummary> list() const;
+  [[nodiscard]] AttemptPage page(std::int64_t before, std::size_t most) const;
+  [[nodiscard]] std::optional<Attempt> find(std::int64_t id) const;
+  [[nodiscard]] bool holds(const std::string& origin) const;
+
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return writing_.file(); }
   /// For tests that need a full disk.
-  AttemptStore& store() noexcept { return store_; }
+  AttemptStore& store() noexcept { return writing_; }
 
  private:
-  struct Waiting {
+  struct Job {
     Attempt attempt;
-    std::filesystem::path rescue_file;  ///< empty when not even that could be written
+    Done done;
   };
-  void retry_waiting();
+  void run();
+  [[nodiscard]] KeptAttempt keep(Attempt attempt);
+  void try_what_waits();
+  void take_back_rescued();
+  void say(const std::string& line) const;
 
-  mutable std::mutex mutex_;  ///< one connection is for one thread at a time
-  AttemptStore store_;
-  std::vector<Waiting> waiting_;
+  AttemptStore writing_;  ///< the thread's
+  mutable std::mutex reading_mutex_;
+  AttemptStore reading_;  ///< everybody else's
+  Say say_;
+  KeeperPatience patience_;
+  std::vector<Attempt> in_memory_;  ///< the thread's: not even a rescue file could be written
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> queue_;
+  std::uint64_t asked_to_settle_ = 0;
+  std::uint64_t settled_ = 0;
+  std::size_t waiting_ = 0;
+  bool stopping_ = false;
+  std::thread thread_;
 };
 
 }  // namespace carpus::records

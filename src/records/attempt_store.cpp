@@ -18,8 +18,10 @@ static_assert(detail::kMigrations.size() == kRecordsSchemaVersion);
 
 namespace {
 
-/// How long a write waits for another process that is writing [ms].
-constexpr int kBusyTimeoutMs = 5000;
+/// What the list shows of an attempt.
+constexpr const char* kSummaryColumns =
+    "id, origin, trainee, case_name, case_fingerprint, case_simulated, procedure, input_device, "
+    "started_at, ended_at, outcome, overall, duration_ticks, final_hash";
 
 /// Says in words what to do about an SQLite error.
 std::string advice(const SQLite::Exception& error) {
@@ -37,7 +39,8 @@ std::string advice(const SQLite::Exception& error) {
     case SQLITE_NOTADB:
       return "this is not a records file; choose another with --records";
     case SQLITE_CORRUPT:
-      return "the file is damaged; restore it from a copy or choose another with --records";
+      return "the file is damaged; 'carpus attempts --repair' saves what can be read of it; or "
+             "restore it from a copy, or choose another with --records";
     case SQLITE_IOERR:
       return "the disk refused to read or write; it may be full or failing: free some space and "
              "try again";
@@ -46,16 +49,42 @@ std::string advice(const SQLite::Exception& error) {
   }
 }
 
-IoError io_error(const std::filesystem::path& file,
-                 const std::string& what,
-                 const SQLite::Exception& error) {
-  return IoError("records " + file.string() + ": " + what + ": " + error.what() + "; " +
-                 advice(error));
+[[noreturn]] void fail(const std::filesystem::path& file,
+                       const std::string& what,
+                       const SQLite::Exception& error) {
+  const std::string message =
+      "records " + file.string() + ": " + what + ": " + error.what() + "; " + advice(error);
+  const int code = error.getErrorCode();
+  if (code == SQLITE_BUSY || code == SQLITE_LOCKED) throw RecordsBusy(message);
+  throw IoError(message);
+}
+
+/// The first thing that is wrong with a file, or empty; what cannot be told within the time is
+/// taken for sound.
+std::string damage_of(SQLite::Database& database, std::chrono::milliseconds time) {
+  using std::chrono::steady_clock;
+  auto deadline = steady_clock::now() + time;
+  constexpr int kStepsBetweenLooks = 1000;
+  ::sqlite3_progress_handler(
+      database.getHandle(), kStepsBetweenLooks,
+      [](void* end) {
+        return static_cast<int>(steady_clock::now() > *static_cast<steady_clock::time_point*>(end));
+      },
+      &deadline);
+  std::string answer = "ok";
+  try {
+    answer = database.execAndGet("PRAGMA quick_check(1)").getString();
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() != SQLITE_INTERRUPT) answer = error.what();
+  }
+  ::sqlite3_progress_handler(database.getHandle(), 0, nullptr, nullptr);
+  return answer == "ok" ? "" : answer;
 }
 
 AttemptSummary read_summary(SQLite::Statement& row) {
   AttemptSummary summary;
   summary.id = row.getColumn("id").getInt64();
+  summary.origin = row.getColumn("origin").getString();
   summary.trainee = row.getColumn("trainee").getString();
   summary.case_name = row.getColumn("case_name").getString();
   summary.case_fingerprint = row.getColumn("case_fingerprint").getString();
@@ -76,6 +105,7 @@ AttemptSummary read_summary(SQLite::Statement& row) {
 
 void bind(SQLite::Statement& insert, const Attempt& attempt) {
   const AttemptSummary& summary = attempt.summary;
+  if (!summary.origin.empty()) insert.bind(":origin", summary.origin);
   insert.bind(":trainee", summary.trainee);
   insert.bind(":case_name", summary.case_name);
   insert.bind(":case_fingerprint", summary.case_fingerprint);
@@ -105,8 +135,10 @@ std::string_view name_of(Outcome outcome) noexcept {
 struct AttemptStore::Connection {
   SQLite::Database database;
 
-  explicit Connection(const std::filesystem::path& file)
-      : database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {}
+  Connection(const std::filesystem::path& file, std::chrono::milliseconds patience)
+      : database(file.string(),
+                 SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                 static_cast<int>(patience.count())) {}
 
   int pragma(const char* name) {
     return database.execAndGet(std::string("PRAGMA ") + name).getInt();
@@ -129,6 +161,20 @@ struct AttemptStore::Connection {
     database.exec("PRAGMA journal_mode = WAL");
     database.exec("PRAGMA synchronous = FULL");
     if (version < kRecordsSchemaVersion) migrate();
+    if (const std::string damage = damage_of(database, kCheckTime); !damage.empty()) {
+      throw SQLite::Exception(damage, SQLITE_CORRUPT);
+    }
+    prove_writable();
+  }
+
+  /// A file that nothing can be stored in is known before an operation, not after it.
+  void prove_writable() {
+    try {
+      database.exec("BEGIN IMMEDIATE");
+      database.exec("ROLLBACK");
+    } catch (const SQLite::Exception& error) {
+      if (error.getErrorCode() != SQLITE_BUSY) throw;  // who writes now shows that it can be
+    }
   }
 
   void migrate() {
@@ -143,12 +189,13 @@ struct AttemptStore::Connection {
   }
 };
 
-AttemptStore::AttemptStore(const std::filesystem::path& file) : file_(file) {
+AttemptStore::AttemptStore(const std::filesystem::path& file, std::chrono::milliseconds patience)
+    : file_(file) {
   try {
-    connection_ = std::make_unique<Connection>(file);
+    connection_ = std::make_unique<Connection>(file, patience);
     connection_->prepare(file);
   } catch (const SQLite::Exception& error) {
-    throw io_error(file, "cannot open", error);
+    fail(file, "cannot open", error);
   }
 }
 
@@ -159,11 +206,14 @@ AttemptStore& AttemptStore::operator=(AttemptStore&&) noexcept = default;
 std::int64_t AttemptStore::save(const Attempt& attempt) {
   try {
     SQLite::Transaction transaction(connection_->database, SQLite::TransactionBehavior::IMMEDIATE);
+    if (const auto known = id_of(attempt.summary.origin)) return *known;
     SQLite::Statement insert(
         connection_->database,
-        "INSERT INTO attempt (trainee, case_name, case_fingerprint, case_simulated, procedure, "
+        "INSERT INTO attempt (origin, trainee, case_name, case_fingerprint, case_simulated, "
+        "procedure, "
         "input_device, started_at, ended_at, outcome, overall, duration_ticks, final_hash, score, "
-        "events, recording) VALUES (:trainee, :case_name, :case_fingerprint, :case_simulated, "
+        "events, recording) VALUES (:origin, :trainee, :case_name, :case_fingerprint, "
+        ":case_simulated, "
         ":procedure, :input_device, :started_at, :ended_at, :outcome, :overall, :duration_ticks, "
         ":final_hash, :score, :events, :recording)");
     bind(insert, attempt);
@@ -172,22 +222,56 @@ std::int64_t AttemptStore::save(const Attempt& attempt) {
     transaction.commit();
     return id;
   } catch (const SQLite::Exception& error) {
-    throw io_error(file_, "the attempt was not stored", error);
+    fail(file_, "the attempt was not stored", error);
   }
 }
 
 std::vector<AttemptSummary> AttemptStore::list() const {
   try {
     std::vector<AttemptSummary> attempts;
-    SQLite::Statement rows(
-        connection_->database,
-        "SELECT id, trainee, case_name, case_fingerprint, case_simulated, procedure, input_device, "
-        "started_at, ended_at, outcome, overall, duration_ticks, final_hash FROM attempt ORDER BY "
-        "id DESC");
+    SQLite::Statement rows(connection_->database, std::string("SELECT ") + kSummaryColumns +
+                                                      " FROM attempt ORDER BY id DESC");
     while (rows.executeStep()) attempts.push_back(read_summary(rows));
     return attempts;
   } catch (const SQLite::Exception& error) {
-    throw io_error(file_, "cannot read the attempts", error);
+    fail(file_, "cannot read the attempts", error);
+  }
+}
+
+AttemptPage AttemptStore::page(std::int64_t before, std::size_t most) const {
+  try {
+    // Both questions see the same state.
+    SQLite::Transaction transaction(connection_->database);
+    AttemptPage page;
+    page.total = connection_->database.execAndGet("SELECT count(*) FROM attempt").getInt64();
+    SQLite::Statement rows(connection_->database, std::string("SELECT ") + kSummaryColumns +
+                                                      " FROM attempt WHERE id < :before ORDER BY "
+                                                      "id DESC LIMIT :most");
+    rows.bind(":before", before > 0 ? before : INT64_MAX);
+    rows.bind(":most", static_cast<std::int64_t>(most) + 1);
+    while (rows.executeStep()) {
+      page.older = page.attempts.size() == most;
+      if (!page.older) page.attempts.push_back(read_summary(rows));
+    }
+    return page;
+  } catch (const SQLite::Exception& error) {
+    fail(file_, "cannot read the attempts", error);
+  }
+}
+
+std::optional<std::int64_t> AttemptStore::id_of(const std::string& origin) const {
+  if (origin.empty()) return std::nullopt;
+  SQLite::Statement row(connection_->database, "SELECT id FROM attempt WHERE origin = ?");
+  row.bind(1, origin);
+  if (!row.executeStep()) return std::nullopt;
+  return row.getColumn(0).getInt64();
+}
+
+bool AttemptStore::holds(const std::string& origin) const {
+  try {
+    return id_of(origin).has_value();
+  } catch (const SQLite::Exception& error) {
+    fail(file_, "cannot read the attempts", error);
   }
 }
 
@@ -207,7 +291,7 @@ std::optional<Attempt> AttemptStore::find(std::int64_t id) const {
     }
     return attempt;
   } catch (const SQLite::Exception& error) {
-    throw io_error(file_, "cannot read attempt " + std::to_string(id), error);
+    fail(file_, "cannot read attempt " + std::to_string(id), error);
   }
 }
 

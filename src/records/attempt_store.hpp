@@ -5,35 +5,63 @@
 // share the file.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/error.hpp"
 #include "records/attempt.hpp"
 
 namespace carpus::records {
 
 /// Schema of the records file that this program writes; it reads and updates older ones.
-inline constexpr int kRecordsSchemaVersion = 2;
+inline constexpr int kRecordsSchemaVersion = 3;
+
+/// Another program holds the file; later it may not.
+class RecordsBusy : public IoError {
+ public:
+  using IoError::IoError;
+};
+
+/// Attempts as a list shows them, newest first.
+struct AttemptPage {
+  std::vector<AttemptSummary> attempts;
+  bool older = false;      ///< there are older ones than the last of these
+  std::int64_t total = 0;  ///< attempts in the records
+};
 
 class AttemptStore {
  public:
+  /// So long a file is looked through for damage when it is opened; 'carpus attempts --check' looks
+  /// through all of it.
+  static constexpr std::chrono::milliseconds kCheckTime{1000};
+
   /// Opens the file, creating it where there is none and updating an older one.
-  /// @throws IoError  it cannot be opened, created or written, or is no records file;
+  /// @param patience  how long a call waits for another program that is writing.
+  /// @throws IoError  it cannot be opened, created or written, is damaged, or is no records file;
   /// @throws SchemaError  it was written by a newer version of the program.
-  explicit AttemptStore(const std::filesystem::path& file);
+  explicit AttemptStore(const std::filesystem::path& file,
+                        std::chrono::milliseconds patience = std::chrono::milliseconds(5000));
   ~AttemptStore();
   AttemptStore(AttemptStore&&) noexcept;
   AttemptStore& operator=(AttemptStore&&) noexcept;
 
-  /// Stores an attempt as a whole and returns its number.
+  /// Stores an attempt as a whole and returns its number; of one that is there already, by its
+  /// origin, the number that it has.
   /// @throws IoError  nothing of it was stored; the message says what to do.
   std::int64_t save(const Attempt& attempt);
 
   /// Newest first.
   [[nodiscard]] std::vector<AttemptSummary> list() const;
+
+  /// At most so many, with numbers below `before`; 0 begins with the newest.
+  [[nodiscard]] AttemptPage page(std::int64_t before, std::size_t most) const;
+
+  /// Whether an attempt of this origin is stored.
+  [[nodiscard]] bool holds(const std::string& origin) const;
 
   /// The attempt with this number, or nothing.
   [[nodiscard]] std::optional<Attempt> find(std::int64_t id) const;
@@ -45,6 +73,8 @@ class AttemptStore {
 
  private:
   struct Connection;
+  [[nodiscard]] std::optional<std::int64_t> id_of(const std::string& origin) const;
+
   std::filesystem::path file_;
   std::unique_ptr<Connection> connection_;
 };

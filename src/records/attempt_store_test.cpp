@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -62,6 +65,84 @@ TEST(AttemptStore, ListsNewestFirstAndSurvivesReopening) {
   ASSERT_EQ(attempts.size(), 3U);
   EXPECT_EQ(attempts[0].trainee, "third");
   EXPECT_EQ(attempts[2].trainee, "first");
+}
+
+TEST(AttemptStore, ListsInPagesNewestFirst) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  EXPECT_TRUE(store.page(0, 3).attempts.empty());
+  for (int i = 0; i < 7; ++i) store.save(make_attempt("Ada", 1));
+  std::vector<std::int64_t> ids;
+  AttemptPage page = store.page(0, 3);
+  EXPECT_EQ(page.total, 7);
+  for (int pages = 1;; ++pages) {
+    for (const AttemptSummary& each : page.attempts) ids.push_back(each.id);
+    EXPECT_EQ(page.older, pages < 3);
+    if (!page.older) break;
+    page = store.page(ids.back(), 3);
+  }
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{7, 6, 5, 4, 3, 2, 1}));
+  EXPECT_TRUE(store.page(1, 3).attempts.empty());
+}
+
+TEST(AttemptStore, StoresAnAttemptOfOneOriginOnce) {
+  const TemporaryFolder folder;
+  AttemptStore store(folder / "attempts.sqlite");
+  Attempt attempt = make_attempt("Ada");
+  attempt.summary.origin = "0123456789abcdef0123456789abcdef";
+  EXPECT_FALSE(store.holds(attempt.summary.origin));
+  const std::int64_t id = store.save(attempt);
+  EXPECT_TRUE(store.holds(attempt.summary.origin));
+  EXPECT_EQ(store.save(attempt), id);
+  EXPECT_EQ(store.list().size(), 1U);
+  EXPECT_EQ(store.find(id)->summary.origin, attempt.summary.origin);
+  EXPECT_NE(store.save(make_attempt("Ada")), store.save(make_attempt("Ada"))) << "none noted";
+}
+
+/// While it lives, this process is an ordinary user, for whom permissions count.
+class OrdinaryUser {
+ public:
+  OrdinaryUser() {
+    if (::geteuid() == 0) is_one_ = ::seteuid(65534) == 0;
+  }
+  ~OrdinaryUser() {
+    if (is_one_ && ::seteuid(0) != 0) std::abort();
+  }
+  OrdinaryUser(const OrdinaryUser&) = delete;
+  OrdinaryUser& operator=(const OrdinaryUser&) = delete;
+
+ private:
+  bool is_one_ = false;
+};
+
+TEST(AttemptStore, KnowsAtTheStartThatAFileIsReadOnly) {
+  const TemporaryFolder folder;
+  { AttemptStore(folder / "attempts.sqlite").save(make_attempt("Ada")); }
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  std::filesystem::permissions(folder / "attempts.sqlite", std::filesystem::perms(0444));
+  std::string message;
+  {
+    const OrdinaryUser user;
+    message = message_of<IoError>([&] { AttemptStore(folder / "attempts.sqlite"); });
+  }
+  EXPECT_THAT(message, HasSubstr("--records"));
+  EXPECT_THAT(message, ::testing::AnyOf(HasSubstr("read-only"), HasSubstr("writable")));
+}
+
+TEST(AttemptStore, KnowsAtTheStartThatAFileIsDamaged) {
+  const TemporaryFolder folder;
+  const auto file = folder / "attempts.sqlite";
+  {
+    AttemptStore store(file);
+    for (int i = 0; i < 40; ++i) store.save(make_attempt("Ada", 3000));
+  }
+  for (const std::streamoff page : {2, 3, 4, 5, 9}) {
+    std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+    bytes.seekp(page * 4096);
+    bytes << std::string(600, '\xee');
+  }
+  const std::string message = message_of<IoError>([&] { AttemptStore store(file); });
+  EXPECT_THAT(message, HasSubstr("damaged; 'carpus attempts --repair'"));
 }
 
 TEST(AttemptStore, TwoProcessesMaySaveInTurn) {

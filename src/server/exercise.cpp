@@ -8,6 +8,8 @@
 #include "core/hexadecimal.hpp"
 #include "core/version.hpp"
 #include "protocol/bodies.hpp"
+#include "records/attempt_origin.hpp"
+#include "records/journals_left_behind.hpp"
 #include "records/utc_time.hpp"
 #include "session/score_message.hpp"
 
@@ -23,22 +25,53 @@ constexpr std::size_t kReservedRuns = 100'000;
 
 }  // namespace
 
-Exercise::Exercise(const cases::CaseData& data, std::uint64_t case_fingerprint, ExerciseSetup setup)
+ExerciseStart begin_anew(const cases::CaseData& data,
+                         std::uint64_t case_fingerprint,
+                         const ExerciseSetup& setup,
+                         const std::filesystem::path& records) {
+  simulation::Recorder recorder(kProgramVersion, case_fingerprint, *setup.procedure, setup.seed);
+  ExerciseStart start{records::new_origin(),
+                      records::utc_now(),
+                      simulation::World(data, *setup.procedure, setup.seed),
+                      simulation::World(data, *setup.procedure, setup.seed),
+                      std::move(recorder),
+                      {},
+                      nullptr,
+                      false};
+  if (!records.empty()) {
+    const protocol::RunningExercise head{start.origin,
+                                         static_cast<std::int64_t>(setup.number),
+                                         setup.trainee,
+                                         data.pseudonym,
+                                         data.provenance.simulated,
+                                         setup.input_device,
+                                         start.started_at};
+    start.journal =
+        std::make_unique<ExerciseJournal>(records::journal_path(records, start.origin), head,
+                                          start.recorder.finished(start.world.now().state_hash));
+  }
+  return start;
+}
+
+Exercise::Exercise(const cases::CaseData& data, ExerciseSetup setup, ExerciseStart start)
     : setup_(std::move(setup)),
       data_(data),
-      case_fingerprint_(case_fingerprint),
-      started_at_(records::utc_now()),
-      world_(data, *setup_.procedure, setup_.seed),
+      origin_(std::move(start.origin)),
+      started_at_(std::move(start.started_at)),
+      world_(std::move(start.world)),
+      shadow_(std::move(start.shadow)),
       session_(data, *setup_.procedure, world_.now()),
-      recorder_(kProgramVersion, case_fingerprint_, *setup_.procedure, setup_.seed),
-      shadow_(data, *setup_.procedure, setup_.seed),
+      recorder_(std::move(start.recorder)),
+      log_(std::move(start.log)),
+      journal_(std::move(start.journal)),
       state_{world_.now(), {}},  // before the thread starts: from then on the world is its own
       loop_(
           [this](const simulation::Input& input) -> const simulation::Snapshot& {
             return world_.step(input);
           },
           world_.now(),
-          session::resting(world_.now())) {
+          session::resting(world_.now()),
+          start.paused) {
   recorder_.reserve(kReservedRuns);
 }
 
@@ -70,33 +103,49 @@ ExerciseNews Exercise::collect() {
   ExerciseNews news;
   // Events first: their ticks' inputs are then certain to be there already.
   while (const auto tick = loop_.next_eventful_tick()) add_news(*tick, news);
+  if (journal_) journal_->append(news.events);
   while (const auto input = loop_.next_input()) {
     recorder_.append(*input);
     shadow_.step(*input);
+    if (journal_) journal_->append(*input);
     if (recorder_.tick() % simulation::kKeyframeTicks == 0) {
-      recorder_.append_keyframe({recorder_.tick(), shadow_.write_state()});
+      const simulation::Keyframe keyframe{recorder_.tick(), shadow_.write_state()};
+      if (journal_) journal_->append(keyframe, shadow_.now().state_hash);
+      recorder_.append_keyframe(keyframe);
     }
   }
   log_.insert(log_.end(), news.events.begin(), news.events.end());
+  if (journal_) journal_->hand_over(shadow_.now().state_hash);
   return news;
+}
+
+void Exercise::note_owner(const std::string& word) {
+  if (journal_) journal_->note_owner(word);
+}
+
+std::optional<records::JournalProgress> Exercise::on_disk() const {
+  if (!journal_) return std::nullopt;
+  return journal_->progress();
 }
 
 records::Attempt Exercise::end() {
   loop_.stop();
   (void)collect();
   (void)update();
+  if (journal_) journal_->hand_over_now(shadow_.now().state_hash);
   const simulation::Recording recording = recorder_.finished(world_.now().state_hash);
   std::optional<procedure::ScoreReport> score;
   if (world_.now().finished) {
     score = setup_.procedure->score(data_, world_.operation_record());
   }
-  return make_attempt(
-      {data_, recording, log_, std::move(score), setup_.trainee, setup_.input_device, started_at_});
+  return make_attempt({data_, recording, log_, std::move(score), setup_.trainee,
+                       setup_.input_device, started_at_, origin_});
 }
 
 records::Attempt make_attempt(const AttemptParts& parts) {
   records::Attempt attempt;
   records::AttemptSummary& summary = attempt.summary;
+  summary.origin = parts.origin;
   summary.trainee = parts.trainee;
   summary.case_name = parts.data.pseudonym;
   summary.case_fingerprint = hexadecimal(parts.recording.case_fingerprint);

@@ -1,11 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One exercise as the station hosts it: a world in its 1 kHz thread, the recording, the log, and
-// the attempt that is kept of it. Used in one thread, the network's.
+// One exercise as the station hosts it: a world in its 1 kHz thread, the recording, the log, the
+// journal that keeps them on disk as they come, and the attempt that is kept of it at the end. Used
+// in one thread, the network's.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +17,7 @@
 #include "procedure/procedure.hpp"
 #include "procedure/score.hpp"
 #include "records/attempt.hpp"
+#include "server/exercise_journal.hpp"
 #include "server/simulation_loop.hpp"
 #include "session/session.hpp"
 #include "simulation/recording.hpp"
@@ -26,7 +30,29 @@ struct ExerciseSetup {
   std::string input_device;
   const procedure::Procedure* procedure = nullptr;  ///< must outlive the exercise
   std::uint64_t seed = 0;
+  std::uint64_t number = 0;  ///< the station's count
 };
+
+/// Where an exercise stands when its thread starts: at its beginning, or where a journal ends.
+struct ExerciseStart {
+  std::string origin;      ///< no two attempts have the same
+  std::string started_at;  ///< UTC, ISO 8601
+  simulation::World world;
+  /// Steps behind the live world, from the recorded inputs: keyframes are written from it, which
+  /// the 1 kHz thread has no time for, and its hash says whether the recording is true.
+  simulation::World shadow;
+  simulation::Recorder recorder;
+  std::vector<protocol::LoggedEvent> log;
+  std::unique_ptr<ExerciseJournal> journal;  ///< none: it is in memory only
+  bool paused = false;
+};
+
+/// A new one. @param records  beside which its journal lies; empty: it has none.
+/// @throws InvalidInput when the case cannot be operated on.
+[[nodiscard]] ExerciseStart begin_anew(const cases::CaseData& data,
+                                       std::uint64_t case_fingerprint,
+                                       const ExerciseSetup& setup,
+                                       const std::filesystem::path& records);
 
 /// How a picture came about; the numbers of protocol/README.md.
 enum class PictureKind : std::uint32_t { Shot = 0, Live = 1, Held = 2 };
@@ -51,8 +77,7 @@ struct ExerciseNews {
 class Exercise {
  public:
   /// Starts at once. @param data  as scanned; must outlive it.
-  /// @throws InvalidInput when the case cannot be operated on.
-  Exercise(const cases::CaseData& data, std::uint64_t case_fingerprint, ExerciseSetup setup);
+  Exercise(const cases::CaseData& data, ExerciseSetup setup, ExerciseStart start);
 
   /// The loop's controls: hold, command, pause.
   [[nodiscard]] SimulationLoop& loop() noexcept { return loop_; }
@@ -74,6 +99,15 @@ class Exercise {
   /// All that was collected so far.
   [[nodiscard]] const std::vector<protocol::LoggedEvent>& log() const noexcept { return log_; }
 
+  /// What is done from now on is this page's.
+  void note_owner(const std::string& word);
+  /// How far the disk has come; nothing where there is no journal.
+  [[nodiscard]] std::optional<records::JournalProgress> on_disk() const;
+  /// How far it has been collected.
+  [[nodiscard]] Tick collected() const noexcept { return recorder_.tick(); }
+  /// After the end: to be removed once the attempt is stored.
+  [[nodiscard]] std::unique_ptr<ExerciseJournal> take_journal() { return std::move(journal_); }
+
   /// Stops the thread and returns what is to be kept: with a score when the operation was
   /// finished. The last news are in the attempt's log. Call once.
   [[nodiscard]] records::Attempt end();
@@ -83,15 +117,14 @@ class Exercise {
 
   ExerciseSetup setup_;
   const cases::CaseData& data_;
-  std::uint64_t case_fingerprint_;
+  std::string origin_;
   std::string started_at_;
   simulation::World world_;
+  simulation::World shadow_;
   session::Session session_;
   simulation::Recorder recorder_;
-  /// Steps behind the live world, from the recorded inputs: keyframes are written from it, which
-  /// the 1 kHz thread has no time for, and its last hash says whether the recording is true.
-  simulation::World shadow_;
   std::vector<protocol::LoggedEvent> log_;
+  std::unique_ptr<ExerciseJournal> journal_;
   LoopState state_;
   std::uint32_t pulses_shown_ = 0;
   SimulationLoop loop_;  ///< last, so that its thread ends before what it uses
@@ -106,6 +139,7 @@ struct AttemptParts {
   std::string trainee;
   std::string input_device;
   std::string started_at;
+  std::string origin = {};  ///< empty: it is of no journal
 };
 [[nodiscard]] records::Attempt make_attempt(const AttemptParts& parts);
 

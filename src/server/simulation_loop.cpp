@@ -25,8 +25,9 @@ bool request_real_time_priority() noexcept {
 
 SimulationLoop::SimulationLoop(Step step,
                                const simulation::Snapshot& initial,
-                               const session::HeldInput& held)
-    : step_(std::move(step)), source_(held) {
+                               const session::HeldInput& held,
+                               bool paused)
+    : step_(std::move(step)), source_(held), paused_(paused) {
   state_.snapshot = initial;
   thread_ = std::thread([this] { run(); });
 }

@@ -46,9 +46,12 @@ class SimulationLoop {
   /// Advances the simulation by one tick; called in the loop's thread only, must not throw.
   using Step = std::function<const simulation::Snapshot&(const simulation::Input&)>;
 
-  /// Starts the thread. @param initial  state before the first tick. @param held  until told
-  /// otherwise.
-  SimulationLoop(Step step, const simulation::Snapshot& initial, const session::HeldInput& held);
+  /// Starts the thread. @param initial  state before the first tick. @param held, paused  until
+  /// told otherwise.
+  SimulationLoop(Step step,
+                 const simulation::Snapshot& initial,
+                 const session::HeldInput& held,
+                 bool paused = false);
   ~SimulationLoop();
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;

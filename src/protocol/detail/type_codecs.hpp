@@ -83,4 +83,7 @@ void write(FieldWriter& out, const ScoreReport& in);
 void read(FieldReader& in, AttemptSummary& out);
 void write(FieldWriter& out, const AttemptSummary& in);
 
+void read(FieldReader& in, RunningExercise& out);
+void write(FieldWriter& out, const RunningExercise& in);
+
 }  // namespace carpus::protocol

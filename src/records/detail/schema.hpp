@@ -13,7 +13,7 @@ inline constexpr int kApplicationId = 0x43415250;
 
 /// kMigrations[v] turns a file of version v into one of version v + 1; a new file begins at 0.
 /// Never change one that was released: add the next.
-inline constexpr std::array<const char*, 2> kMigrations{
+inline constexpr std::array<const char*, 3> kMigrations{
     R"sql(
       CREATE TABLE attempt (
         id               INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -37,6 +37,12 @@ inline constexpr std::array<const char*, 2> kMigrations{
     // NULL where nobody noted it.
     R"sql(
       ALTER TABLE attempt ADD COLUMN case_simulated INTEGER CHECK (case_simulated IN (0, 1));
+    )sql",
+    // NULL where nobody gave one. The same attempt may come twice: from its journal after the
+    // program was killed between storing and deleting, from a file that it was rescued to.
+    R"sql(
+      ALTER TABLE attempt ADD COLUMN origin TEXT;
+      CREATE UNIQUE INDEX attempt_by_origin ON attempt (origin);
     )sql",
 };
 

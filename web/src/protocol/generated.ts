@@ -391,6 +391,22 @@ export interface AttemptSummary {
   readonly state_hash: string;
 }
 
+/** An exercise that has begun, in the head of its journal; what its recording says is beside it. */
+export interface RunningExercise {
+  /** no two attempts have the same */
+  readonly origin: string;
+  /** as in welcome 0 to 9007199254740991 */
+  readonly exercise: number;
+  /** as typed; may be empty */
+  readonly trainee: string;
+  /** its pseudonym */
+  readonly case: string;
+  readonly case_simulated: boolean;
+  readonly input_device: string;
+  /** UTC, ISO 8601 */
+  readonly started_at: string;
+}
+
 /** First message of a connection. `page` is a word that the page chose at random and says each time it comes: it gives a page that lost its connection its seat back. */
 export interface HelloMessage {
   readonly type: "hello";
@@ -631,9 +647,13 @@ export interface InstrumentList {
   readonly instruments: readonly Instrument[];
 }
 
-/** GET /api/attempts. Newest first; the newest where there are more than fit. */
+/** GET /api/attempts?before=<id>. A page, newest first: those with numbers below `before`, the newest without it. */
 export interface AttemptList {
   readonly attempts: readonly AttemptSummary[];
+  /** there are older ones than the last of these */
+  readonly older: boolean;
+  /** attempts in the records 0 to 9007199254740991 */
+  readonly total: number;
 }
 
 /** GET /api/attempts/<id>. */
@@ -675,7 +695,7 @@ export function parseInstrumentList(text: string): Parsed<InstrumentList> {
 
 /** Validates the body of an HTTP answer; never throws. */
 export function parseAttemptList(text: string): Parsed<AttemptList> {
-  return parseBody(text, rules.ATTEMPT_LIST, 67108864, rules.SCHEMA);
+  return parseBody(text, rules.ATTEMPT_LIST, 262144, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

@@ -214,6 +214,15 @@ export const SCHEMA: Schema = {
       duration_s: {"type": "number", "min": 0, "max": 10000000000000},
       state_hash: {"type": "string", "max_length": 16},
     } },
+    running_exercise: { fields: {
+      origin: {"type": "string", "max_length": 32},
+      exercise: {"type": "integer", "min": 0, "max": 9007199254740991},
+      trainee: {"type": "string", "max_length": 64},
+      case: {"type": "string", "max_length": 128},
+      case_simulated: {"type": "boolean"},
+      input_device: {"type": "string", "max_length": 32},
+      started_at: {"type": "string", "max_length": 32},
+    } },
   },
 };
 
@@ -352,7 +361,9 @@ export const INSTRUMENT_LIST: Rules = {
 };
 
 export const ATTEMPT_LIST: Rules = {
-  attempts: {"type": "array", "of": {"type": "attempt_summary"}, "max_items": 20000},
+  attempts: {"type": "array", "of": {"type": "attempt_summary"}, "max_items": 50},
+  older: {"type": "boolean"},
+  total: {"type": "integer", "min": 0, "max": 9007199254740991},
 };
 
 export const ATTEMPT: Rules = {
