@@ -155,9 +155,11 @@ std::vector<AttemptSummary> AttemptKeeper::list() const {
   return reading_.list();
 }
 
-AttemptPage AttemptKeeper::page(std::int64_t before, std::size_t most) const {
+AttemptPage AttemptKeeper::page(std::int64_t before,
+                                std::size_t most,
+                                const AttemptFilter& seen) const {
   const std::lock_guard lock(reading_mutex_);
-  return reading_.page(before, most);
+  return reading_.page(before, most, seen);
 }
 
 std::optional<Attempt> AttemptKeeper::find(std::int64_t id) const {

@@ -73,7 +73,9 @@ class AttemptKeeper {
 
   /// What is in the records; those that wait are not. @throws IoError
   [[nodiscard]] std::vector<AttemptSummary> list() const;
-  [[nodiscard]] AttemptPage page(std::int64_t before, std::size_t most) const;
+  [[nodiscard]] AttemptPage page(std::int64_t before,
+                                 std::size_t most,
+                                 const AttemptFilter& seen = {}) const;
   [[nodiscard]] std::optional<Attempt> find(std::int64_t id) const;
   [[nodiscard]] bool holds(const std::string& origin) const;
 

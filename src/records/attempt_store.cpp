@@ -238,20 +238,26 @@ std::vector<AttemptSummary> AttemptStore::list() const {
   }
 }
 
-AttemptPage AttemptStore::page(std::int64_t before, std::size_t most) const {
+AttemptPage AttemptStore::page(std::int64_t before,
+                               std::size_t most,
+                               const AttemptFilter& seen) const {
   try {
-    // Both questions see the same state.
+    // All questions see the same state.
     SQLite::Transaction transaction(connection_->database);
     AttemptPage page;
-    page.total = connection_->database.execAndGet("SELECT count(*) FROM attempt").getInt64();
-    SQLite::Statement rows(connection_->database, std::string("SELECT ") + kSummaryColumns +
-                                                      " FROM attempt WHERE id < :before ORDER BY "
-                                                      "id DESC LIMIT :most");
-    rows.bind(":before", before > 0 ? before : INT64_MAX);
-    rows.bind(":most", static_cast<std::int64_t>(most) + 1);
-    while (rows.executeStep()) {
+    SQLite::Statement ids(connection_->database, "SELECT id FROM attempt ORDER BY id DESC");
+    SQLite::Statement row(connection_->database,
+                          std::string("SELECT ") + kSummaryColumns + " FROM attempt WHERE id = ?");
+    while (ids.executeStep()) {
+      const std::int64_t id = ids.getColumn(0).getInt64();
+      if (seen && !seen(id)) continue;
+      ++page.total;
+      if (before > 0 && id >= before) continue;
       page.older = page.attempts.size() == most;
-      if (!page.older) page.attempts.push_back(read_summary(rows));
+      if (page.older) continue;
+      row.reset();
+      row.bind(1, id);
+      if (row.executeStep()) page.attempts.push_back(read_summary(row));
     }
     return page;
   } catch (const SQLite::Exception& error) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,6 +34,9 @@ struct AttemptPage {
   std::int64_t total = 0;  ///< attempts in the records
 };
 
+/// Whether an attempt is for whoever asks, by its number.
+using AttemptFilter = std::function<bool(std::int64_t id)>;
+
 class AttemptStore {
  public:
   /// So long a file is looked through for damage when it is opened; 'carpus attempts --check' looks
@@ -57,8 +61,11 @@ class AttemptStore {
   /// Newest first.
   [[nodiscard]] std::vector<AttemptSummary> list() const;
 
-  /// At most so many, with numbers below `before`; 0 begins with the newest.
-  [[nodiscard]] AttemptPage page(std::int64_t before, std::size_t most) const;
+  /// At most so many, with numbers below `before`; 0 begins with the newest. @param seen  those
+  /// that are for whoever asks; all without it.
+  [[nodiscard]] AttemptPage page(std::int64_t before,
+                                 std::size_t most,
+                                 const AttemptFilter& seen = {}) const;
 
   /// Whether an attempt of this origin is stored.
   [[nodiscard]] bool holds(const std::string& origin) const;

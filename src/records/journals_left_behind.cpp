@@ -40,9 +40,8 @@ std::optional<std::vector<std::byte>> read_all(int file) {
 }
 
 /// Whether it is an ordinary file of this user: nobody else puts an attempt into the records.
-bool is_own_file(int file) {
-  struct stat status {};
-  return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
+bool is_own_file(const struct stat& status) {
+  return S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
 }
 
 }  // namespace
@@ -78,7 +77,8 @@ std::vector<FoundJournal> find_journals(const fs::path& records,
                          std::strerror(errno));
       continue;
     }
-    if (!is_own_file(opened.number())) {
+    struct stat status {};
+    if (::fstat(opened.number(), &status) != 0 || !is_own_file(status)) {
       problems.push_back(file.string() + ": not this user's own file; it is left alone");
       continue;
     }
@@ -91,7 +91,9 @@ std::vector<FoundJournal> find_journals(const fs::path& records,
     }
     JournalContent content = decode_journal(*bytes);
     const std::uint64_t sound_size = content.sound_size;
-    found.push_back({{file, std::move(opened), sound_size}, std::move(content)});
+    found.push_back({{file, std::move(opened), sound_size},
+                     std::move(content),
+                     std::chrono::system_clock::from_time_t(status.st_mtim.tv_sec)});
   }
   return found;
 }

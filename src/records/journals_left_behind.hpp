@@ -6,6 +6,7 @@
 // by a program that did not end in order.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ namespace carpus::records {
 struct FoundJournal {
   JournalPlace place;
   JournalContent content;
+  std::chrono::system_clock::time_point last_written;
 };
 
 /// Those beside these records that are this user's own files and in no other program's use.

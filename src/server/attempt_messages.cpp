@@ -37,9 +37,11 @@ std::optional<Value> readable(Result<Value> parsed) {
 
 }  // namespace
 
-protocol::AttemptList attempt_list(const std::vector<records::AttemptSummary>& attempts) {
+protocol::AttemptList attempt_list(const records::AttemptPage& page) {
   protocol::AttemptList list;
-  for (const records::AttemptSummary& attempt : attempts) {
+  list.older = page.older;
+  list.total = page.total;
+  for (const records::AttemptSummary& attempt : page.attempts) {
     list.attempts.push_back(summary_message(attempt));
   }
   return list;

@@ -9,11 +9,11 @@
 
 #include "protocol/bodies.hpp"
 #include "records/attempt.hpp"
+#include "records/attempt_store.hpp"
 
 namespace carpus::server {
 
-[[nodiscard]] protocol::AttemptList attempt_list(
-    const std::vector<records::AttemptSummary>& attempts);
+[[nodiscard]] protocol::AttemptList attempt_list(const records::AttemptPage& page);
 
 /// Score and log are absent where what is stored of them cannot be read.
 /// @param open_case_fingerprint  of the case that is served: places of an attempt mean nothing in

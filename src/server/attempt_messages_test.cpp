@@ -45,7 +45,8 @@ TEST(AttemptMessage, LeavesOutWhatCannotBeReadAndKeepsTheRest) {
 TEST(AttemptList, IsReadableWhateverNamesArePutIntoTheRecords) {
   records::AttemptSummary summary;
   summary.trainee = std::string(500, 'x') + "\x02\xFF";
-  const auto read = protocol::parse_attempt_list(serialize(attempt_list({summary, {}})));
+  const auto read =
+      protocol::parse_attempt_list(serialize(attempt_list({{summary, {}}, false, 2})));
   ASSERT_TRUE(read.has_value()) << read.error();
   EXPECT_EQ(read->attempts.at(0).trainee, std::string(63, 'x') + "…");
   EXPECT_EQ(read->attempts.at(1).case_simulated, std::nullopt);

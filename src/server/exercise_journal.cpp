@@ -163,14 +163,14 @@ Result<std::vector<simulation::InputRun>> join_runs(Bytes parts, std::uint64_t w
 Result<JournaledExercise> read_exercise(const records::JournalContent& journal) {
   auto head = read_head(journal);
   if (!head) return Refusal{head.error()};
-  JournaledExercise exercise{std::move(*head), {}, {}, {}};
+  JournaledExercise exercise{std::move(head.value()), {}, {}, {}};
   if (journal.blocks.size() < 2 || journal.blocks[1].kind != number_of(Kind::Recording)) {
     return Refusal{"what it is a recording of was never written"};
   }
   auto begun = simulation::decode(journal.blocks[1].content);
   if (!begun) return Refusal{begun.error()};
   simulation::Recording& recording = exercise.recording;
-  recording = std::move(*begun);
+  recording = std::move(begun.value());
   std::vector<std::byte> runs;
   Tick tick = 0;
   for (const records::JournalBlock& block : journal.blocks) {
@@ -194,7 +194,7 @@ Result<JournaledExercise> read_exercise(const records::JournalContent& journal) 
   }
   auto joined = join_runs(runs, journal.sound_size);
   if (!joined) return Refusal{joined.error()};
-  recording.runs = std::move(*joined);
+  recording.runs = std::move(joined.value());
   // A part may tell of ticks whose inputs were to come with the next: they have not been.
   std::erase_if(exercise.log,
                 [tick](const auto& event) { return static_cast<Tick>(event.tick) > tick; });

@@ -3,8 +3,6 @@
 #include "server/station.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 #include <variant>
 
@@ -24,18 +22,8 @@ namespace {
 constexpr std::size_t kMaxWaitingFrames = 3;
 /// A page that goes on after so many messages were dropped is not ours.
 constexpr std::uint64_t kMaxDropped = 20000;
-
-/// "62000 ticks of 12 us (p50), 30 us (p99), 210 us (worst), 0 late; ordinary priority"
-std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "%llu ticks of %.0f us (p50), %.0f us (p99), %.0f us (worst), %llu late; %s",
-                static_cast<unsigned long long>(timing.ticks), timing.whole_p50_us,
-                timing.whole_p99_us, timing.worst_us,
-                static_cast<unsigned long long>(timing.late_ticks),
-                grants.real_time_priority ? "real-time priority" : "ordinary priority");
-  return text.data();
-}
+/// Ticks that may still come before time stands still.
+constexpr Tick kLastTicks = 20'000;
 
 /// No number comes twice, not even after the station was started anew.
 std::uint64_t first_exercise_number() {
@@ -64,14 +52,6 @@ Station::Station(const cases::CaseData& data,
       patience_(patience),
       exercise_number_(first_exercise_number()) {}
 
-Station::~Station() { store_running(); }
-
-void Station::detach() {
-  store_running();
-  pictures_.reset();  // waits for the picture that is being made
-  network_ = nullptr;
-}
-
 void Station::attach(NetworkServer& network) {
   network_ = &network;
   pictures_ =
@@ -81,6 +61,7 @@ void Station::attach(NetworkServer& network) {
               deliver(exercise, kind, std::move(frame));
             });
       });
+  recover();
   network.repeat(kStateInterval, [this] { update(); });
 }
 
@@ -146,6 +127,7 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
   }
   operator_acts_ = true;
   owner_word_ = operator_word_;
+  if (exercise_) exercise_->note_owner(owner_word_);
   try {
     std::visit([this](const auto& m) { on_message(m); }, *message);
   } catch (const Error& error) {
@@ -235,8 +217,13 @@ void Station::on_message(const protocol::Start& start) {
   setup.seed = static_cast<std::uint64_t>(start.seed);
   paused_by_page_ = false;
   paused_by_silence_ = false;
-  exercise_ = std::make_unique<Exercise>(data_, case_fingerprint_, std::move(setup));
-  ++exercise_number_;
+  paused_by_disk_ = false;
+  journal_watch_ = {};
+  exercise_number_ = std::max(exercise_number_ + 1, first_exercise_number());
+  setup.number = exercise_number_;
+  ExerciseStart beginning = begin_anew(data_, case_fingerprint_, setup, records_.file());
+  exercise_ = std::make_unique<Exercise>(data_, std::move(setup), std::move(beginning));
+  exercise_->note_owner(owner_word_);
   pictures_->clear();
   shown_.clear();
   last_heard_ = steady_clock::now();
@@ -297,7 +284,7 @@ void Station::command(const Command& command) {
 }
 
 void Station::apply_pause() {
-  if (exercise_) exercise_->loop().pause(paused_by_page_ || paused_by_silence_);
+  if (exercise_) exercise_->loop().pause(paused_by_page_ || paused_by_silence_ || paused_by_disk_);
 }
 
 void Station::update() {
@@ -305,7 +292,12 @@ void Station::update() {
   if (!operator_ && steady_clock::now() - left_at_ > patience_.exercise) return store_running();
   watch_silence();
   send_news();
+  watch_disk();
   send_state();
+  if (exercise_ && exercise_->collected() + kLastTicks > simulation::kMaxRecordedTicks) {
+    refuse("The operation has lasted for 4 hours; it is stored as it is", "Begin another.");
+    return store_running();
+  }
   if (exercise_ && exercise_->state().snapshot.finished) conclude();
 }
 
@@ -313,6 +305,18 @@ void Station::watch_silence() {
   const bool silent = steady_clock::now() - last_heard_ > kSilence;
   if (silent == paused_by_silence_) return;
   paused_by_silence_ = silent;
+  apply_pause();
+}
+
+void Station::watch_disk() {
+  const JournalWatch::Verdict verdict =
+      journal_watch_.look(exercise_->on_disk(), exercise_->collected(), steady_clock::now());
+  if (!verdict.word.empty()) {
+    log_(verdict.word);
+    refuse(verdict.word, "The operation goes on; tell the person who runs this station.");
+  }
+  if (verdict.holds_time == paused_by_disk_) return;
+  paused_by_disk_ = verdict.holds_time;
   apply_pause();
 }
 
@@ -339,43 +343,11 @@ void Station::send_state() {
 
 void Station::send_update() {
   const LoopState& state = exercise_->state();
-  const session::HostState host{paused_by_page_ || paused_by_silence_, state.timing.rate_hz,
-                                state.timing.p99_us, state.timing.late_ticks};
+  const session::HostState host{paused_by_page_ || paused_by_silence_ || paused_by_disk_,
+                                state.timing.rate_hz, state.timing.p99_us, state.timing.late_ticks};
   for (const protocol::HostMessage& message : exercise_->session().update(state.snapshot, host)) {
     send(message);
   }
-}
-
-void Station::store_running() {
-  if (exercise_) conclude();
-}
-
-void Station::conclude() {
-  send_news();
-  const records::Attempt attempt = exercise_->end();
-  const std::string timing = in_words(exercise_->state().timing, exercise_->loop().grants());
-  exercise_.reset();
-  const records::KeptAttempt kept = records_.save(attempt);
-  const bool finished = attempt.summary.outcome == records::Outcome::Finished;
-  log_("attempt " + (kept.id > 0 ? std::to_string(kept.id) : std::string("(not stored)")) +
-       (finished ? " finished" : " unfinished") + " after " +
-       std::to_string(attempt.summary.duration_ticks / 1000) + " s; " + timing);
-  if (!kept.problem.empty()) {
-    log_(kept.problem);
-    refuse(kept.problem, "Tell the person who runs this station; nothing is lost yet.");
-  }
-  if (finished) send_score(kept.id, attempt);
-}
-
-void Station::send_score(std::int64_t id, const records::Attempt& attempt) {
-  // What was stored is what is told: it can be read again, or somebody learns of it now.
-  auto report = protocol::parse_stored_score(attempt.score_json);
-  if (!report) {
-    log_("the score cannot be read: " + report.error());
-    return refuse("The score cannot be shown: " + report.error(),
-                  "Tell the person who runs this station; the recording is stored.");
-  }
-  send(protocol::Score{id, report->overall, std::move(*report)});
 }
 
 void Station::send(const protocol::HostMessage& message) {

@@ -10,8 +10,10 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "cases/case_data.hpp"
 #include "procedure/procedure.hpp"
@@ -19,9 +21,11 @@
 #include "records/attempt_keeper.hpp"
 #include "server/attempt_owners.hpp"
 #include "server/exercise.hpp"
+#include "server/journal_watch.hpp"
 #include "server/network_server.hpp"
 #include "server/picture_worker.hpp"
 #include "server/rate_limit.hpp"
+#include "server/recovery.hpp"
 
 namespace carpus::server {
 
@@ -51,7 +55,8 @@ class Station : public PageHandler {
           StationPatience patience = {});
   ~Station() override;
 
-  /// Begins to serve: pictures and states go out through this network.
+  /// Begins to serve: pictures and states go out through this network. What a station that was
+  /// killed left beside the records goes on or is stored.
   void attach(NetworkServer& network);
   /// Stores what runs; the network may go after this, and must not before.
   void detach();
@@ -69,6 +74,13 @@ class Station : public PageHandler {
   struct Visitor {
     RateLimit limit{kMessagesPerSecond, kMessageBurst};
     std::uint64_t dropped = 0;
+  };
+  /// One that ended, on its way into the records.
+  struct ConcludedExercise {
+    std::uint64_t number = 0;
+    std::string in_words;
+    std::string score_json;  ///< empty when unfinished
+    records::KeptAttempt kept;
   };
   /// A tool pose a tick is the most that can have an effect.
   static constexpr double kMessagesPerSecond = 1000;
@@ -102,11 +114,17 @@ class Station : public PageHandler {
   void send_state();
   /// What the page does not know yet of the newest state.
   void send_update();
+  void watch_disk();
+  // In station_records.cpp: what lasts beyond this station.
+  void recover();
+  void resume(ResumedExercise&& resumed);
   /// Ends the exercise that runs, if any, and stores it as it is.
   void store_running();
-  /// Ends and stores; sends the score when there is one.
+  /// Ends and stores; sends the score when there is one and it is stored.
   void conclude();
-  void send_score(std::int64_t id, const records::Attempt& attempt);
+  void take_stored();
+  void tell_stored(const ConcludedExercise& concluded);
+  void send_score(std::int64_t id, const std::string& score_json);
   void send(const protocol::HostMessage& message);
   void refuse(std::string reason, std::string what_to_do);
   [[nodiscard]] bool has_exercise();
@@ -127,10 +145,14 @@ class Station : public PageHandler {
   std::uint64_t exercise_number_;
   bool paused_by_page_ = false;
   bool paused_by_silence_ = false;
+  bool paused_by_disk_ = false;
+  JournalWatch journal_watch_;
   std::chrono::steady_clock::time_point last_heard_;
   NetworkServer* network_ = nullptr;
   AttemptOwners owners_;
   std::unique_ptr<PictureWorker> pictures_;
+  std::mutex stored_mutex_;
+  std::vector<ConcludedExercise> stored_;  ///< comes from the records' thread
   std::deque<std::string> shown_;  ///< the exercise's last pictures, for a page that comes back
 };
 

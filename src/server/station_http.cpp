@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <utility>
 
 #include "core/hexadecimal.hpp"
@@ -17,6 +18,26 @@ namespace carpus::server {
 namespace {
 
 constexpr std::string_view kAttempts = "/api/attempts";
+
+/// The number that a target's query gives for a name: 0 where it does not, nothing where it is no
+/// number.
+std::optional<std::int64_t> number_in_query(std::string_view target, std::string_view name) {
+  const std::size_t begin = target.find('?');
+  if (begin == std::string_view::npos) return 0;
+  std::string_view query = target.substr(begin + 1);
+  query = query.substr(0, query.find('#'));
+  while (!query.empty()) {
+    const std::string_view pair = query.substr(0, query.find('&'));
+    query.remove_prefix(std::min(query.size(), pair.size() + 1));
+    if (!pair.starts_with(name) || pair.substr(name.size()).substr(0, 1) != "=") continue;
+    const std::string_view text = pair.substr(name.size() + 1);
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size() || number < 0) return std::nullopt;
+    return number;
+  }
+  return 0;
+}
 
 HttpResponse no_such_attempt() { return make_problem(404, "There is no such attempt."); }
 
@@ -40,7 +61,7 @@ StationHttp::StationHttp(const cases::CaseData& data,
 HttpResponse StationHttp::answer(const HttpRequest& request) const {
   const auto path = decode_path(request.target);
   if (!path) return make_problem(400, "That is not a path of this station.");
-  if (path->starts_with("/api/")) return answer_api(*path, request.guest);
+  if (path->starts_with("/api/")) return answer_api(*path, request);
   return files_.get(*path);
 }
 
@@ -49,7 +70,7 @@ bool StationHttp::reads_records(const HttpRequest& request) {
   return path && path->starts_with(kAttempts);
 }
 
-HttpResponse StationHttp::answer_api(std::string_view path, const Guest& guest) const {
+HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& request) const {
   if (path == "/api/case") return make_json(case_json_);
   if (path == "/api/procedures") return make_json(procedures_json_);
   if (path == "/api/instruments") return make_json(instruments_json_);
@@ -59,9 +80,9 @@ HttpResponse StationHttp::answer_api(std::string_view path, const Guest& guest) 
     response.body = scene_glb_;
     return response;
   }
-  if (path == kAttempts) return answer_attempts(guest);
+  if (path == kAttempts) return answer_attempts(request);
   if (path.starts_with(kAttempts) && path[kAttempts.size()] == '/') {
-    return answer_attempt(path.substr(kAttempts.size() + 1), guest);
+    return answer_attempt(path.substr(kAttempts.size() + 1), request.guest);
   }
   return make_problem(404, "There is no such thing here; protocol/README.md lists what there is.");
 }
@@ -70,11 +91,15 @@ bool StationHttp::may_see(const Guest& guest, std::int64_t attempt) const {
   return guest.role == Role::Instructor || owners_.is_of(attempt, guest.browser);
 }
 
-HttpResponse StationHttp::answer_attempts(const Guest& guest) const {
-  auto attempts = records_.list();
-  std::erase_if(attempts, [&](const auto& attempt) { return !may_see(guest, attempt.id); });
-  attempts.resize(std::min(attempts.size(), protocol::kMaxAttemptListAttempts));
-  return make_json(serialize(attempt_list(attempts)));
+HttpResponse StationHttp::answer_attempts(const HttpRequest& request) const {
+  const auto before = number_in_query(request.target, "before");
+  if (!before) return make_problem(400, "'before' is the number of an attempt.");
+  records::AttemptFilter seen;
+  if (request.guest.role != Role::Instructor) {
+    seen = [&](std::int64_t attempt) { return may_see(request.guest, attempt); };
+  }
+  return make_json(
+      serialize(attempt_list(records_.page(*before, protocol::kMaxAttemptListAttempts, seen))));
 }
 
 HttpResponse StationHttp::answer_attempt(std::string_view rest, const Guest& guest) const {

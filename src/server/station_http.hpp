@@ -37,8 +37,8 @@ class StationHttp {
   [[nodiscard]] static bool reads_records(const HttpRequest& request);
 
  private:
-  [[nodiscard]] HttpResponse answer_api(std::string_view path, const Guest& guest) const;
-  [[nodiscard]] HttpResponse answer_attempts(const Guest& guest) const;
+  [[nodiscard]] HttpResponse answer_api(std::string_view path, const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse answer_attempts(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_attempt(std::string_view rest, const Guest& guest) const;
   [[nodiscard]] bool may_see(const Guest& guest, std::int64_t attempt) const;
 

@@ -1,0 +1,222 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/recovery.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "records/journals_left_behind.hpp"
+#include "records/utc_time.hpp"
+
+namespace carpus::server {
+
+namespace {
+
+using simulation::CommandKind;
+using simulation::World;
+
+/// A journal that could be read.
+struct Readable {
+  JournaledExercise exercise;
+  records::JournalPlace place;
+  std::string last_written;  ///< UTC, ISO 8601
+};
+
+/// "3 min 12 s"
+std::string duration(Tick ticks) {
+  const Tick seconds = ticks / 1000;
+  return (seconds < 60 ? "" : std::to_string(seconds / 60) + " min ") +
+         std::to_string(seconds % 60) + " s";
+}
+
+std::string name_of(const JournaledExercise& exercise) {
+  return "an exercise begun at " + exercise.head.started_at + ", " +
+         duration(exercise.recording.tick_count()) + " long";
+}
+
+/// A world where the journal ends, proved by its hash; or why there is none.
+Result<World> world_at_end(const cases::CaseData& data,
+                           const procedure::Procedure& procedure,
+                           const simulation::Recording& recording) {
+  World world(data, procedure, recording.seed);
+  const auto reached = simulation::seek(world, recording, recording.tick_count());
+  if (!reached) return Refusal{reached.error()};
+  if (world.now().state_hash != recording.end_hash) {
+    return Refusal{"its inputs do not lead to its state; it was recorded by " +
+                   recording.program_version};
+  }
+  return world;
+}
+
+simulation::Input last_input(const simulation::Recording& recording) {
+  return recording.runs.empty() ? simulation::Input{} : recording.runs.back().input;
+}
+
+/// Ticks at which a picture was asked for, newest first.
+std::vector<std::pair<Tick, simulation::Input>> asked_shots(
+    const simulation::Recording& recording) {
+  std::vector<std::pair<Tick, simulation::Input>> asked;
+  Tick begin = 0;
+  for (const simulation::InputRun& run : recording.runs) {
+    if (run.input.command.kind == CommandKind::TakeShot) {
+      for (std::uint32_t i = 0; i < run.ticks; ++i) asked.emplace_back(begin + i, run.input);
+    }
+    begin += run.ticks;
+  }
+  std::reverse(asked.begin(), asked.end());
+  return asked;
+}
+
+/// The last pictures that were taken, oldest first: each is a tick that is stepped again.
+std::vector<TakenShot> last_shots(World& world,
+                                  const simulation::Recording& recording,
+                                  std::size_t most) {
+  std::vector<TakenShot> shots;
+  for (const auto& [tick, input] : asked_shots(recording)) {
+    if (shots.size() == most || !simulation::seek(world, recording, tick)) break;
+    const simulation::Snapshot& now = world.step(input);
+    for (std::size_t i = 0; i < now.event_count; ++i) {
+      if (now.events[i].kind != simulation::EventKind::ShotTaken) continue;
+      shots.push_back({static_cast<std::uint32_t>(now.events[i].detail), 0,
+                       world.procedure().target, input.command.rotation_deg, input.command.tilt_deg,
+                       now});
+    }
+  }
+  std::reverse(shots.begin(), shots.end());
+  return shots;
+}
+
+AttemptLeftBehind stored_as_it_is(Readable&& readable,
+                                  const cases::CaseData& data,
+                                  const World* world) {
+  const protocol::RunningExercise& head = readable.exercise.head;
+  const simulation::Recording& recording = readable.exercise.recording;
+  std::optional<procedure::ScoreReport> score;
+  if (world != nullptr && world->now().finished) {
+    score = world->procedure().score(data, world->operation_record());
+  }
+  AttemptLeftBehind left{
+      make_attempt({data, recording, readable.exercise.log, std::move(score), head.trainee,
+                    head.input_device, head.started_at, head.origin}),
+      nullptr};
+  // It may be of another case than the one that is open.
+  left.attempt.summary.case_name = head.case_;
+  left.attempt.summary.case_simulated = head.case_simulated;
+  left.attempt.summary.ended_at = readable.last_written;
+  left.journal = std::make_shared<ExerciseJournal>(std::move(readable.place),
+                                                   recording.tick_count(), last_input(recording));
+  return left;
+}
+
+ResumedExercise gone_on_with(Readable&& readable,
+                             const procedure::Procedure& procedure,
+                             World&& world,
+                             World&& shadow,
+                             std::vector<TakenShot>&& shots) {
+  JournaledExercise& exercise = readable.exercise;
+  const Tick tick = exercise.recording.tick_count();
+  const simulation::Input last = last_input(exercise.recording);
+  ExerciseSetup setup;
+  setup.trainee = exercise.head.trainee;
+  setup.input_device = exercise.head.input_device;
+  setup.procedure = &procedure;
+  setup.seed = exercise.recording.seed;
+  setup.number = static_cast<std::uint64_t>(exercise.head.exercise);
+  auto journal = std::make_unique<ExerciseJournal>(std::move(readable.place), tick, last);
+  journal->note_owner(exercise.owner);
+  // In the log, so that it is shown, and stored with the attempt.
+  const std::vector<protocol::LoggedEvent> event{
+      {static_cast<std::int64_t>(tick), "station_restarted",
+       "The station was started again; at most the second before this is lost."}};
+  exercise.log.push_back(event.front());
+  journal->append(event);
+  return {std::move(setup),
+          {exercise.head.origin, exercise.head.started_at, std::move(world), std::move(shadow),
+           simulation::Recorder(std::move(exercise.recording)), std::move(exercise.log),
+           std::move(journal), true},
+          std::move(exercise.owner),
+          std::move(shots)};
+}
+
+/// The journals that can be read, newest first; the others are set aside.
+std::vector<Readable> readable_ones(const std::filesystem::path& records,
+                                    const std::function<bool(const std::string&)>& is_stored,
+                                    std::vector<std::string>& words) {
+  std::vector<Readable> readable;
+  for (records::FoundJournal& found : records::find_journals(records, words)) {
+    const auto head = read_head(found.content);
+    if (head && is_stored(head->origin)) {
+      // It was stored just before the program was killed.
+      records::JournalWriter(std::move(found.place)).remove();
+      continue;
+    }
+    const std::string file = found.place.file.string();
+    auto exercise = read_exercise(found.content);
+    if (!exercise) {
+      words.push_back(file + ": an exercise was left here that cannot be used: " +
+                      exercise.error() + "; " + records::set_aside(std::move(found)));
+    } else if (exercise->recording.tick_count() == 0) {
+      words.push_back(file + ": an exercise in which nothing was done yet is deleted");
+      records::JournalWriter(std::move(found.place)).remove();
+    } else {
+      if (found.content.torn_bytes > 0) {
+        words.push_back(file + ": its last " + std::to_string(found.content.torn_bytes) +
+                        " bytes were not written whole and are cut away");
+      }
+      readable.push_back({std::move(exercise.value()), std::move(found.place),
+                          records::format_utc(found.last_written)});
+    }
+  }
+  std::sort(readable.begin(), readable.end(), [](const Readable& a, const Readable& b) {
+    return a.exercise.head.started_at > b.exercise.head.started_at;
+  });
+  return readable;
+}
+
+}  // namespace
+
+LeftBehind look_for_what_was_left(const cases::CaseData& data,
+                                  std::uint64_t case_fingerprint,
+                                  const procedure::ProcedureList& procedures,
+                                  const std::filesystem::path& records,
+                                  const std::function<bool(const std::string&)>& is_stored,
+                                  std::size_t shots) {
+  LeftBehind left;
+  left.words = records::clear_old_ones(records);
+  for (Readable& each : readable_ones(records, is_stored, left.words)) {
+    const simulation::Recording& recording = each.exercise.recording;
+    const std::string name = name_of(each.exercise);
+    const procedure::Procedure* procedure = procedures.find(recording.procedure);
+    std::string why;
+    if (recording.case_fingerprint != case_fingerprint) why = "it was made on another case";
+    if (procedure == nullptr) why = "there is no procedure '" + recording.procedure + "' here";
+    std::optional<World> world;
+    if (why.empty()) {
+      auto reached = world_at_end(data, *procedure, recording);
+      if (reached) {
+        world.emplace(std::move(reached.value()));
+      } else {
+        why = reached.error();
+      }
+    }
+    if (world && world->now().finished) why = "it was finished";
+    if (why.empty() && left.running) why = "a newer one goes on";
+    if (!why.empty()) {
+      left.words.push_back(name + ", that was left running is stored as it is: " + why);
+      left.ended.push_back(stored_as_it_is(std::move(each), data, world ? &*world : nullptr));
+      continue;
+    }
+    World shadow(data, *procedure, recording.seed);
+    auto pictures = last_shots(shadow, recording, shots);
+    if (!simulation::seek(shadow, recording, recording.tick_count())) continue;
+    left.words.push_back(name +
+                         ", goes on where the station was stopped; at most its last second "
+                         "is lost");
+    left.running = std::make_unique<ResumedExercise>(gone_on_with(
+        std::move(each), *procedure, std::move(*world), std::move(shadow), std::move(pictures)));
+  }
+  return left;
+}
+
+}  // namespace carpus::server
