@@ -8,12 +8,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_store.hpp"
+#include "records/records_care.hpp"
 #include "server/attempt_messages.hpp"
 
 namespace carpus::cli {
@@ -24,7 +26,51 @@ struct AttemptsArguments {
   std::string json;
   std::int64_t export_id = 0;
   std::string out;
+  bool check = false;
+  bool repair = false;
+  std::string backup;
 };
+
+/// A page of the protocol's list after another, as one.
+nlohmann::ordered_json whole_list(const records::AttemptStore& store) {
+  auto whole = nlohmann::ordered_json::parse(protocol::serialize(server::attempt_list({})));
+  std::int64_t before = 0;
+  for (bool older = true; older;) {
+    const records::AttemptPage page = store.page(before, protocol::kMaxAttemptListAttempts);
+    const auto json =
+        nlohmann::ordered_json::parse(protocol::serialize(server::attempt_list(page)));
+    for (const auto& attempt : json["attempts"]) whole["attempts"].push_back(attempt);
+    whole["total"] = json["total"];
+    older = page.older;
+    if (older) before = page.attempts.back().id;
+  }
+  return whole;
+}
+
+void check(const AttemptsArguments& arguments) {
+  const records::RecordsCheck found = records::check_records(arguments.records);
+  for (const std::string& problem : found.problems) std::printf("%s\n", problem.c_str());
+  for (const std::string& waiting : found.waiting) std::printf("%s\n", waiting.c_str());
+  std::printf("%lld attempts can be read\n", static_cast<long long>(found.attempts));
+  if (!found.problems.empty()) {
+    throw IoError("records " + arguments.records +
+                  " are damaged; 'carpus attempts --repair' saves what can be read of them");
+  }
+}
+
+void repair(const AttemptsArguments& arguments) {
+  const records::RecordsRepair done = records::repair_records(arguments.records);
+  std::printf("%lld attempts saved, %zu lost", static_cast<long long>(done.saved),
+              done.lost.size());
+  for (const std::int64_t id : done.lost) std::printf(" %lld", static_cast<long long>(id));
+  std::printf("; the damaged file is %s\n", done.damaged.c_str());
+}
+
+void back_up(const AttemptsArguments& arguments) {
+  const std::int64_t attempts = records::back_up_records(arguments.records, arguments.backup);
+  std::printf("%lld attempts copied to %s\n", static_cast<long long>(attempts),
+              arguments.backup.c_str());
+}
 
 void export_recording(const records::AttemptStore& store, const AttemptsArguments& arguments) {
   const auto attempt = store.find(arguments.export_id);
@@ -43,13 +89,15 @@ void run(const AttemptsArguments& arguments) {
   if (!std::filesystem::exists(arguments.records)) {
     throw IoError(arguments.records + ": no such file; name the records with --records");
   }
+  if (arguments.check) return check(arguments);
+  if (arguments.repair) return repair(arguments);
+  if (!arguments.backup.empty()) return back_up(arguments);
   const records::AttemptStore store(arguments.records);
   if (arguments.export_id != 0) return export_recording(store, arguments);
   const auto attempts = store.list();
   std::fputs(attempts_table(attempts).c_str(), stdout);
   if (!arguments.json.empty()) {
-    records::write_file_atomically(arguments.json,
-                                   protocol::serialize(server::attempt_list(attempts), 2) + "\n");
+    records::write_file_atomically(arguments.json, whole_list(store).dump(2) + "\n");
   }
 }
 
@@ -94,7 +142,8 @@ std::string attempts_table(const std::vector<records::AttemptSummary>& attempts)
 
 void add_attempts_command(CLI::App& app) {
   auto arguments = std::make_shared<AttemptsArguments>();
-  CLI::App* command = app.add_subcommand("attempts", "List attempts and export their recordings");
+  CLI::App* command = app.add_subcommand(
+      "attempts", "List attempts, export their recordings, look after their file");
   command->add_option("--records", arguments->records, "File with the attempts")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the list to this file");
@@ -103,6 +152,15 @@ void add_attempts_command(CLI::App& app) {
   CLI::Option* out = command->add_option("--out", arguments->out, "File for the recording");
   id->needs(out);
   out->needs(id);
+  CLI::Option* care = command->add_flag("--check", arguments->check, "Look through the whole file");
+  CLI::Option* mend =
+      command->add_flag("--repair", arguments->repair, "Save what can be read of a damaged file");
+  CLI::Option* copy =
+      command->add_option("--backup", arguments->backup,
+                          "Copy the records to this file; a station may go on meanwhile");
+  mend->excludes(care)->excludes(copy)->excludes(id);
+  copy->excludes(care)->excludes(id);
+  care->excludes(id);
   command->callback([arguments] { run(*arguments); });
 }
 

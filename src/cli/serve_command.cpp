@@ -3,6 +3,7 @@
 #include "cli/serve_command.hpp"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -19,6 +20,7 @@
 #include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/access_links.hpp"
+#include "server/log_writer.hpp"
 #include "server/network_server.hpp"
 #include "server/station.hpp"
 #include "server/station_http.hpp"
@@ -64,8 +66,6 @@ void make_parent_folder(const fs::path& file) {
                   error.message() + "; choose another file with --records");
   }
 }
-
-void log_line(const std::string& line) { std::fprintf(stderr, "carpus: %s\n", line.c_str()); }
 
 bool is_for_this_machine(const ServeArguments& arguments) {
   return (arguments.listen == "127.0.0.1" || arguments.listen == "::1") &&
@@ -128,7 +128,8 @@ class LinkFile {
 void say_ready(const ServeArguments& arguments,
                const server::NetworkOptions& options,
                const std::string& url,
-               const cases::CaseData& data) {
+               const cases::CaseData& data,
+               const server::Log& log_line) {
   const std::string about = "(case '" + data.pseudonym +
                             (data.provenance.simulated ? "', simulated" : "'") + "; Ctrl+C stops)";
   if (!options.links) {
@@ -153,7 +154,9 @@ void run(const ServeArguments& arguments) {
   const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
   make_parent_folder(arguments.records);
   const server::NetworkOptions options = network_options(arguments);
-  records::AttemptKeeper records(arguments.records);
+  server::LogWriter log(STDERR_FILENO);
+  const auto log_line = [&log](const std::string& line) { log.write("carpus: " + line); };
+  records::AttemptKeeper records(arguments.records, log_line);
   const cases::CaseData data = load_case(arguments.case_folder);
   const procedure::ProcedureList& procedures = procedures::built_in();
   server::Station station(data, procedures, records, log_line);
@@ -162,16 +165,16 @@ void run(const ServeArguments& arguments) {
   server::NetworkServer network(
       options, [&http](const server::HttpRequest& request) { return http.answer(request); },
       station);
-  station.attach(network);
   network.stop_on_signals();
+  station.attach(network);
   const std::string url = network.url();
   const LinkFile link_file(arguments.link_file,
                            options.links ? link(url, options.links->instructor) : url);
-  say_ready(arguments, options, url, data);
+  say_ready(arguments, options, url, data, log_line);
   network.run();
   station.detach();
-  if (records.waiting() > 0) {
-    throw IoError(std::to_string(records.waiting()) + " attempts could not be stored in " +
+  if (const std::size_t waiting = records.settle(); waiting > 0) {
+    throw IoError(std::to_string(waiting) + " attempts could not be stored in " +
                   arguments.records + "; the messages above say where they are");
   }
 }

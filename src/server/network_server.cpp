@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <unordered_map>
 #include <vector>
 //
@@ -278,8 +279,9 @@ void NetworkServer::stop() {
 }
 
 void NetworkServer::stop_on_signals() {
-  implementation_->signals.add(SIGINT);
-  implementation_->signals.add(SIGTERM);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) implementation_->signals.add(signal);
+  // A reader that goes away, of a log or a socket, is an error of that write and no more.
+  std::signal(SIGPIPE, SIG_IGN);
   implementation_->signals.async_wait([this](error_code error, int) {
     if (!error) implementation_->stop();
   });

@@ -103,7 +103,7 @@ class NetworkServer {
   void run();
   /// From any thread: closes the connections (each gets its on_close) and lets run() return.
   void stop();
-  /// SIGINT and SIGTERM call stop().
+  /// SIGINT, SIGTERM and SIGHUP call stop(); SIGPIPE does nothing.
   void stop_on_signals();
   /// From any thread: calls `task` in the network thread.
   void post(std::function<void()> task);
