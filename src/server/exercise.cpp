@@ -75,20 +75,29 @@ Exercise::Exercise(const cases::CaseData& data, ExerciseSetup setup, ExerciseSta
   recorder_.reserve(kReservedRuns);
 }
 
-void Exercise::add_news(const EventfulTick& tick, ExerciseNews& news) const {
+std::vector<TakenShot> pictures_of(const procedure::Procedure& procedure,
+                                   const EventfulTick& tick) {
+  std::vector<TakenShot> pictures;
   const simulation::Snapshot& snapshot = tick.snapshot;
   for (std::size_t i = 0; i < snapshot.event_count; ++i) {
     const simulation::Event& event = snapshot.events[i];
-    news.events.push_back(session_.describe(event));
     const auto number = static_cast<std::uint32_t>(event.detail);
     if (event.kind == EventKind::ShotTaken) {
-      news.shots.push_back({PictureKind::Shot, number, 0, setup_.procedure->target,
-                            tick.command.rotation_deg, tick.command.tilt_deg, snapshot});
+      pictures.push_back({PictureKind::Shot, number, 0, procedure.target, tick.command.rotation_deg,
+                          tick.command.tilt_deg, snapshot});
     } else if (event.kind == EventKind::LiveEnded) {
-      news.shots.push_back({PictureKind::Held, number, 0, setup_.procedure->target,
-                            snapshot.c_arm.rotation_deg, snapshot.c_arm.tilt_deg, snapshot});
+      pictures.push_back({PictureKind::Held, number, 0, procedure.target,
+                          snapshot.c_arm.rotation_deg, snapshot.c_arm.tilt_deg, snapshot});
     }
   }
+  return pictures;
+}
+
+void Exercise::add_news(const EventfulTick& tick, ExerciseNews& news) const {
+  for (std::size_t i = 0; i < tick.snapshot.event_count; ++i) {
+    news.events.push_back(session_.describe(tick.snapshot.events[i]));
+  }
+  for (const TakenShot& shot : pictures_of(*setup_.procedure, tick)) news.shots.push_back(shot);
 }
 
 std::optional<TakenShot> Exercise::live_picture() {

@@ -68,6 +68,10 @@ struct TakenShot {
   simulation::Snapshot snapshot;
 };
 
+/// The pictures that a tick's state leaves for good: shots, and what a live picture ends with.
+[[nodiscard]] std::vector<TakenShot> pictures_of(const procedure::Procedure& procedure,
+                                                 const EventfulTick& tick);
+
 /// What happened since the last look.
 struct ExerciseNews {
   std::vector<protocol::LoggedEvent> events;

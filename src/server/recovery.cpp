@@ -13,7 +13,6 @@ namespace carpus::server {
 
 namespace {
 
-using simulation::CommandKind;
 using simulation::World;
 
 /// A journal that could be read.
@@ -53,38 +52,35 @@ simulation::Input last_input(const simulation::Recording& recording) {
   return recording.runs.empty() ? simulation::Input{} : recording.runs.back().input;
 }
 
-/// Ticks at which a picture was asked for, newest first.
-std::vector<std::pair<Tick, simulation::Input>> asked_shots(
-    const simulation::Recording& recording) {
-  std::vector<std::pair<Tick, simulation::Input>> asked;
-  Tick begin = 0;
+/// The input of the tick after this one; all runs are looked through.
+simulation::Input input_after(const simulation::Recording& recording, Tick tick) {
+  Tick end = 0;
   for (const simulation::InputRun& run : recording.runs) {
-    if (run.input.command.kind == CommandKind::TakeShot) {
-      for (std::uint32_t i = 0; i < run.ticks; ++i) asked.emplace_back(begin + i, run.input);
-    }
-    begin += run.ticks;
+    end += run.ticks;
+    if (end > tick) return run.input;
   }
-  std::reverse(asked.begin(), asked.end());
-  return asked;
+  return last_input(recording);
 }
 
-/// The last pictures that were taken, oldest first: each is a tick that is stepped again.
-std::vector<TakenShot> last_shots(World& world,
-                                  const simulation::Recording& recording,
-                                  std::size_t most) {
-  std::vector<TakenShot> shots;
-  for (const auto& [tick, input] : asked_shots(recording)) {
-    if (shots.size() == most || !simulation::seek(world, recording, tick)) break;
-    const simulation::Snapshot& now = world.step(input);
-    for (std::size_t i = 0; i < now.event_count; ++i) {
-      if (now.events[i].kind != simulation::EventKind::ShotTaken) continue;
-      shots.push_back({static_cast<std::uint32_t>(now.events[i].detail), 0,
-                       world.procedure().target, input.command.rotation_deg, input.command.tilt_deg,
-                       now});
-    }
+/// The last pictures that were taken, oldest first: their ticks are stepped again.
+std::vector<TakenShot> last_pictures(World& world,
+                                     const JournaledExercise& exercise,
+                                     std::size_t most) {
+  std::vector<TakenShot> pictures;
+  Tick before = 0;
+  for (auto event = exercise.log.rbegin(); event != exercise.log.rend(); ++event) {
+    if (pictures.size() >= most) break;
+    const auto tick = static_cast<Tick>(event->tick);
+    if ((event->kind != "shot_taken" && event->kind != "live_ended") || tick == 0) continue;
+    if (std::exchange(before, tick) == tick) continue;
+    if (!simulation::seek(world, exercise.recording, tick - 1)) break;
+    const simulation::Input input = input_after(exercise.recording, tick - 1);
+    const auto taken =
+        pictures_of(world.procedure(), EventfulTick{input.command, world.step(input)});
+    pictures.insert(pictures.end(), taken.rbegin(), taken.rend());
   }
-  std::reverse(shots.begin(), shots.end());
-  return shots;
+  std::reverse(pictures.begin(), pictures.end());
+  return pictures;
 }
 
 AttemptLeftBehind stored_as_it_is(Readable&& readable,
@@ -208,7 +204,7 @@ LeftBehind look_for_what_was_left(const cases::CaseData& data,
       continue;
     }
     World shadow(data, *procedure, recording.seed);
-    auto pictures = last_shots(shadow, recording, shots);
+    auto pictures = last_pictures(shadow, each.exercise, shots);
     if (!simulation::seek(shadow, recording, recording.tick_count())) continue;
     left.words.push_back(name +
                          ", goes on where the station was stopped; at most its last second "

@@ -27,3 +27,9 @@ export function durationText(seconds: number): string {
 export function procedureText(id: string, known: readonly ProcedureSummary[]): string {
   return known.find((one) => one.id === id)?.title ?? id;
 }
+
+/** "50 of 20 000 attempts" of a list that is shown in part; empty where it is whole. */
+export function shownText(shown: number, total: number): string {
+  const spaced = (n: number): string => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+  return shown >= total ? "" : `${spaced(shown)} of ${spaced(total)} attempts`;
+}

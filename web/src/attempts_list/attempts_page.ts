@@ -1,11 +1,11 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Past attempts, newest first; each opens its score.
+// Past attempts, newest first, a page at a time; each opens its score.
 import { fetchAttempts, fetchProcedures } from "../case_data";
-import { make } from "../dom";
-import type { AttemptSummary, ProcedureSummary } from "../protocol";
-import { dateText, durationText, procedureText } from "./attempts_model";
+import { button, make, setText } from "../dom";
+import type { AttemptList, AttemptSummary, ProcedureSummary } from "../protocol";
+import { dateText, durationText, procedureText, shownText } from "./attempts_model";
 
 export function mountAttempts(app: HTMLElement): () => void {
   let left = false;
@@ -25,9 +25,10 @@ export function mountAttempts(app: HTMLElement): () => void {
   );
   void (async () => {
     try {
-      const [attempts, known] = await Promise.all([fetchAttempts(), fetchProcedures()]);
-      if (!left)
-        body.replaceChildren(attempts.length === 0 ? nothingYet() : table(attempts, known));
+      const [first, known] = await Promise.all([fetchAttempts(), fetchProcedures()]);
+      if (left) return;
+      if (first.attempts.length === 0) body.replaceChildren(nothingYet());
+      else body.replaceChildren(...list(first, known));
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       if (!left) body.replaceChildren(make("p", { role: "alert" }, why));
@@ -42,10 +43,34 @@ function nothingYet(): HTMLElement {
   return make("p.secondary", {}, "None yet. An attempt is stored when it is finished or left.");
 }
 
-function table(
-  attempts: readonly AttemptSummary[],
-  known: readonly ProcedureSummary[],
-): HTMLElement {
+/** The table, and what shows more of it. */
+function list(first: AttemptList, known: readonly ProcedureSummary[]): HTMLElement[] {
+  const rows = make("tbody");
+  const shown = make("p.secondary", { role: "status" });
+  let last: AttemptSummary | undefined;
+  let count = 0;
+  const add = (page: AttemptList): void => {
+    rows.append(...page.attempts.map((attempt) => row(attempt, known)));
+    count += page.attempts.length;
+    last = page.attempts.at(-1) ?? last;
+    more.hidden = !page.older;
+    setText(shown, shownText(count, page.total));
+  };
+  const more = button("Show older attempts", "", () => {
+    more.disabled = true;
+    fetchAttempts(last?.id)
+      .then(add, (error: unknown) => {
+        setText(shown, error instanceof Error ? error.message : String(error));
+      })
+      .finally(() => {
+        more.disabled = false;
+      });
+  });
+  add(first);
+  return [table(rows), make("div.actions", {}, shown, more)];
+}
+
+function table(rows: HTMLElement): HTMLElement {
   const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "Input", "Time", "Score"];
   return make(
     "div.table-frame",
@@ -54,7 +79,7 @@ function table(
       "table",
       {},
       make("thead", {}, make("tr", {}, ...heads.map((head) => make("th", { scope: "col" }, head)))),
-      make("tbody", {}, ...attempts.map((attempt) => row(attempt, known))),
+      rows,
     ),
   );
 }

@@ -8,7 +8,7 @@ import {
   parseCaseDescription,
   parseProcedureList,
   type Attempt,
-  type AttemptSummary,
+  type AttemptList,
   type CaseDescription,
   type Parsed,
   type ProcedureSummary,
@@ -49,9 +49,10 @@ export async function fetchProcedures(): Promise<readonly ProcedureSummary[]> {
   return (await ask("/api/procedures", parseProcedureList)).procedures;
 }
 
-/** Newest first. */
-export async function fetchAttempts(): Promise<readonly AttemptSummary[]> {
-  return (await ask("/api/attempts", parseAttemptList)).attempts;
+/** A page, newest first. @param before  the number of an attempt: those that are older. */
+export function fetchAttempts(before?: number): Promise<AttemptList> {
+  const query = before === undefined ? "" : `?before=${before}`;
+  return ask(`/api/attempts${query}`, parseAttemptList);
 }
 
 export function fetchAttempt(id: number): Promise<Attempt> {

@@ -9,7 +9,7 @@ import type { StartChoice } from "../start_dialog";
 import type { Hand } from "./hand";
 import type { Panels } from "./panels";
 import { Participation } from "./participation_model";
-import { waitingText, type WaitingOperation } from "./waiting_model";
+import { lostText, waitingText, type WaitingOperation } from "./waiting_model";
 import type { WhatIsSeen } from "./what_is_seen";
 
 /** What an exercise takes hold of in the room. */
@@ -27,6 +27,8 @@ export class TakingPart {
   private readonly part = new Participation();
   private pausedByHand = false;
   private waiting: WaitingOperation = { trainee: "", startedAt: "" };
+  /** How far the operation had come when the connection was lost; until the host has told again. */
+  private seenTick: number | undefined;
   /** Said before what waits. */
   private waitingLead = "";
   private chosen: StartChoice = { trainee: "", procedure: "" };
@@ -154,9 +156,12 @@ export class TakingPart {
     if (!open) panels.arm.pedal.releaseAll();
   }
 
-  /** Says of what waits how far it has come. */
+  /** Says of what waits, or was gone on with, how far it has come. */
   showWaiting(): void {
     const { panels, seen } = this.room;
+    const lost = lostText(this.seenTick, seen.latest?.tick ?? 0);
+    this.seenTick = undefined;
+    if (lost !== "") panels.notice.say(lost);
     if (!this.part.isOffered || this.operates) return;
     panels.start.setReady(
       true,
@@ -176,6 +181,7 @@ export class TakingPart {
         hand.reset();
         break;
       case "goes_on":
+        this.seenTick = seen.latest?.tick;
         // The host tells the log again.
         panels.steps.clearLog();
         this.goOn();

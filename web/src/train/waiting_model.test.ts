@@ -4,7 +4,7 @@
 // Who comes to a waiting operation learns whose it is before going on with it.
 import { describe, expect, it } from "vitest";
 import type { Step } from "../protocol";
-import { waitingText } from "./waiting_model";
+import { lostText, waitingText } from "./waiting_model";
 
 const NOW = new Date(2026, 4, 3, 15, 0);
 const STEPS: readonly Step[] = ["Survey", "Drive the wire"].map((title) => ({
@@ -46,5 +46,15 @@ describe("waitingText", () => {
     expect(waitingText({ trainee: "Ada", startedAt: "" }, undefined, [], NOW)).toBe(
       "The operation of Ada waits. Going on keeps it under that name.",
     );
+  });
+});
+
+describe("what is lost", () => {
+  it("is said only where something is", () => {
+    expect(lostText(12_345, 11_945)).toBe(
+      "The station was started again: the last 0.4 s are lost, the rest goes on.",
+    );
+    expect(lostText(12_345, 12_345)).toBe("");
+    expect(lostText(undefined, 5)).toBe("");
   });
 });

@@ -53,3 +53,10 @@ export function waitingText(
   const keeps = trainee === "" ? "" : " Going on keeps it under that name.";
   return `${whose} waits${since}${at}.${keeps}`;
 }
+
+/** After a station was started again: what this page had seen done and is not; empty where all is. */
+export function lostText(seenTick: number | undefined, tick: number): string {
+  if (seenTick === undefined || tick >= seenTick) return "";
+  const seconds = ((seenTick - tick) / 1000).toFixed(1);
+  return `The station was started again: the last ${seconds} s are lost, the rest goes on.`;
+}
