@@ -59,10 +59,10 @@ const std::map<std::string, RoundTrip>& readers() {
       {"stored/stored_score",
        round_trip(&parse_stored_score,
                   [](const ScoreReport& report) { return serialize_stored_score(report); })},
-      {"stored/stored_exercise",
-       round_trip(&parse_stored_exercise, [](const RunningExercise& exercise) {
-         return serialize_stored_exercise(exercise);
-       })},
+      {"stored/stored_exercise", round_trip(&parse_stored_exercise,
+                                            [](const RunningExercise& exercise) {
+                                              return serialize_stored_exercise(exercise);
+                                            })},
       {"stored/stored_events",
        round_trip(&parse_stored_events, [](const std::vector<LoggedEvent>& events) {
          return serialize_stored_events(events);

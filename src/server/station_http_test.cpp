@@ -106,5 +106,26 @@ TEST_F(StationHttpTest, TellsWhetherTheCaseOfAnAttemptIsSimulatedWhereThatWasNot
   EXPECT_EQ(get("/api/attempts/1")["case_simulated"], true);
 }
 
+TEST_F(StationHttpTest, ListsAttemptsInPagesOfFifty) {
+  for (int i = 0; i < 120; ++i) (void)records_.save(records::Attempt{});
+  std::vector<std::int64_t> sizes;
+  std::string target = "/api/attempts";
+  for (bool older = true; older;) {
+    const Json page = get(target);
+    EXPECT_EQ(page["total"], 120);
+    sizes.push_back(static_cast<std::int64_t>(page["attempts"].size()));
+    older = page["older"];
+    target = "/api/attempts?before=" + std::to_string(page["attempts"].back()["id"].get<int>());
+  }
+  EXPECT_EQ(sizes, (std::vector<std::int64_t>{50, 50, 20}));
+  EXPECT_EQ(get("/api/attempts?before=1")["attempts"].size(), 0U);
+  for (const char* bad : {"x", "-1", "1x", "99999999999999999999", ""}) {
+    HttpRequest request;
+    request.target = std::string("/api/attempts?before=") + bad;
+    request.guest.role = Role::Instructor;
+    EXPECT_EQ(http_.answer(request).status, 400U) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace carpus::server

@@ -3,9 +3,9 @@
 //
 // A station in a process of its own that is killed, and the one that is started after it: what a
 // page sees of that.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
