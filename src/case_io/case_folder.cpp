@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "case_io/detail/disk_space.hpp"
 #include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/hull_from_mesh.hpp"
+#include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "case_io/glb.hpp"
 #include "case_io/ply.hpp"
@@ -37,13 +37,12 @@ void write_text(const fs::path& file, const std::string& text) {
 }
 
 std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
+  constexpr std::uint64_t kLargest = std::uint64_t{64} << 20U;
+  if (!fs::exists(file)) {
     throw IoError(file.string() +
-                  ": is not there or cannot be read; give a case folder made by "
-                  "'carpus reconstruct'");
+                  ": is not there; give a case folder made by 'carpus reconstruct'");
   }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return read_whole_file(file, kLargest);
 }
 
 std::string bone_name(const cases::Bone& bone) {
@@ -84,13 +83,14 @@ Grid<T> read_grid(const fs::path& folder, const std::string& name, const CaseHea
   if (!fs::exists(file)) {
     throw IoError(file.string() + ": is missing; restore it or make the case again from its CT");
   }
-  ValueCount count;
-  Grid<T> stored = read_volume_file<T>(file, count);
+  ReadingNotes notes;
+  Grid<T> stored = read_volume_file<T>(file, notes);
   if (!are_alike(stored.geometry(), known->second)) {
     throw IoError(file.string() +
                   ": lies elsewhere than case.json says; one of the two was "
                   "changed: make the case again from its CT");
   }
+  const ValueCount& count = notes.count;
   if (count.not_finite + count.clamped + count.rounded > 0) {
     throw IoError(file.string() +
                   ": holds values that it cannot have; restore it or make the case "

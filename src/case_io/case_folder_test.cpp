@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -88,7 +89,11 @@ cases::CaseData small_case() {
   cases::CaseData data;
   data.pseudonym = "wrist \"7\"";
   data.side = Side::Right;
-  data.provenance = {true, "simulated wrist, seed 7", "carpus 0.1.0", "2026-01-02T03:04:05Z"};
+  data.provenance = {true,
+                     "simulated wrist, seed 7",
+                     "carpus 0.1.0",
+                     "2026-01-02T03:04:05Z",
+                     {"axes were put in the order left, posterior, superior"}};
   data.wrist_from_patient = {rotation_about({0, 0, 1}, 0.3), {1.0 / 3.0, 2, 3}};
   GridGeometry g;
   g.size = {20, 18, 16};
@@ -167,6 +172,7 @@ void expect_same_case(const cases::CaseData& a, const cases::CaseData& b) {
   EXPECT_EQ(a.provenance.simulated, b.provenance.simulated);
   EXPECT_EQ(a.provenance.source, b.provenance.source);
   EXPECT_EQ(a.provenance.made_at, b.provenance.made_at);
+  EXPECT_EQ(a.provenance.conventions, b.provenance.conventions);
   EXPECT_EQ(a.wrist_from_patient, b.wrist_from_patient);
   EXPECT_EQ(a.scaphoid.longest_line.distal, b.scaphoid.longest_line.distal);
   EXPECT_EQ(a.scaphoid.central_radius_mm, b.scaphoid.central_radius_mm);
@@ -318,6 +324,20 @@ TEST_F(CaseFolder, MissingOrDamagedFilesAreNamed) {
   fs::copy_file(target() / "hulls" / "lunate.ply", target() / "hulls" / "scaphoid_distal.ply",
                 fs::copy_options::overwrite_existing);
   EXPECT_THAT(error_of<IoError>(target()), HasSubstr("no convex hull of bones/scaphoid_distal"));
+}
+
+TEST_F(CaseFolder, DevicesAndPipesInItAreRefusedWithoutWaiting) {
+  for (const char* name :
+       {"case.json", "hand_motion.json", "ct.nii.gz", "labels.nii.gz", "skin.ply",
+        "fields/lunate.nrrd", "bones/lunate.ply", "hulls/lunate.ply"}) {
+    write_case(small_case(), target(), Overwrite::Replace);
+    fs::remove(target() / name);
+    ASSERT_EQ(::mkfifo((target() / name).c_str(), 0600), 0);
+    EXPECT_THAT(error_of<IoError>(target()), AllOf(HasSubstr(name), HasSubstr("no regular file")));
+    fs::remove(target() / name);
+    fs::create_symlink("/dev/zero", target() / name);
+    EXPECT_THAT(error_of<IoError>(target()), AllOf(HasSubstr(name), HasSubstr("no regular file")));
+  }
 }
 
 TEST_F(CaseFolder, JsonThatLiesIsRefused) {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/text_lines.hpp"
 #include "core/error.hpp"
 
@@ -287,12 +287,6 @@ class Parser {
   Header header_;
 };
 
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw IoError(file.string() + ": cannot be opened; restore it or make the case again");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh) {
@@ -319,12 +313,12 @@ void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh) {
 }
 
 TriangleMesh read_ply(const std::filesystem::path& file) {
-  const std::string content = content_of(file);
+  const std::string content = read_whole_file(file);
   return Parser(file, content, Accepted::BinarySurfaces).run();
 }
 
 TriangleMesh read_ply_or_points(const std::filesystem::path& file) {
-  const std::string content = content_of(file);
+  const std::string content = read_whole_file(file);
   return Parser(file, content, Accepted::TextAndPointsToo).run();
 }
 

@@ -3,11 +3,11 @@
 #include "case_io/read_volume.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "case_io/detail/canonical_axes.hpp"
 #include "case_io/detail/dicom_series.hpp"
-#include "case_io/detail/itk_image.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "core/error.hpp"
 
@@ -58,7 +58,11 @@ DicomSeries choose_series(std::vector<DicomSeries> all,
     options.warn(folder.string() + ": reads the series \"" + all.front().summary.description +
                  "\"; passed over what is too short to be a volume");
   }
-  return std::move(all.front());  // sorted by number of slices
+  DicomSeries chosen = std::move(all.front());  // sorted by number of slices
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    std::move(all[i].slices.begin(), all[i].slices.end(), std::back_inserter(chosen.strays));
+  }
+  return chosen;
 }
 
 /// The volume file of a folder without DICOM: the only one, or the one named ct.
@@ -82,6 +86,19 @@ fs::path find_volume_file(const fs::path& folder) {
   }
   if (named_ct.size() == 1) return named_ct.front();
   throw InvalidInput(folder.string() + ": holds several volumes; give one of them:" + list);
+}
+
+void note_conventions(const ReadingNotes& notes, bool is_turned, const ReadOptions& options) {
+  if (!options.note) return;
+  for (const std::string& words : notes.conventions) options.note(words);
+  if (is_turned) options.note("axes were put in the order left, posterior, superior");
+  if (notes.count.rounded > 0) {
+    options.note(std::to_string(notes.count.rounded) + " voxels were rounded to whole HU");
+  }
+  if (notes.count.clamped > 0) {
+    options.note(std::to_string(notes.count.clamped) +
+                 " voxels beyond -32768 to 32767 HU were clamped");
+  }
 }
 
 void check_values(const ValueCount& count, const fs::path& input, const ReadOptions& options) {
@@ -129,28 +146,31 @@ DicomSeries series_of_file(const fs::path& file, const ReadOptions& options) {
   throw InvalidInput(file.string() + ": is a DICOM file without an image; give the scan's folder");
 }
 
-Grid<std::int16_t> read_any(const fs::path& input, const ReadOptions& options, ValueCount& count) {
+Grid<std::int16_t> read_any(const fs::path& input,
+                            const ReadOptions& options,
+                            ReadingNotes& notes) {
   if (fs::is_directory(input)) {
     std::vector<DicomSeries> all = scan_dicom(input);
     if (!all.empty()) {
-      return read_series(choose_series(std::move(all), input, options), options.progress, count);
+      return read_series(choose_series(std::move(all), input, options), options.progress, notes);
     }
-    return read_volume_file<std::int16_t>(find_volume_file(input), count);
+    return read_volume_file<std::int16_t>(find_volume_file(input), notes);
   }
   if (looks_like_dicom(input)) {
-    return read_series(series_of_file(input, options), options.progress, count);
+    return read_series(series_of_file(input, options), options.progress, notes);
   }
-  return read_volume_file<std::int16_t>(input, count);
+  return read_volume_file<std::int16_t>(input, notes);
 }
 
 }  // namespace
 
 Grid<std::int16_t> read_ct(const fs::path& input, const ReadOptions& options) {
   check_exists(input);
-  ValueCount count;
+  ReadingNotes notes;
   options.progress("reading", 0.0);
-  Grid<std::int16_t> grid = read_any(input, options, count);
-  check_values(count, input, options);
+  Grid<std::int16_t> grid = read_any(input, options, notes);
+  check_values(notes.count, input, options);
+  note_conventions(notes, !canonical_order(grid.geometry().direction).is_identity(), options);
   grid = with_canonical_axes(std::move(grid));
   options.progress("reading", 1.0);
   return grid;
@@ -158,8 +178,9 @@ Grid<std::int16_t> read_ct(const fs::path& input, const ReadOptions& options) {
 
 Grid<std::uint8_t> read_labels(const fs::path& file) {
   check_exists(file);
-  ValueCount count;
-  Grid<std::uint8_t> grid = read_volume_file<std::uint8_t>(file, count);
+  ReadingNotes notes;
+  Grid<std::uint8_t> grid = read_volume_file<std::uint8_t>(file, notes);
+  const ValueCount& count = notes.count;
   if (count.not_finite + count.clamped + count.rounded > 0) {
     throw InvalidInput(file.string() +
                        ": is no label volume; its values must be whole numbers from 0 to 255");

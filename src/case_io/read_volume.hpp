@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reading a CT and label volumes: DICOM series, NIfTI, NRRD and MetaImage give the same grid, in
-// LPS, whichever format the volume came from. Through ITK and GDCM.
+// LPS, whichever format the volume came from. Nothing in a file is believed: headers are parsed by
+// image_formats, pixels are decoded in a child process, and what contradicts itself is refused.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,9 @@ struct SeriesSummary {
 struct ReadOptions {
   std::string series_uid;  ///< which DICOM series of the folder; empty: the only one
   std::function<void(const std::string&)> warn;  ///< receives doubts, in words for the user
+  /// Receives what was taken by convention (scaling, order of slices and axes, rounding), for the
+  /// report and the case's provenance.
+  std::function<void(const std::string&)> note;
   Progress progress = no_progress;  ///< called from this thread only, never more often than a slice
 };
 
@@ -38,7 +42,8 @@ struct ReadOptions {
 /// The grid's axes are those nearest to +x, +y, +z of LPS, so that the same voxels give the same
 /// grid whichever way round a file stored them. Rescale slope and intercept are applied; values are
 /// rounded to whole HU and clamped to int16. Patient names are never read.
-/// @throws IoError missing, empty, unreadable or truncated files.
+/// @throws IoError missing, empty, unreadable, damaged or truncated files, files that need more
+/// memory than there is, and what is no regular file.
 /// @throws InvalidInput several series, missing slices, uneven or impossible geometry, not finite
 /// values. Messages name the file and say what to do.
 [[nodiscard]] Grid<std::int16_t> read_ct(const std::filesystem::path& input,

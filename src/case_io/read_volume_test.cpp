@@ -187,6 +187,28 @@ TEST_F(ReadVolume, DecodesTheTransferSyntaxesOfScanners) {
   }
 }
 
+TEST_F(ReadVolume, SaysWhatItTookByConvention) {
+  const auto said_of = [](const fs::path& input) {
+    std::string words;
+    ReadOptions options;
+    options.note = [&](const std::string& text) { words += text + "|"; };
+    (void)read_ct(input, options);
+    return words;
+  };
+  const Grid<std::int16_t> ct = test_ct(Mat3::identity());
+  write_dicom_series(folder() / "s", ct.view(), {});
+  EXPECT_EQ(said_of(folder() / "s"),
+            "values are stored x 1 + -1024 (RescaleSlope, RescaleIntercept)|");
+  fs::rename(folder() / "s" / "IM_0012.dcm", folder() / "s" / "IM_0000.dcm");
+  EXPECT_THAT(said_of(folder() / "s"), HasSubstr("12 slices were sorted by their place"));
+  write_volume<float>(folder() / "v.nrrd", Grid<float>(ct.geometry(), 40.4F).view());
+  EXPECT_EQ(said_of(folder() / "v.nrrd"), "4284 voxels were rounded to whole HU|");
+  GridGeometry turned = ct.geometry();
+  turned.direction = Mat3::from_columns({-1, 0, 0}, {0, -1, 0}, {0, 0, 1});
+  write_volume<std::int16_t>(folder() / "t.nii", Grid<std::int16_t>(turned).view());
+  EXPECT_THAT(said_of(folder() / "t.nii"), HasSubstr("left, posterior, superior"));
+}
+
 TEST_F(ReadVolume, ReportsProgressInOrder) {
   write_dicom_series(folder() / "s", test_ct(Mat3::identity()).view(), {});
   std::vector<double> seen;
@@ -339,7 +361,8 @@ TEST_F(ReadVolume, RefusesDamagedVolumeFiles) {
 
 TEST_F(ReadVolume, RefusesImpossibleGeometry) {
   write_volume<std::int16_t>(folder() / "v.mha", test_ct(Mat3::identity()).view());
-  patch(folder() / "v.mha", "ElementSpacing = 0.29999", "ElementSpacing = 0 0.299");
+  patch(folder() / "v.mha", "ElementSpacing = 0.29999999999999999",
+        "ElementSpacing = 0.00000000000000000");
   EXPECT_THAT(error_of<InvalidInput>(folder() / "v.mha"), HasSubstr("spacing 0 mm on axis 0"));
   std::ofstream(folder() / "huge.nrrd")
       << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\n"

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/text_lines.hpp"
 #include "core/error.hpp"
 

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "case_io/detail/disk_space.hpp"
+#include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/text_lines.hpp"
 #include "case_io/ply.hpp"
 #include "case_io/stl.hpp"

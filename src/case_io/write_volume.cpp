@@ -12,9 +12,8 @@
 #include <type_traits>
 
 #include "case_io/detail/disk_space.hpp"
-#include "case_io/detail/itk_image.hpp"
-#include "case_io/detail/nifti_check.hpp"
 #include "case_io/detail/nifti_description.hpp"
+#include "case_io/detail/volume_file.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
@@ -63,14 +62,10 @@ void describe(itk::ImageIOBase& io, const GridGeometry& g) {
 template <typename T>
 bool reads_back(const fs::path& file, const GridView<const T>& volume) {
   try {
-    const itk::ImageIOBase::Pointer io = volume_writer_for(file.string());
-    if (is_nifti(file)) check_nifti_is_whole(file);
-    const GridGeometry g = read_geometry(*io, file);
-    if (g.size != volume.geometry().size) return false;
-    std::vector<T> values(g.voxel_count());
-    ValueCount count;
-    read_values<T>(*io, file, values, count);
-    return std::equal(values.begin(), values.end(), volume.values().begin());
+    ReadingNotes notes;
+    const Grid<T> read = read_volume_file<T>(file, notes);
+    return read.geometry().size == volume.geometry().size &&
+           std::equal(read.values().begin(), read.values().end(), volume.values().begin());
   } catch (const Error&) {
     return false;
   }

@@ -57,6 +57,9 @@ struct Provenance {
   std::string source;   ///< what was read, in words; never a path or a patient's name
   std::string made_by;  ///< program and version
   std::string made_at;  ///< UTC, ISO 8601
+  /// What was taken by convention when the scan was read (scaling, order of slices and axes), in
+  /// words; empty in cases of older programs.
+  std::vector<std::string> conventions;
 };
 
 /// One patient's wrist. `ct`, `labels` and surfaces share the Patient frame.

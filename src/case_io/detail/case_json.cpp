@@ -157,7 +157,8 @@ CaseHeader header_from(const Json& json) {
   const Json& provenance = json.at("provenance");
   data.provenance = {
       provenance.at("simulated").get<bool>(), provenance.at("source").get<std::string>(),
-      provenance.at("made_by").get<std::string>(), provenance.at("made_at").get<std::string>()};
+      provenance.at("made_by").get<std::string>(), provenance.at("made_at").get<std::string>(),
+      provenance.value("conventions", std::vector<std::string>{})};
   take(json.at("wrist_from_patient"), data.wrist_from_patient);
   const Json& scaphoid = json.at("scaphoid");
   data.scaphoid = {
@@ -190,7 +191,8 @@ std::string case_json_text(const cases::CaseData& data) {
   json["provenance"] = {{"simulated", data.provenance.simulated},
                         {"source", data.provenance.source},
                         {"made_by", data.provenance.made_by},
-                        {"made_at", data.provenance.made_at}};
+                        {"made_at", data.provenance.made_at},
+                        {"conventions", data.provenance.conventions}};
   json["wrist_from_patient"] = json_of(data.wrist_from_patient);
   json["scaphoid"] = {{"central_axis", json_of(data.scaphoid.central_axis)},
                       {"central_radius_mm", data.scaphoid.central_radius_mm},

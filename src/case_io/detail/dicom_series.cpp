@@ -1,147 +1,96 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// 1. Every file with the DICM mark is opened up to its pixels (GDCM); images are kept. A file
-// without
-//    it that is empty, or named like DICOM or like a slice found, is damaged.
+// 1. Every file with the DICM mark is parsed (image_formats), its pixels passed over; images are
+//    kept. A file without it that is empty, or named like DICOM or like a slice found, is damaged.
 // 2. They are grouped by SeriesInstanceUID.
 // 3. Slices are sorted along the normal of their plane; place decides, never the file's name or
 //    InstanceNumber, which exporters renumber.
-// 4. Equal steps are proved before any pixel is read: a missing slice would bend every bone.
-// 5. Pixels come through itk::GDCMImageIO, which decompresses and applies slope and intercept.
+// 4. Equal steps and equal pixels are proved before any pixel is read: a missing slice would bend
+//    every bone.
+// 5. A child process decodes the pixels and applies slope and intercept.
 #include "case_io/detail/dicom_series.hpp"
-
-#include <gdcmReader.h>
-#include <gdcmStringFilter.h>
-#include <gdcmTag.h>
-#include <gdcmTrace.h>
-#include <itkGDCMImageIO.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
 #include <map>
 #include <set>
 
-#include "case_io/detail/dicom_structure.hpp"
+#include "case_io/detail/dicom_pixels.hpp"
+#include "case_io/detail/disposable_child.hpp"
+#include "case_io/detail/memory_room.hpp"
+#include "case_io/detail/regular_file.hpp"
+#include "case_io/detail/shared_array.hpp"
+#include "case_io/detail/unpacking.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
 namespace fs = std::filesystem;
 namespace {
 
+using image_formats::DicomFrame;
+using image_formats::DicomHeader;
+using image_formats::Refuser;
+
 /// Steps between slices may differ by rounding of positions to 0.01 mm, or by 2 % of a step.
 constexpr double kStepToleranceMm = 0.02;
 constexpr double kStepToleranceRatio = 0.02;
-/// Orientation cosines and pixel spacings of one series agree to their written digits.
-constexpr double kSameDirectionTolerance = 1e-3;
+/// Orientation cosines of one series agree to their written digits, pixel spacings exactly but for
+/// how they are written [mm].
+constexpr double kSameDirectionTolerance = 1e-4;
+constexpr double kSameSpacingMm = 1e-6;
 /// Sideways drift from slice to slice per mm of step: tan of half a degree of gantry tilt.
 constexpr double kTiltTolerance = 0.009;
+/// A deflated data set of more is refused: a slice takes 2 MB, and nothing says beforehand what
+/// comes out.
+constexpr std::uint64_t kMostUnpackedBytes = std::uint64_t{256} << 20U;
 
-std::string trimmed(std::string s) {
-  const auto is_padding = [](char c) { return c == ' ' || c == '\0'; };
-  while (!s.empty() && is_padding(s.back())) s.pop_back();
-  s.erase(s.begin(), std::find_if_not(s.begin(), s.end(), is_padding));
-  return s;
-}
-
-/// Numbers of a backslash-separated value; empty where one is not a number.
-std::vector<double> numbers_of(const std::string& value) {
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= value.size();) {
-    const std::size_t end = std::min(value.find('\\', begin), value.size());
-    const std::string part = trimmed(value.substr(begin, end - begin));
-    const char* first = part.data() + (part.starts_with('+') ? 1 : 0);
-    double number = 0;
-    const auto [last, error] = std::from_chars(first, part.data() + part.size(), number);
-    if (error != std::errc{} || last != part.data() + part.size() || !std::isfinite(number))
-      return {};
-    numbers.push_back(number);
-    begin = end + 1;
-  }
-  return numbers;
-}
-
-class Header {
- public:
-  explicit Header(const gdcm::File& file) { filter_.SetFile(file); }
-  [[nodiscard]] std::string text(std::uint16_t group, std::uint16_t element) {
-    return trimmed(filter_.ToString(gdcm::Tag(group, element)));
-  }
-  [[nodiscard]] std::vector<double> numbers(std::uint16_t group, std::uint16_t element) {
-    return numbers_of(text(group, element));
-  }
-  [[nodiscard]] int integer(std::uint16_t group, std::uint16_t element, int otherwise) {
-    const std::vector<double> n = numbers(group, element);
-    return n.size() == 1 && n[0] >= 0 && n[0] <= 65535 * 16 ? static_cast<int>(n[0]) : otherwise;
-  }
-
- private:
-  gdcm::StringFilter filter_;
-};
-
-void take_place(Header& header, DicomSlice& slice) {
-  const std::vector<double> position = header.numbers(0x0020, 0x0032);
-  const std::vector<double> axes = header.numbers(0x0020, 0x0037);
-  const std::vector<double> spacing = header.numbers(0x0028, 0x0030);
-  slice.has_place = position.size() == 3 && axes.size() == 6 && spacing.size() == 2;
-  if (!slice.has_place) return;
-  slice.position = {position[0], position[1], position[2]};
-  slice.row = {axes[0], axes[1], axes[2]};
-  slice.column = {axes[3], axes[4], axes[5]};
-  slice.spacing = {spacing[1], spacing[0], 0};  // PixelSpacing is row distance first
-}
-
-[[noreturn]] void throw_damaged(const fs::path& file) {
-  throw IoError(file.string() +
-                ": its DICOM header is damaged; copy the file again from its source");
-}
-
-[[noreturn]] void throw_cut_short(const fs::path& file) {
-  throw IoError(
-      file.string() +
-      ": is cut short (its DICOM elements run past its end); copy the file again from its "
-      "source");
-}
+/// A link may lead out of the folder and back; far beyond any scan.
+constexpr int kDeepestFolder = 16;
+constexpr std::size_t kMostFiles = 100000;
 
 /// True where the file is a DICOM image; false where it is DICOM but no image.
-bool scan_file(const fs::path& file, DicomSlice& slice) {
-  const DicomCheck check = check_dicom_structure(file);
-  if (check.structure == DicomStructure::CutShort) throw_cut_short(file);
-  if (check.structure == DicomStructure::Damaged) throw_damaged(file);
-  gdcm::Reader reader;
-  reader.SetFileName(file.string().c_str());
-  if (!reader.ReadUpToTag(gdcm::Tag(0x7fe0, 0x0000))) {
-    throw IoError(
-        file.string() +
-        ": its DICOM header is damaged or cut short; copy the file again from its source");
+bool scan_file(const RegularFile& file, FileBytes& bytes, DicomSlice& slice) {
+  const Refuser refuse(file.path().string());
+  const image_formats::DicomFront front = image_formats::parse_dicom_front(bytes, refuse);
+  slice.file = file.path();
+  slice.file_bytes = file.size();
+  slice.class_uid = front.class_uid;
+  if (!front.syntax.is_deflated) {
+    slice.header = image_formats::parse_dicom(bytes, front.data_begins, front.syntax, refuse);
+    return slice.header.is_image;
   }
-  Header header(reader.GetFile());
-  slice.file = file;
-  slice.columns = header.integer(0x0028, 0x0011, 0);
-  slice.rows = header.integer(0x0028, 0x0010, 0);
-  if (slice.columns == 0 || slice.rows == 0) return false;
-  if (check.structure == DicomStructure::Whole && !check.has_pixels) throw_cut_short(file);
-  const int samples = header.integer(0x0028, 0x0002, 1);
-  if (samples != 1 && samples != 3 && samples != 4) throw_damaged(file);  // GDCM aborts on others
-  slice.frames = header.integer(0x0028, 0x0008, 1);
-  slice.series_uid = header.text(0x0020, 0x000e);
-  slice.series_description = header.text(0x0008, 0x103e);
-  slice.modality = header.text(0x0008, 0x0060);
-  slice.instance_uid = header.text(0x0008, 0x0018);
-  take_place(header, slice);
-  return true;
+  const std::uint64_t packed_bytes = file.size() - front.data_begins;
+  require_memory(std::min(packed_bytes, kMostUnpackedBytes) + kMostUnpackedBytes, refuse.file());
+  if (packed_bytes > kMostUnpackedBytes) {
+    refuse.damaged("its deflated data set", std::to_string(packed_bytes) + " bytes",
+                   "more than a slice needs");
+  }
+  std::vector<std::byte> packed(static_cast<std::size_t>(packed_bytes));
+  if (!bytes.read(front.data_begins, packed)) {
+    refuse.damaged("the file", "not readable", "check the disk");
+  }
+  const std::vector<std::byte> unpacked = unpack_deflated(packed, kMostUnpackedBytes, refuse);
+  slice.data_begins = front.data_begins;
+  slice.unpacked_bytes = unpacked.size();
+  image_formats::MemoryBytes data(unpacked);
+  slice.header = image_formats::parse_dicom(data, 0, front.syntax, refuse);
+  return slice.header.is_image;
 }
 
 std::vector<fs::path> files_under(const fs::path& folder) {
   std::vector<fs::path> files;
   try {
-    for (const auto& entry : fs::recursive_directory_iterator(
-             folder, fs::directory_options::follow_directory_symlink)) {
-      if (entry.is_regular_file()) files.push_back(entry.path());
+    fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink);
+    for (; at != fs::recursive_directory_iterator(); ++at) {
+      if (at->is_regular_file()) files.push_back(at->path());
+      if (at.depth() > kDeepestFolder || files.size() > kMostFiles) {
+        throw IoError(folder.string() + ": holds more than " + std::to_string(kMostFiles) +
+                      " files, or folders in folders without end; give the scan's own folder");
+      }
     }
   } catch (const fs::filesystem_error& error) {
     throw IoError(folder.string() + ": cannot be searched (" + error.code().message() +
@@ -180,7 +129,19 @@ void refuse_lost_slices(const std::vector<fs::path>& unmarked,
   }
 }
 
-std::string slice_text(const DicomSlice& s) { return s.file.filename().string(); }
+/// A file of the same kind as the slices found but without an image was cut off between two
+/// elements.
+void refuse_headless(const std::map<fs::path, std::string>& class_of_others,
+                     const std::map<std::string, DicomSeries>& by_uid) {
+  for (const auto& [file, class_uid] : class_of_others) {
+    for (const auto& [uid, series] : by_uid) {
+      if (class_uid.empty() || series.slices.front().class_uid != class_uid) continue;
+      throw IoError(file.string() +
+                    ": holds no image, though it is of the kind that does, so it is cut short; "
+                    "copy the file again from its source");
+    }
+  }
+}
 
 std::string mm(double v) {
   std::array<char, 32> buffer{};
@@ -188,44 +149,88 @@ std::string mm(double v) {
   return std::string(buffer.data(), static_cast<std::size_t>(std::max(n, 0)));
 }
 
-void check_alike(const std::vector<DicomSlice>& slices) {
-  const DicomSlice& first = slices.front();
-  for (const DicomSlice& s : slices) {
-    if (!s.has_place) {
-      throw InvalidInput(s.file.string() +
+/// One picture of a series: a file's only one, or one of its frames.
+struct Plane {
+  const DicomSlice* slice = nullptr;
+  std::size_t frame = 0;
+
+  [[nodiscard]] const DicomFrame& at() const { return slice->header.frames[frame]; }
+  [[nodiscard]] std::string name() const {
+    const std::string file = slice->file.filename().string();
+    return slice->header.frames.size() == 1 ? file : file + ", frame " + std::to_string(frame + 1);
+  }
+  [[nodiscard]] std::string path() const { return slice->file.string(); }
+};
+
+std::vector<Plane> planes_of(const DicomSeries& series) {
+  std::vector<Plane> planes;
+  for (const DicomSlice& slice : series.slices) {
+    image_formats::check_readable(slice.header, Refuser(slice.file.string()));
+    for (std::size_t i = 0; i < slice.header.frames.size(); ++i) planes.push_back({&slice, i});
+  }
+  return planes;
+}
+
+constexpr const char* kMoveElsewhere =
+    " of the same series; move what does not belong to the scan elsewhere";
+
+void check_same_pixels(const Plane& plane, const Plane& first) {
+  const DicomHeader& a = plane.slice->header;
+  const DicomHeader& b = first.slice->header;
+  const auto differ = [&](const char* what) {
+    throw InvalidInput(plane.path() + ": has another " + what + " than " + first.name() +
+                       kMoveElsewhere);
+  };
+  if (a.bits_allocated != b.bits_allocated) differ("BitsAllocated");
+  if (a.bits_stored != b.bits_stored) differ("BitsStored");
+  if (a.is_signed != b.is_signed) differ("PixelRepresentation");
+  if (a.frame_of_reference_uid != b.frame_of_reference_uid) differ("FrameOfReferenceUID");
+  if (plane.at().has_rescale != first.at().has_rescale) differ("rescale");
+  if (plane.at().slope != first.at().slope) differ("RescaleSlope");
+  if (plane.at().intercept != first.at().intercept) differ("RescaleIntercept");
+}
+
+void check_alike(const std::vector<Plane>& planes) {
+  const Plane& first = planes.front();
+  for (const Plane& p : planes) {
+    if (!p.at().has_place) {
+      throw InvalidInput(p.path() +
                          ": has no ImagePositionPatient, ImageOrientationPatient or PixelSpacing, "
                          "so its place is unknown; export the series again with its geometry");
     }
-    if (s.columns != first.columns || s.rows != first.rows ||
-        !(distance(s.spacing, first.spacing) < kSameDirectionTolerance)) {
-      throw InvalidInput(s.file.string() + ": differs in size or pixel spacing from " +
-                         slice_text(first) +
-                         " of the same series; move what does not belong to the scan elsewhere");
+    if (p.slice->header.columns != first.slice->header.columns ||
+        p.slice->header.rows != first.slice->header.rows ||
+        !(distance(p.at().spacing, first.at().spacing) < kSameSpacingMm)) {
+      throw InvalidInput(p.path() + ": differs in size or pixel spacing from " + first.name() +
+                         kMoveElsewhere);
     }
-    if (!(distance(s.row, first.row) < kSameDirectionTolerance &&
-          distance(s.column, first.column) < kSameDirectionTolerance)) {
-      throw InvalidInput(s.file.string() + ": lies in another plane than " + slice_text(first) +
-                         " of the same series; move what does not belong to the scan elsewhere");
+    if (!(distance(p.at().row, first.at().row) < kSameDirectionTolerance &&
+          distance(p.at().column, first.at().column) < kSameDirectionTolerance)) {
+      throw InvalidInput(p.path() + ": lies in another plane than " + first.name() +
+                         kMoveElsewhere);
     }
+    check_same_pixels(p, first);
   }
 }
 
-/// Proves equal steps along the normal and returns the step [mm]; slices are sorted.
-double check_steps(const std::vector<DicomSlice>& slices, const Vec3& normal) {
+/// Proves equal steps along the normal and returns the step [mm]; planes are sorted.
+double check_steps(const std::vector<Plane>& planes, const Vec3& normal, ReadingNotes& notes) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < slices.size(); ++i) {
-    const Vec3 move = slices[i].position - slices[i - 1].position;
+  for (std::size_t i = 1; i < planes.size(); ++i) {
+    const Vec3 move = planes[i].at().position - planes[i - 1].at().position;
     const double step = dot(move, normal);
-    if (step < kStepToleranceMm) {
-      const bool is_copy = slices[i].instance_uid == slices[i - 1].instance_uid;
-      throw InvalidInput(slices[i].file.string() + " and " + slice_text(slices[i - 1]) +
+    if (!(step >= kStepToleranceMm)) {
+      const bool is_copy =
+          planes[i].slice->header.instance_uid == planes[i - 1].slice->header.instance_uid &&
+          planes[i].slice != planes[i - 1].slice;
+      throw InvalidInput(planes[i].path() + " and " + planes[i - 1].name() +
                          (is_copy ? ": are the same slice twice; remove one copy"
                                   : ": lie at the same place; two scans share a series: separate "
                                     "them into two folders"));
     }
-    if (length(move - normal * step) > kTiltTolerance * step + kStepToleranceMm) {
+    if (!(length(move - normal * step) <= kTiltTolerance * step + kStepToleranceMm)) {
       throw InvalidInput(
-          slices[i].file.string() +
+          planes[i].path() +
           ": the slices are shifted sideways (tilted gantry); resample the series to "
           "a rectangular grid, for example in 3D Slicer, and open the result");
     }
@@ -239,59 +244,205 @@ double check_steps(const std::vector<DicomSlice>& slices, const Vec3& normal) {
     if (std::abs(steps[i] - usual) <= tolerance) continue;
     const double missing = steps[i] / usual - 1.0;
     const bool is_gap = missing > 0.5 && std::abs(missing - std::round(missing)) < 0.1;
-    throw InvalidInput(slices[i].file.parent_path().string() + ": between " +
-                       slice_text(slices[i]) + " and " + slice_text(slices[i + 1]) + " lie " +
-                       mm(steps[i]) + " where other slices are " + mm(usual) + " apart: " +
+    throw InvalidInput(planes[i].slice->file.parent_path().string() + ": between " +
+                       planes[i].name() + " and " + planes[i + 1].name() + " lie " + mm(steps[i]) +
+                       " where other slices are " + mm(usual) + " apart: " +
                        (is_gap ? std::to_string(std::lround(missing)) +
                                      " slice(s) missing; export the whole series again"
                                : "the spacing is uneven; resample the series to even slices"));
   }
-  const Vec3 whole = slices.back().position - slices.front().position;
-  return dot(whole, normal) / static_cast<double>(slices.size() - 1);
+  constexpr double kWrittenDigitsMm = 1e-4;
+  if (sorted.back() - sorted.front() > kWrittenDigitsMm) {
+    notes.conventions.push_back("slices " + mm(sorted.front()) + " to " + mm(sorted.back()) +
+                                " apart were taken as even");
+  }
+  const Vec3 whole = planes.back().at().position - planes.front().at().position;
+  return dot(whole, normal) / static_cast<double>(planes.size() - 1);
 }
 
-Grid<std::int16_t> read_single_file(const DicomSlice& slice, ValueCount& count) {
-  auto io = itk::GDCMImageIO::New();
-  const GridGeometry geometry = read_geometry(*io, slice.file);
-  Grid<std::int16_t> grid(geometry);
-  read_values<std::int16_t>(*io, slice.file, grid.values(), count);
-  return grid;
+GridGeometry geometry_of(const std::vector<Plane>& planes, const Vec3& normal, double step) {
+  const Plane& first = planes.front();
+  image_formats::StatedGeometry stated;
+  stated.size = {static_cast<double>(first.slice->header.columns),
+                 static_cast<double>(first.slice->header.rows), static_cast<double>(planes.size())};
+  stated.spacing = first.at().spacing;
+  stated.spacing.z = step;
+  stated.origin = first.at().position;
+  stated.axes = {first.at().row, first.at().column, normal};
+  return image_formats::usable_geometry(stated, Refuser(first.path()));
+}
+
+/// Of one kind and size, in one plane as far as is known.
+bool are_alike(const Plane& a, const Plane& b) {
+  const DicomHeader& x = a.slice->header;
+  const DicomHeader& y = b.slice->header;
+  if (x.columns != y.columns || x.rows != y.rows || a.slice->class_uid != b.slice->class_uid)
+    return false;
+  if (!a.at().has_place) return true;
+  return distance(a.at().spacing, b.at().spacing) < kSameSpacingMm &&
+         distance(a.at().row, b.at().row) < kSameDirectionTolerance &&
+         distance(a.at().column, b.at().column) < kSameDirectionTolerance;
+}
+
+/// A picture that was passed over but is like the slices and lies exactly one step beyond an end,
+/// or does not know where it lies: a slice whose SeriesInstanceUID was changed would be lost
+/// unseen.
+void refuse_strays(const std::vector<DicomSlice>& strays,
+                   const std::vector<Plane>& planes,
+                   const Vec3& normal,
+                   double step) {
+  const Plane& first = planes.front();
+  const Plane& last = planes.back();
+  for (const DicomSlice& slice : strays) {
+    for (std::size_t i = 0; i < slice.header.frames.size(); ++i) {
+      const Plane p{&slice, i};
+      if (!are_alike(p, first)) continue;
+      const double before = distance(p.at().position + normal * step, first.at().position);
+      const double behind = distance(p.at().position - normal * step, last.at().position);
+      if (p.at().has_place && !(std::min(before, behind) < kStepToleranceMm)) continue;
+      throw InvalidInput(p.path() + ": is like the slices of the series of " + first.name() +
+                         " but names another SeriesInstanceUID; one of the two is damaged, or move "
+                         "what does not belong to the scan elsewhere");
+    }
+  }
+}
+
+void note_conventions(const std::vector<Plane>& planes, bool was_sorted, ReadingNotes& notes) {
+  const DicomFrame& frame = planes.front().at();
+  if (!was_sorted) {
+    notes.conventions.push_back(std::to_string(planes.size()) +
+                                " slices were sorted by their place, not by their files' names");
+  }
+  if (!frame.has_rescale) {
+    notes.conventions.emplace_back(
+        "stored values were taken for HU (no RescaleSlope and RescaleIntercept)");
+  } else if (frame.slope != 1 || frame.intercept != 0) {
+    notes.conventions.push_back("values are stored x " + image_formats::printable(frame.slope) +
+                                " + " + image_formats::printable(frame.intercept) +
+                                " (RescaleSlope, RescaleIntercept)");
+  }
+  if (planes.front().slice->header.syntax.is_lossy) {
+    notes.conventions.emplace_back("the pixels were compressed with loss");
+  }
+}
+
+/// The bytes that a slice's ranges count in; \`unpacked\` holds those of a deflated one.
+std::span<const std::byte> data_of(const DicomSlice& slice,
+                                   const MappedFile& mapped,
+                                   std::vector<std::byte>& unpacked) {
+  if (slice.unpacked_bytes == 0) return mapped.bytes();
+  unpacked = unpack_deflated(mapped.bytes().subspan(static_cast<std::size_t>(slice.data_begins)),
+                             slice.unpacked_bytes, Refuser(slice.file.string()));
+  return unpacked;
+}
+
+std::map<const DicomSlice*, MappedFile> map_files(const DicomSeries& series) {
+  std::map<const DicomSlice*, MappedFile> mapped;
+  for (const DicomSlice& slice : series.slices) {
+    const RegularFile file(slice.file);
+    if (file.size() != slice.file_bytes) {
+      throw IoError(slice.file.string() + ": changed while it was read; try again");
+    }
+    mapped.emplace(&slice, MappedFile(file));
+  }
+  return mapped;
+}
+
+/// In the child: all planes in their order.
+void decode_planes(const std::vector<Plane>& planes,
+                   const std::map<const DicomSlice*, MappedFile>& mapped,
+                   std::span<std::int16_t> values,
+                   ValueCount& count,
+                   std::atomic<std::uint64_t>& steps) {
+  const std::size_t plane_size = values.size() / planes.size();
+  const DicomSlice* at = nullptr;
+  std::vector<std::byte> unpacked;
+  std::span<const std::byte> data;
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    if (planes[k].slice != at) {
+      at = planes[k].slice;
+      data = data_of(*at, mapped.at(at), unpacked);
+    }
+    decode_dicom_frame(data, at->header, planes[k].frame,
+                       values.subspan(k * plane_size, plane_size), count,
+                       Refuser(planes[k].path()));
+    ++steps;
+  }
+}
+
+Grid<std::int16_t> decode(const DicomSeries& series,
+                          const std::vector<Plane>& planes,
+                          const GridGeometry& geometry,
+                          const Progress& progress,
+                          ValueCount& count) {
+  const DicomHeader& header = planes.front().slice->header;
+  std::uint64_t unpacked_bytes = 0;
+  for (const DicomSlice& slice : series.slices) {
+    unpacked_bytes = std::max(unpacked_bytes, slice.unpacked_bytes);
+  }
+  const std::size_t voxels = geometry.voxel_count();
+  ChildTask task;
+  // A deflated data set is there twice while its vector grows.
+  task.heap_bytes = decoding_bytes(header) + 3 * unpacked_bytes;
+  require_memory(voxels * sizeof(std::int16_t) + task.heap_bytes, planes.front().path());
+  const std::map<const DicomSlice*, MappedFile> mapped = map_files(series);
+  SharedArray<std::int16_t> values(voxels);
+  SharedArray<ValueCount> counted(1);
+  task.subject = [&](std::uint64_t steps) {
+    return planes[std::min<std::size_t>(steps, planes.size() - 1)].path();
+  };
+  task.deadline = time_for(voxels * sizeof(std::int16_t));
+  task.most_steps = planes.size();
+  task.work = [&](std::atomic<std::uint64_t>& steps) {
+    ValueCount local;
+    decode_planes(planes, mapped, values.values(), local, steps);
+    counted.values()[0] = local;
+  };
+  task.watch = [&](std::uint64_t steps) {
+    progress("reading", static_cast<double>(steps) / static_cast<double>(planes.size()));
+  };
+  run_in_child(task);
+  count = counted.values()[0];
+  return Grid<std::int16_t>(geometry, values.take());
 }
 
 }  // namespace
 
 bool looks_like_dicom(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 132> start{};
-  in.read(start.data(), start.size());
-  return in.gcount() == static_cast<std::streamsize>(start.size()) && start[128] == 'D' &&
-         start[129] == 'I' && start[130] == 'C' && start[131] == 'M';
+  const RegularFile opened(file);
+  FileBytes bytes(opened);
+  return image_formats::has_dicom_mark(bytes);
 }
 
 std::vector<DicomSeries> scan_dicom(const fs::path& folder) {
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();  // our messages name the file and what to do
   std::map<std::string, DicomSeries> by_uid;
   std::vector<fs::path> unmarked;
+  std::map<fs::path, std::string> class_of_others;
   std::set<std::string> patterns;
   for (const fs::path& file : files_under(folder)) {
     if (file.filename() == "DICOMDIR") continue;
-    if (!looks_like_dicom(file)) {
+    const RegularFile opened(file);
+    FileBytes bytes(opened);
+    if (!image_formats::has_dicom_mark(bytes)) {
       unmarked.push_back(file);
       continue;
     }
     DicomSlice slice;
-    if (!scan_file(file, slice)) continue;
-    patterns.insert(name_pattern(file));
-    DicomSeries& series = by_uid[slice.series_uid];
-    if (series.slices.empty()) {
-      series.summary = {slice.series_uid, slice.series_description, slice.modality, 0,
-                        file.parent_path()};
+    if (!scan_file(opened, bytes, slice)) {
+      class_of_others[file] = slice.class_uid;
+      continue;
     }
-    series.summary.slices += slice.frames;
+    patterns.insert(name_pattern(file));
+    DicomSeries& series = by_uid[slice.header.series_uid];
+    if (series.slices.empty()) {
+      series.summary = {slice.header.series_uid, slice.header.series_description,
+                        slice.header.modality, 0, file.parent_path()};
+    }
+    series.summary.slices += static_cast<int>(slice.header.frames.size());
     series.slices.push_back(std::move(slice));
   }
   refuse_lost_slices(unmarked, patterns);
+  refuse_headless(class_of_others, by_uid);
   std::vector<DicomSeries> all;
   for (auto& [uid, series] : by_uid) all.push_back(std::move(series));
   std::stable_sort(all.begin(), all.end(), [](const DicomSeries& a, const DicomSeries& b) {
@@ -300,40 +451,24 @@ std::vector<DicomSeries> scan_dicom(const fs::path& folder) {
   return all;
 }
 
-Grid<std::int16_t> read_series(DicomSeries series, const Progress& progress, ValueCount& count) {
-  std::vector<DicomSlice>& slices = series.slices;
-  if (slices.size() == 1) return read_single_file(slices.front(), count);
-  check_alike(slices);
-  const DicomSlice& any = slices.front();
-  const Vec3 normal = normalized_or(cross(any.row, any.column), {0, 0, 1});
-  std::stable_sort(slices.begin(), slices.end(), [&](const DicomSlice& a, const DicomSlice& b) {
-    return dot(a.position, normal) < dot(b.position, normal);
-  });
-  const double step = check_steps(slices, normal);
-
-  auto io = itk::GDCMImageIO::New();
-  GridGeometry g = read_geometry(*io, slices.front().file);
-  g.size[2] = static_cast<int>(slices.size());
-  g.spacing.z = step;
-  g.origin = slices.front().position;
-  if (g.voxel_count() > kMostVoxels) {
-    throw InvalidInput(any.file.parent_path().string() +
-                       ": the series has more voxels than this program holds (2^30); crop it");
+Grid<std::int16_t> read_series(DicomSeries series, const Progress& progress, ReadingNotes& notes) {
+  std::vector<Plane> planes = planes_of(series);
+  if (planes.size() < 2) {
+    throw InvalidInput(series.slices.front().file.string() +
+                       ": is a single slice; give the folder of the whole scan");
   }
-  Grid<std::int16_t> grid(g);
-  const std::size_t slice_size =
-      static_cast<std::size_t>(g.size[0]) * static_cast<std::size_t>(g.size[1]);
-  for (std::size_t k = 0; k < slices.size(); ++k) {
-    const auto slice_io = itk::GDCMImageIO::New();
-    const GridGeometry own = read_geometry(*slice_io, slices[k].file);
-    if (own.size[0] != g.size[0] || own.size[1] != g.size[1] || own.size[2] != 1) {
-      throw InvalidInput(slices[k].file.string() + ": has another size than the first slice");
-    }
-    read_values<std::int16_t>(*slice_io, slices[k].file,
-                              grid.values().subspan(k * slice_size, slice_size), count);
-    progress("reading", static_cast<double>(k + 1) / static_cast<double>(slices.size()));
-  }
-  return grid;
+  check_alike(planes);
+  const Vec3 normal =
+      normalized_or(cross(planes.front().at().row, planes.front().at().column), {0, 0, 1});
+  const auto is_lower = [&](const Plane& a, const Plane& b) {
+    return dot(a.at().position, normal) < dot(b.at().position, normal);
+  };
+  const bool was_sorted = std::is_sorted(planes.begin(), planes.end(), is_lower);
+  std::stable_sort(planes.begin(), planes.end(), is_lower);
+  const double step = check_steps(planes, normal, notes);
+  refuse_strays(series.strays, planes, normal, step);
+  note_conventions(planes, was_sorted, notes);
+  return decode(series, planes, geometry_of(planes, normal, step), progress, notes.count);
 }
 
 }  // namespace carpus::case_io

@@ -25,15 +25,6 @@ GzFile open(const std::filesystem::path& file, const char* mode) {
 
 }  // namespace
 
-std::string read_nifti_description(const std::filesystem::path& file) {
-  const GzFile in = open(file, "rb");
-  std::string header(kDescriptionAt + kDescriptionBytes, '\0');
-  const auto size = static_cast<unsigned>(header.size());
-  if (!in || gzread(in.get(), header.data(), size) != static_cast<int>(size)) return {};
-  const std::string description = header.substr(kDescriptionAt);
-  return description.substr(0, description.find('\0'));
-}
-
 void copy_nifti_with_description(const std::filesystem::path& from,
                                  const std::filesystem::path& file,
                                  const std::string& description) {

@@ -1,17 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words that a NIfTI file says about itself: its header's `descrip`, which ITK 5.2 reads but
-// does not write.
+// The words that a NIfTI file says about itself: its header's `descrip`, which ITK 5.2 does not
+// write.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 namespace carpus::case_io {
-
-/// Of a .nii or .nii.gz file; empty where it says nothing or cannot be read.
-[[nodiscard]] std::string read_nifti_description(const std::filesystem::path& file);
 
 /// Copies the NIfTI `from` to `file`, compressed where its name ends with .gz, with the
 /// description's first 79 bytes in the header.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "core/error.hpp"
@@ -23,14 +21,6 @@ std::optional<double> parse(std::string_view word) {
 }
 
 }  // namespace
-
-std::string read_whole_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw IoError(file.string() + ": cannot be opened; check the name and the permissions");
-  std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) throw IoError(file.string() + ": cannot be read whole; check the disk");
-  return content;
-}
 
 TextLines::TextLines(const std::filesystem::path& file,
                      std::string_view content,

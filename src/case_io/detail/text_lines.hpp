@@ -13,9 +13,6 @@
 
 namespace carpus::case_io {
 
-/// The whole file. @throws IoError where it cannot be read.
-[[nodiscard]] std::string read_whole_file(const std::filesystem::path& file);
-
 /// Words are separated by `separators`; what follows '#' is a comment; empty lines are skipped.
 class TextLines {
  public:
