@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "case_io/case_folder.hpp"
 #include "case_io/read_volume.hpp"
@@ -83,6 +84,8 @@ void run(const Arguments& a) {
   case_io::ReadOptions reading;
   reading.series_uid = a.series;
   reading.warn = warn;
+  std::vector<std::string> conventions;
+  reading.note = [&](const std::string& text) { conventions.push_back(text); };
   Grid<std::int16_t> ct = case_io::read_ct(a.input, reading);
   reconstruct::GroundTruth truth;
   if (!a.truth.empty()) {
@@ -97,6 +100,7 @@ void run(const Arguments& a) {
   options.provenance.source = source_in_words(a, ct.geometry(), options.provenance.simulated);
   options.provenance.made_by = kProgramVersion;
   options.provenance.made_at = utc_now();
+  options.provenance.conventions = conventions;
   options.progress = show_progress;
   reconstruct::Reconstruction result = reconstruct::reconstruct_case(std::move(ct), options);
   for (const std::string& text : result.warnings) warn(text);

@@ -83,6 +83,7 @@ ReconstructionReport make_report(const Reconstruction& reconstruction,
   ReconstructionReport report;
   report.side = name_of(reconstruction.data.side);
   report.stages = reconstruction.stages;
+  report.conventions = reconstruction.data.provenance.conventions;
   report.naming_cost = reconstruction.naming_cost;
   report.other_side_cost = reconstruction.other_side_cost;
   for (std::size_t i = 0; i < reconstruction.data.bones.size(); ++i) {
@@ -105,6 +106,8 @@ std::string text_of(const ReconstructionReport& report) {
   std::string text;
   append(text, "side: %s (misfit %.1f; as the other side %.1f)\n\n", report.side.c_str(),
          report.naming_cost, report.other_side_cost);
+  for (const std::string& words : report.conventions) text += "by convention: " + words + "\n";
+  if (!report.conventions.empty()) text += '\n';
   append_bones(report, text);
   if (report.dice_mean && report.dice_min) {
     append(text, "\nDice: mean %.4f, worst bone %.4f\n", *report.dice_mean, *report.dice_min);
@@ -139,6 +142,7 @@ std::string json_of(const ReconstructionReport& report) {
   for (const StageTime& stage : report.stages) {
     json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   }
+  json["conventions"] = report.conventions;
   return json.dump(2) + "\n";
 }
 

@@ -32,6 +32,7 @@ struct ReconstructionReport {
   std::optional<double> dice_mean;  ///< over the truth's bones; one that was not found counts as 0
   std::optional<double> dice_min;
   std::vector<StageTime> stages;
+  std::vector<std::string> conventions;  ///< taken when the scan was read, in words
   double naming_cost = 0;
   double other_side_cost = 0;
 };
@@ -45,8 +46,9 @@ struct ReconstructionReport {
 [[nodiscard]] std::string text_of(const ReconstructionReport& report);
 
 /// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets"}],
-/// "dice_mean", "dice_min", "stages": [{"name", "seconds"}]}; the Dice figures are null without a
-/// truth. A bone that was not found is not in "bones", but counts in the mean and the minimum.
+/// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": []}; the Dice figures
+/// are null without a truth. A bone that was not found is not in "bones", but counts in the mean
+/// and the minimum.
 [[nodiscard]] std::string json_of(const ReconstructionReport& report);
 
 }  // namespace carpus::reconstruct

@@ -28,6 +28,7 @@ Reconstruction two_bones() {
     r.figures.push_back({0.5, 0.002});
   }
   r.stages = {{"smooth", 1.0}, {"names", 3.0}};
+  r.data.provenance.conventions = {"values are stored x 1 + -1024"};
   return r;
 }
 
@@ -46,7 +47,9 @@ TEST(ReconstructionReport, WritesTheDocumentedJson) {
   EXPECT_EQ(json["dice_min"], 0.8);
   EXPECT_EQ(json["stages"][1]["name"], "names");
   EXPECT_EQ(json["stages"][1]["seconds"], 3.0);
-  EXPECT_EQ(json.size(), 5U);
+  EXPECT_EQ(json["conventions"][0], "values are stored x 1 + -1024");
+  EXPECT_EQ(json.size(), 6U);
+  EXPECT_NE(text_of(report).find("by convention: values are stored"), std::string::npos);
 }
 
 TEST(ReconstructionReport, SaysNothingAboutDiceWithoutATruth) {
