@@ -25,6 +25,10 @@ void write(FieldWriter& out, const Hello& in) {
   out.text("page", in.page, 64);
 }
 
+void read(FieldReader& /*in*/, End& /*out*/) {}
+
+void write(FieldWriter& out, const End& /*in*/) { out.name("type", "end"); }
+
 void read(FieldReader& in, Start& out) {
   out.trainee = in.string("trainee", 64);
   out.procedure = in.string("procedure", 64);
@@ -141,6 +145,7 @@ void read(FieldReader& in, Welcome& out) {
   out.exercise = in.integer("exercise", 0, 9007199254740991);
   out.trainee = in.string("trainee", 64);
   out.started_at = in.string("started_at", 32);
+  out.is_own = in.boolean("is_own");
 }
 
 void write(FieldWriter& out, const Welcome& in) {
@@ -150,6 +155,7 @@ void write(FieldWriter& out, const Welcome& in) {
   out.value("exercise", in.exercise);
   out.text("trainee", in.trainee, 64);
   out.text("started_at", in.started_at, 32);
+  out.value("is_own", in.is_own);
 }
 
 void read(FieldReader& in, Exercise& out) {
@@ -279,11 +285,15 @@ void write(FieldWriter& out, const Error& in) {
   out.text("what_to_do", in.what_to_do, 1024);
 }
 
-void read(FieldReader& in, Busy& out) { out.reason = in.string("reason", 256); }
+void read(FieldReader& in, Busy& out) {
+  out.reason = in.string("reason", 256);
+  out.may_end = in.boolean("may_end");
+}
 
 void write(FieldWriter& out, const Busy& in) {
   out.name("type", "busy");
   out.text("reason", in.reason, 256);
+  out.value("may_end", in.may_end);
 }
 
 template <typename Union, typename Message>
@@ -317,8 +327,9 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 9> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 10> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
+     {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
      {"hand", &read_as<PageMessage, Hand>},
      {"wrist", &read_as<PageMessage, Wrist>},

@@ -26,12 +26,19 @@ namespace carpus::protocol {
 inline constexpr std::size_t kMaxTextBytes = 16384;
 
 /// First message of a connection. `page` is a word that the page chose at random and says each time
-/// it comes: it gives a page that lost its connection its seat back.
+/// it comes: the exercise that it begins belongs to it, after a lost connection too. Nobody goes on
+/// with another's.
 struct Hello {
   /// 1 to 1000
   std::int64_t protocol = 0;
   std::string page;
   bool operator==(const Hello&) const = default;
+};
+
+/// From an instructor: ends what another page does here, which is stored as unfinished, and frees
+/// the seat for the next hello.
+struct End {
+  bool operator==(const End&) const = default;
 };
 
 /// Begins an exercise anew; whatever ran before is stored as unfinished.
@@ -114,12 +121,14 @@ struct Pause {
   bool operator==(const Pause&) const = default;
 };
 
-using PageMessage = std::variant<Hello, Start, Hand, Wrist, Act, TakeShot, CArm, Pedal, Pause>;
+using PageMessage = std::variant<Hello, End, Start, Hand, Wrist, Act, TakeShot, CArm, Pedal, Pause>;
 
 /// Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does;
 /// none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since
-/// when, both empty when none runs. After hello a running exercise is paused until the page goes on
-/// with it, and what is being done (exercise), its last events, its pictures and its state follow.
+/// when, both empty when none runs. Where it is the page's own (`is_own`), it is paused until the
+/// page goes on with it, and what is being done (exercise), its last events, its pictures and its
+/// state follow. Where it is another's, start stores it as unfinished, and nothing else is done
+/// with it; an instructor is told its name and shown how it stands.
 struct Welcome {
   /// 1 to 1000
   std::int64_t protocol = 0;
@@ -128,6 +137,8 @@ struct Welcome {
   std::int64_t exercise = 0;
   std::string trainee;
   std::string started_at;
+  /// this page began the exercise; false where none runs
+  bool is_own = false;
   bool operator==(const Welcome&) const = default;
 };
 
@@ -226,6 +237,8 @@ struct Error {
 /// Another page operates; it says how to get in.
 struct Busy {
   std::string reason;
+  /// `end` would be done for this page
+  bool may_end = false;
   bool operator==(const Busy&) const = default;
 };
 

@@ -137,17 +137,19 @@ class PageClient {
   };
 
   /// @param origin  of the page; empty sends none.
-  PageClient(std::uint16_t port, const std::string& origin, const std::string& target = "/ws")
+  PageClient(std::uint16_t port, const std::string& origin, const std::string& cookie)
       : socket_(context_) {
     socket_.next_layer().connect(loopback(port));
     socket_.set_option(
-        beast::websocket::stream_base::decorator([origin](beast::websocket::request_type& message) {
+        beast::websocket::stream_base::decorator([&](beast::websocket::request_type& message) {
           if (!origin.empty()) message.set(beast::http::field::origin, origin);
+          if (!cookie.empty()) message.set(beast::http::field::cookie, cookie);
         }));
-    socket_.handshake(host_of(port), target, error_);
+    socket_.handshake(host_of(port), "/ws", error_);
     if (!error_) read_next();
   }
-  explicit PageClient(std::uint16_t port) : PageClient(port, "http://" + host_of(port)) {}
+  explicit PageClient(std::uint16_t port, const std::string& cookie = "")
+      : PageClient(port, "http://" + host_of(port), cookie) {}
 
   [[nodiscard]] bool is_connected() const { return !error_ && !closed_; }
 

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "core/error.hpp"
-#include "core/version.hpp"
+#include "core/person_name.hpp"
 #include "protocol/bodies.hpp"
 
 namespace carpus::server {
@@ -32,12 +32,12 @@ std::uint64_t first_exercise_number() {
   return static_cast<std::uint64_t>(std::chrono::duration_cast<milliseconds>(now).count());
 }
 
-void send_error(PageConnection& page, std::string reason, std::string what_to_do) {
+}  // namespace
+
+void Station::send_error(PageConnection& page, std::string reason, std::string what_to_do) {
   page.send_text(
       serialize(protocol::HostMessage(protocol::Error{std::move(reason), std::move(what_to_do)})));
 }
-
-}  // namespace
 
 Station::Station(const cases::CaseData& data,
                  const procedure::ProcedureList& procedures,
@@ -69,14 +69,14 @@ void Station::deliver(std::uint64_t exercise, PictureKind kind, std::string fram
   // A picture of the exercise before is of no use to this one.
   if (exercise != exercise_number_) return;
   if (kind == PictureKind::Live) {
-    const bool is_heard = operator_ && operator_->waiting_frames() <= kMaxWaitingFrames;
+    const bool is_heard = may_watch() && operator_->waiting_frames() <= kMaxWaitingFrames;
     if (is_heard && !frame.empty()) operator_->send_binary(frame);
     return;
   }
   if (frame.empty()) return refuse("The picture could not be made", "Take it again.");
   shown_.push_back(std::move(frame));
   if (shown_.size() > kPicturesKept) shown_.pop_front();
-  if (operator_) operator_->send_binary(shown_.back());
+  if (may_watch()) operator_->send_binary(shown_.back());
 }
 
 void Station::on_open(const std::shared_ptr<PageConnection>& page) { visitors_[page.get()]; }
@@ -85,7 +85,7 @@ void Station::on_close(const std::shared_ptr<PageConnection>& page) {
   visitors_.erase(page.get());
   if (page != operator_) return;
   operator_.reset();
-  left_at_ = steady_clock::now();
+  if (operator_owns_) left_at_ = steady_clock::now();
   if (!exercise_) return;
   // Whoever comes back finds the driver off and time where it stood.
   exercise_->loop().hold(exercise_->session().let_go());
@@ -122,12 +122,15 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
                       "Reload the page; the exercise goes on.");
   }
   if (const auto* hello = std::get_if<protocol::Hello>(&*message)) return greet(page, *hello);
+  if (std::holds_alternative<protocol::End>(*message)) return end_for(page);
   if (page != operator_) {
     return send_error(*page, "This page does not operate", "Say hello first.");
   }
+  seat_used_at_ = steady_clock::now();
+  if (exercise_ && !operator_owns_ && !std::holds_alternative<protocol::Start>(*message)) {
+    return refuse("This operation is another page's", "Start anew, which stores it as unfinished.");
+  }
   operator_acts_ = true;
-  owner_word_ = operator_word_;
-  if (exercise_) exercise_->note_owner(owner_word_);
   try {
     std::visit([this](const auto& m) { on_message(m); }, *message);
   } catch (const Error& error) {
@@ -136,72 +139,9 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
   }
 }
 
-void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello) {
-  if (hello.protocol != protocol::kProtocolVersion) {
-    send_error(*page,
-               "The page speaks protocol " + std::to_string(hello.protocol) + ", this station " +
-                   std::to_string(protocol::kProtocolVersion),
-               "Reload the page.");
-    return page->close();
-  }
-  page->keep();
-  if (std::string reason = why_busy(*page, hello.page); !reason.empty()) {
-    return page->send_text(serialize(protocol::HostMessage(protocol::Busy{std::move(reason)})));
-  }
-  const auto before = std::exchange(operator_, page);
-  if (before == page) return welcome();
-  if (before) before->close();
-  operator_word_ = hello.page;
-  operator_acts_ = false;
-  last_heard_ = steady_clock::now();
-  // Time stands still until the page goes on.
-  paused_by_page_ = true;
-  apply_pause();
-  welcome();
-  if (exercise_) show_again();
-}
-
-void Station::welcome() {
-  protocol::Welcome message;
-  message.protocol = protocol::kProtocolVersion;
-  message.program = kProgramVersion;
-  if (exercise_) {
-    message.exercise = static_cast<std::int64_t>(exercise_number_);
-    message.trainee = exercise_->trainee();
-    message.started_at = exercise_->started_at();
-  }
-  send(message);
-}
-
-std::string Station::why_busy(const PageConnection& page, const std::string& word) const {
-  const auto now = steady_clock::now();
-  const bool is_known = !word.empty() && word == owner_word_;
-  if (operator_ && operator_.get() != &page) {
-    // It comes back before its old connection is known to be dead, or its seat is not in use.
-    const bool in_use = operator_acts_ && now - last_heard_ <= kSilence;
-    if (is_known && exercise_ && !in_use) return {};
-    return "Another page operates on this station. Close it there, then try again.";
-  }
-  if (!operator_ && exercise_ && !is_known && now - left_at_ < patience_.seat) {
-    return "The page that operates here has just lost its connection; its seat is kept for a "
-           "moment.";
-  }
-  return {};
-}
-
-/// The exercise as a page must know it that comes back.
-void Station::show_again() {
-  exercise_->session().forget_what_was_sent();
-  send(exercise_->session().exercise());
-  const std::vector<protocol::LoggedEvent>& log = exercise_->log();
-  for (std::size_t i = log.size() - std::min(log.size(), kEventsShown); i < log.size(); ++i) {
-    send(protocol::Event{log[i]});
-  }
-  for (const std::string& frame : shown_) operator_->send_binary(frame);
-  send_update();
-}
-
 void Station::on_message(const protocol::Hello&) {}
+
+void Station::on_message(const protocol::End&) {}
 
 void Station::on_message(const protocol::Start& start) {
   const procedure::Procedure* procedure = procedures_.find(start.procedure);
@@ -209,7 +149,11 @@ void Station::on_message(const protocol::Start& start) {
     return refuse("There is no procedure '" + start.procedure + "'",
                   "Choose one of those that the station offers.");
   }
+  if (const auto problem = problem_of_name(start.trainee)) {
+    return refuse(*problem, "Type the name anew, then start.");
+  }
   store_running();
+  own_what_begins();
   ExerciseSetup setup;
   setup.trainee = start.trainee;
   setup.input_device = name_of(start.input_device);
@@ -289,7 +233,11 @@ void Station::apply_pause() {
 
 void Station::update() {
   if (!exercise_) return;
-  if (!operator_ && steady_clock::now() - left_at_ > patience_.exercise) return store_running();
+  const bool is_here = operator_ && operator_owns_;
+  if (!is_here && steady_clock::now() - left_at_ > patience_.exercise) {
+    store_running();
+    return welcome();
+  }
   watch_silence();
   send_news();
   watch_disk();
@@ -322,7 +270,9 @@ void Station::watch_disk() {
 
 void Station::send_news() {
   ExerciseNews news = exercise_->collect();
-  for (const protocol::LoggedEvent& event : news.events) send(protocol::Event{event});
+  for (const protocol::LoggedEvent& event : news.events) {
+    if (may_watch()) send(protocol::Event{event});
+  }
   for (TakenShot& shot : news.shots) {
     shot.exercise = exercise_number_;
     if (pictures_) pictures_->request(shot);
@@ -330,7 +280,7 @@ void Station::send_news() {
 }
 
 void Station::send_state() {
-  if (!exercise_->update() || !operator_) return;
+  if (!exercise_->update() || !may_watch()) return;
   if (auto live = exercise_->live_picture(); live && pictures_) {
     live->exercise = exercise_number_;
     pictures_->request(*live);

@@ -32,11 +32,13 @@ namespace carpus::server {
 /// One line for the person who runs the station.
 using Log = std::function<void(const std::string& line)>;
 
-/// How long a station waits for a page that lost its connection.
+/// How long a station waits for a page that lost its connection or does nothing.
 struct StationPatience {
-  /// For so long only that page may operate.
+  /// For so long only that page may operate; so long a page keeps a seat without an exercise of its
+  /// own when another asks for it.
   std::chrono::milliseconds seat{30'000};
-  /// So long its exercise stands still before it is stored as unfinished.
+  /// So long an exercise stands still before it is stored as unfinished; so long a page keeps the
+  /// seat without doing anything when another asks for it.
   std::chrono::milliseconds exercise{600'000};
 };
 
@@ -80,6 +82,7 @@ class Station : public PageHandler {
     std::uint64_t number = 0;
     std::string in_words;
     std::string score_json;  ///< empty when unfinished
+    std::string browser;     ///< in which it was made
     records::KeptAttempt kept;
   };
   /// A tool pose a tick is the most that can have an effect.
@@ -90,6 +93,7 @@ class Station : public PageHandler {
   static constexpr std::size_t kEventsShown = 40;
 
   void on_message(const protocol::Hello& hello);
+  void on_message(const protocol::End& end);
   void on_message(const protocol::Start& start);
   void on_message(const protocol::Hand& hand);
   void on_message(const protocol::Wrist& wrist);
@@ -99,7 +103,14 @@ class Station : public PageHandler {
   void on_message(const protocol::Pedal& pedal);
   void on_message(const protocol::Pause& pause);
 
+  // In station_seat.cpp: who has the seat, whose the exercise is.
   void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
+  [[nodiscard]] bool owns(const std::string& word) const;
+  void own_what_begins();
+  /// Whether the page that has the seat may see the exercise: its own, or an instructor.
+  [[nodiscard]] bool may_watch() const;
+  /// Ends what runs because an instructor wishes it.
+  void end_for(const std::shared_ptr<PageConnection>& page);
   /// Why this page may not operate now; empty when it may.
   [[nodiscard]] std::string why_busy(const PageConnection& page, const std::string& word) const;
   void welcome();
@@ -125,6 +136,7 @@ class Station : public PageHandler {
   void take_stored();
   void tell_stored(const ConcludedExercise& concluded);
   void send_score(std::int64_t id, const std::string& score_json);
+  static void send_error(PageConnection& page, std::string reason, std::string what_to_do);
   void send(const protocol::HostMessage& message);
   void refuse(std::string reason, std::string what_to_do);
   [[nodiscard]] bool has_exercise();
@@ -136,9 +148,12 @@ class Station : public PageHandler {
   Log log_;
   StationPatience patience_;
   std::shared_ptr<PageConnection> operator_;
-  std::string operator_word_;                      ///< what it said in hello
-  std::string owner_word_;                         ///< of the page that last acted in the exercise
-  bool operator_acts_ = false;                     ///< it did more than say hello
+  std::string operator_word_;   ///< what it said in hello
+  std::string owner_word_;      ///< of the page that began the exercise
+  std::string owner_browser_;   ///< in which that page is
+  bool operator_owns_ = false;  ///< it began the exercise that runs
+  bool operator_acts_ = false;  ///< it did more than say hello
+  std::chrono::steady_clock::time_point seat_used_at_;
   std::chrono::steady_clock::time_point left_at_;  ///< when it was lost
   std::unordered_map<PageConnection*, Visitor> visitors_;
   std::unique_ptr<Exercise> exercise_;

@@ -80,6 +80,7 @@ void Station::conclude() {
                                   std::to_string(attempt.summary.duration_ticks / 1000) + " s; " +
                                   timing,
                               finished ? attempt.score_json : "",
+                              owner_browser_,
                               {}};
   // Called in the records' thread. The journal goes when the attempt is on disk elsewhere.
   records_.save(std::move(attempt), [this, journal, network = network_,
@@ -105,6 +106,7 @@ void Station::take_stored() {
 
 void Station::tell_stored(const ConcludedExercise& concluded) {
   const records::KeptAttempt& kept = concluded.kept;
+  if (kept.id > 0) owners_.add(kept.id, concluded.browser);
   log_("attempt " + (kept.id > 0 ? std::to_string(kept.id) : std::string("(not stored)")) +
        concluded.in_words);
   if (!kept.problem.empty()) {
@@ -112,7 +114,7 @@ void Station::tell_stored(const ConcludedExercise& concluded) {
     refuse(kept.problem, "Tell the person who runs this station; nothing is lost yet.");
   }
   // Who has begun another exercise meanwhile finds the score among the past attempts.
-  const bool is_awaited = concluded.number == exercise_number_ && !exercise_;
+  const bool is_awaited = concluded.number == exercise_number_ && !exercise_ && operator_owns_;
   if (is_awaited && !concluded.score_json.empty()) send_score(kept.id, concluded.score_json);
 }
 

@@ -31,8 +31,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":5,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":5,"page":"second"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":6,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":6,"page":"second"})";
 constexpr const char* kStart = R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
                                R"("input_device":"mouse","seed":7})";
 constexpr const char* kHand =
@@ -58,7 +58,7 @@ class StationTest : public ::testing::Test {
         wrist(), procedures(), *records_, [](const std::string&) {}, patience());
     http_ = std::make_unique<StationHttp>(wrist(), procedures(), "glTF", *records_,
                                           station_->owners(), folder_);
-    NetworkOptions options;
+    NetworkOptions options = network();
     options.port = 0;
     options.ping_interval = 100ms;
     network_ = std::make_unique<NetworkServer>(
@@ -77,10 +77,12 @@ class StationTest : public ::testing::Test {
     if (thread_.joinable()) thread_.join();
   }
   [[nodiscard]] virtual StationPatience patience() const { return {600s, 600s}; }
+  [[nodiscard]] virtual NetworkOptions network() const { return {}; }
   [[nodiscard]] std::uint16_t port() const { return network_->port(); }
 
-  [[nodiscard]] static std::unique_ptr<PageClient> operate(std::uint16_t port) {
-    auto page = std::make_unique<PageClient>(port);
+  [[nodiscard]] static std::unique_ptr<PageClient> operate(std::uint16_t port,
+                                                           const std::string& cookie = "") {
+    auto page = std::make_unique<PageClient>(port, cookie);
     page->send(kHello);
     EXPECT_THAT(page->wait_for_type("welcome"), HasSubstr("\"exercise\":0,"));
     page->send(kStart);
@@ -375,26 +377,156 @@ class ImpatientStationTest : public StationTest {
   [[nodiscard]] StationPatience patience() const override { return {50ms, 600s}; }
 };
 
-TEST_F(ImpatientStationTest, SeatLapsesButItsOwnerGetsItBackUntilAnotherActs) {
+TEST_F(ImpatientStationTest, SeatLapsesButItsOwnerGetsItBackUntilAnotherStartsAnew) {
   auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   page->vanish();
   PageClient second(port());
-  const std::string offered = say_hello(second, kSecondHello, "welcome");
-  EXPECT_THAT(offered, Not(HasSubstr("\"exercise\":0,")));
+  const Json offered = Json::parse(say_hello(second, kSecondHello, "welcome"));
+  EXPECT_GT(offered["exercise"], 0);
+  EXPECT_EQ(offered["is_own"], false);
   PageClient again(port());
-  EXPECT_EQ(say_hello(again, kHello, "welcome"), offered);
+  const Json back = Json::parse(say_hello(again, kHello, "welcome"));
+  EXPECT_EQ(back["exercise"], offered["exercise"]);
+  EXPECT_EQ(back["is_own"], true);
   EXPECT_TRUE(second.wait_until_closed());
   again.vanish();
   PageClient third(port());
-  EXPECT_EQ(say_hello(third, kSecondHello, "welcome"), offered);
+  (void)say_hello(third, kSecondHello, "welcome");
   third.send(kStart);
-  EXPECT_NE(third.wait_for_type("welcome"), offered);
+  const Json begun = Json::parse(third.wait_for_type("welcome"));
+  EXPECT_NE(begun["exercise"], offered["exercise"]);
+  EXPECT_EQ(begun["is_own"], true);
   wait_for_attempts(1);
   EXPECT_EQ(records_->find(1)->summary.outcome, records::Outcome::Unfinished);
-  PageClient late(port());
-  late.send(kHello);
-  EXPECT_THAT(late.wait_for_type("busy"), HasSubstr("Another page operates"));
+}
+
+TEST_F(ImpatientStationTest, NobodyGoesOnUnderAnothersName) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->vanish();
+  PageClient second(port());
+  (void)say_hello(second, kSecondHello, "welcome");
+  const Json before = wait_for_snapshot(second, [](const Json& s) { return bool(s["paused"]); });
+  for (
+      const char* text :
+      {kHand, kGoOn, R"({"type":"act","id":"finish"})",
+       R"({"type":"wrist","flexion_deg":1,"radial_deviation_deg":0,"pronation_deg":0,"traction_n":0})",
+       R"({"type":"take_shot","rotation_deg":0,"tilt_deg":0,"reference":"held_forearm"})"}) {
+    second.send(text);
+    EXPECT_THAT(second.wait_for_type("error"), HasSubstr("another page's")) << text;
+  }
+  PageClient again(port());
+  (void)say_hello(again, kHello, "welcome");
+  const Json after = wait_for_snapshot(again, [](const Json&) { return true; });
+  EXPECT_EQ(after["tick"], before["tick"]);
+  EXPECT_EQ(after["state_hash"], before["state_hash"]);
+  EXPECT_EQ(records_->list().size(), 0U);
+}
+
+TEST_F(ImpatientStationTest, PageThatOnlySaidHelloGivesTheSeatToTheNextThatAsks) {
+  PageClient idle(port());
+  EXPECT_THAT(say_hello(idle, kHello, "welcome"), HasSubstr("\"exercise\":0,"));
+  PageClient second(port());
+  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"exercise\":0,"));
+  EXPECT_TRUE(idle.wait_until_closed());
+  second.send(kStart);
+  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"is_own\":true"));
+  PageClient third(port());
+  third.send(kHello);
+  EXPECT_THAT(third.wait_for_type("busy"), HasSubstr("Another page operates"));
+}
+
+class IdleStationTest : public StationTest {
+ protected:
+  [[nodiscard]] StationPatience patience() const override { return {600s, 300ms}; }
+};
+
+TEST_F(IdleStationTest, PageThatDoesNothingInItsExerciseGivesTheSeatToTheNextThatAsks) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 500; });
+  PageClient second(port());
+  EXPECT_THAT(say_hello(second, kSecondHello, "welcome"), HasSubstr("\"is_own\":false"));
+  EXPECT_TRUE(page->wait_until_closed());
+  wait_for_attempts(1);
+  EXPECT_THAT(second.wait_for_type("welcome"), HasSubstr("\"exercise\":0,"));
+}
+
+class LinkedStationTest : public StationTest {
+ protected:
+  [[nodiscard]] StationPatience patience() const override { return {50ms, 600s}; }
+  [[nodiscard]] NetworkOptions network() const override {
+    NetworkOptions options;
+    options.links = links_;
+    return options;
+  }
+  [[nodiscard]] std::string cookie_for(const std::string& token) const {
+    const std::string set(request(port(), "/?token=" + token)["Set-Cookie"]);
+    return set.substr(0, set.find(';'));
+  }
+  const AccessLinks links_ = make_access_links();
+};
+
+TEST_F(LinkedStationTest, InstructorEndsAnothersExerciseAndItsPageIsTold) {
+  const auto page = operate(port(), cookie_for(links_.trainee));
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  PageClient instructor(port(), cookie_for(links_.instructor));
+  instructor.send(kSecondHello);
+  EXPECT_THAT(instructor.wait_for_type("busy"), HasSubstr("\"may_end\":true"));
+  instructor.send(R"({"type":"end"})");
+  EXPECT_THAT(page->wait_for_type("error"), HasSubstr("An instructor has ended"));
+  EXPECT_TRUE(page->wait_until_closed());
+  EXPECT_THAT(say_hello(instructor, kSecondHello, "welcome"), HasSubstr("\"exercise\":0,"));
+  wait_for_attempts(1);
+  EXPECT_EQ(records_->find(1)->summary.outcome, records::Outcome::Unfinished);
+}
+
+TEST_F(LinkedStationTest, TraineeNeitherEndsNorSeesAnothersExercise) {
+  auto page = operate(port(), cookie_for(links_.trainee));
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  PageClient other(port(), cookie_for(links_.trainee));
+  other.send(kSecondHello);
+  EXPECT_THAT(other.wait_for_type("busy"), HasSubstr("\"may_end\":false"));
+  other.send(R"({"type":"end"})");
+  EXPECT_THAT(other.wait_for_type("error"), HasSubstr("Only an instructor"));
+  page->vanish();
+  const Json welcome = Json::parse(say_hello(other, kSecondHello, "welcome"));
+  EXPECT_GT(welcome["exercise"], 0);
+  EXPECT_EQ(welcome["trainee"], "");
+  EXPECT_THAT(other.wait_for_type("snapshot", 300ms), HasSubstr("no snapshot"));
+  PageClient instructor(port(), cookie_for(links_.instructor));
+  const Json told = Json::parse(say_hello(instructor, kSecondHello, "welcome"));
+  EXPECT_EQ(told["trainee"], "Ada");
+  EXPECT_EQ(told["is_own"], false);
+  (void)wait_for_snapshot(instructor, [](const Json& s) { return bool(s["paused"]); });
+}
+
+TEST_F(LinkedStationTest, TraineeSeesWhatWasDoneInTheirBrowserAlone) {
+  const std::string own = cookie_for(links_.trainee);
+  const auto page = operate(port(), own);
+  page->send(R"({"type":"act","id":"finish"})");
+  (void)page->wait_for_type("score");
+  const std::string other = cookie_for(links_.trainee);
+  const std::string instructor = cookie_for(links_.instructor);
+  EXPECT_EQ(request(port(), "/api/attempts/1", {{"Cookie", own}}).result_int(), 200U);
+  EXPECT_EQ(request(port(), "/api/attempts/1", {{"Cookie", other}}).result_int(), 404U);
+  EXPECT_EQ(request(port(), "/api/attempts/1", {{"Cookie", instructor}}).result_int(), 200U);
+}
+
+TEST_F(StationTest, NameThatReadsAsSomethingElseIsRefusedWithASentence) {
+  PageClient page(port());
+  (void)say_hello(page, kHello, "welcome");
+  for (const auto& [name, why] : std::initializer_list<std::pair<const char*, const char*>>{
+           {R"(Ada\nBo)", "control character (U+000A)"}, {R"(\u202eadA)", "(U+202E)"}}) {
+    std::string start = kStart;
+    start.replace(start.find("Ada"), 3, name);
+    page.send(start);
+    EXPECT_THAT(page.wait_for_type("error"), HasSubstr(why));
+  }
+  std::string start = kStart;
+  start.replace(start.find("Ada"), 3, "José 张");
+  page.send(start);
+  EXPECT_THAT(page.wait_for_type("welcome"), HasSubstr("José 张"));
 }
 
 class ForgetfulStationTest : public StationTest {

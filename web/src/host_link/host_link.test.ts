@@ -33,11 +33,12 @@ class FakeSocket implements Socket {
 
 const welcome = JSON.stringify({
   type: "welcome",
-  protocol: 5,
+  protocol: 6,
   program: "carpus",
   exercise: 0,
   trainee: "",
   started_at: "",
+  is_own: false,
 });
 
 describe("HostLink", () => {
@@ -71,7 +72,7 @@ describe("HostLink", () => {
   it("says hello first and sends nothing else before the welcome", () => {
     expect(link.send({ type: "pause", on: true })).toBe(false);
     last().open();
-    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 5, page: "word" });
+    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 6, page: "word" });
     expect(link.send({ type: "pause", on: true })).toBe(false);
     last().bring(welcome);
     expect(link.send({ type: "pause", on: true })).toBe(true);
@@ -113,7 +114,7 @@ describe("HostLink", () => {
 
   it("waits while another page operates, then gets in", () => {
     last().open();
-    last().bring(JSON.stringify({ type: "busy", reason: "another page operates" }));
+    last().bring(JSON.stringify({ type: "busy", reason: "another page operates", may_end: true }));
     expect(handlers.onState).toHaveBeenLastCalledWith("busy", "another page operates");
     last().lose();
     expect(handlers.onState).toHaveBeenLastCalledWith("busy", "another page operates");
@@ -122,6 +123,15 @@ describe("HostLink", () => {
     last().open();
     last().bring(welcome);
     expect(handlers.onState).toHaveBeenLastCalledWith("open", "");
+  });
+
+  it("ends another's operation while that keeps it waiting, and asks for the seat", () => {
+    last().open();
+    link.endOther();
+    last().bring(JSON.stringify({ type: "busy", reason: "", may_end: true }));
+    link.endOther();
+    const types = last().sent.map((text) => (JSON.parse(text) as { type: string }).type);
+    expect(types).toEqual(["hello", "end", "hello"]);
   });
 
   it("opens nothing more once disposed", () => {

@@ -67,6 +67,13 @@ export class HostLink {
     else if (this.state !== "open") this.connect();
   }
 
+  /** While another page operates: ends what it does and asks for the seat. */
+  endOther(): void {
+    if (this.state !== "busy" || this.socket?.readyState !== OPEN) return;
+    this.socket.send(serialize({ type: "end" }));
+    this.sayHello();
+  }
+
   dispose(): void {
     this.closed = true;
     clearTimeout(this.timer);

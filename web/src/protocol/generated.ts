@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 5;
+export const PROTOCOL_VERSION = 6;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -407,12 +407,17 @@ export interface RunningExercise {
   readonly started_at: string;
 }
 
-/** First message of a connection. `page` is a word that the page chose at random and says each time it comes: it gives a page that lost its connection its seat back. */
+/** First message of a connection. `page` is a word that the page chose at random and says each time it comes: the exercise that it begins belongs to it, after a lost connection too. Nobody goes on with another's. */
 export interface HelloMessage {
   readonly type: "hello";
   /** 1 to 1000 */
   readonly protocol: number;
   readonly page: string;
+}
+
+/** From an instructor: ends what another page does here, which is stored as unfinished, and frees the seat for the next hello. */
+export interface EndMessage {
+  readonly type: "end";
 }
 
 /** Begins an exercise anew; whatever ran before is stored as unfinished. */
@@ -494,6 +499,7 @@ export interface PauseMessage {
 
 export type PageMessage =
   | HelloMessage
+  | EndMessage
   | StartMessage
   | HandMessage
   | WristMessage
@@ -503,7 +509,7 @@ export type PageMessage =
   | PedalMessage
   | PauseMessage;
 
-/** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since when, both empty when none runs. After hello a running exercise is paused until the page goes on with it, and what is being done (exercise), its last events, its pictures and its state follow. */
+/** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since when, both empty when none runs. Where it is the page's own (`is_own`), it is paused until the page goes on with it, and what is being done (exercise), its last events, its pictures and its state follow. Where it is another's, start stores it as unfinished, and nothing else is done with it; an instructor is told its name and shown how it stands. */
 export interface WelcomeMessage {
   readonly type: "welcome";
   /** 1 to 1000 */
@@ -513,6 +519,8 @@ export interface WelcomeMessage {
   readonly exercise: number;
   readonly trainee: string;
   readonly started_at: string;
+  /** this page began the exercise; false where none runs */
+  readonly is_own: boolean;
 }
 
 /** What is being done: sent once after welcome when an exercise begins and when a page comes back to one. Nothing of it changes while it runs. */
@@ -610,6 +618,8 @@ export interface ErrorMessage {
 export interface BusyMessage {
   readonly type: "busy";
   readonly reason: string;
+  /** `end` would be done for this page */
+  readonly may_end: boolean;
 }
 
 export type HostMessage =

@@ -231,6 +231,7 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     protocol: {"type": "integer", "min": 1, "max": 1000},
     page: {"type": "string", "max_length": 64},
   },
+  end: {},
   start: {
     trainee: {"type": "string", "max_length": 64},
     procedure: {"type": "string", "max_length": 64},
@@ -283,6 +284,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     exercise: {"type": "integer", "min": 0, "max": 9007199254740991},
     trainee: {"type": "string", "max_length": 64},
     started_at: {"type": "string", "max_length": 32},
+    is_own: {"type": "boolean"},
   },
   exercise: {
     procedure: {"type": "procedure_summary"},
@@ -339,6 +341,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
   },
   busy: {
     reason: {"type": "string", "max_length": 256},
+    may_end: {"type": "boolean"},
   },
 };
 

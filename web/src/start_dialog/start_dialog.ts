@@ -49,6 +49,7 @@ export class StartDialog {
   private readonly name: HTMLInputElement;
   private readonly start: HTMLButtonElement;
   private readonly resume: HTMLButtonElement;
+  private readonly end: HTMLButtonElement;
   private readonly note = make("p.start-note", { role: "status" });
 
   constructor(
@@ -56,6 +57,7 @@ export class StartDialog {
     private readonly procedures: readonly ProcedureSummary[],
     onStart: (choice: StartChoice) => void,
     onResume: (choice: StartChoice) => void,
+    onEnd: () => void,
   ) {
     this.name = make("input", {
       type: "text",
@@ -69,7 +71,8 @@ export class StartDialog {
     this.resume = button("Go on with the running exercise", "", () => {
       onResume(this.choice());
     });
-    this.resume.hidden = true;
+    this.end = button("End that operation…", "", onEnd);
+    this.resume.hidden = this.end.hidden = true;
     const form = make(
       "form",
       { method: "dialog" },
@@ -93,6 +96,7 @@ export class StartDialog {
         "div.actions",
         {},
         make("a.start-link", { href: "#/attempts" }, "Past attempts"),
+        this.end,
         this.resume,
         this.start,
       ),
@@ -185,6 +189,11 @@ export class StartDialog {
     this.start.disabled = !ready;
     setText(this.note, note);
     this.note.hidden = note === "";
+  }
+
+  /** Another page operates, which this one may end. */
+  offerEnd(on: boolean): void {
+    this.end.hidden = !on;
   }
 
   /** Going on comes before starting anew. */

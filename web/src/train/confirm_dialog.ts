@@ -8,7 +8,7 @@ export class ConfirmDialog {
   readonly element: HTMLDialogElement;
   private readonly yes: HTMLButtonElement;
 
-  constructor(title: string, text: string, yes: string, onYes: () => void) {
+  constructor(title: string, text: string, yes: string, onYes: () => void, no = "Go on operating") {
     this.yes = button(
       yes,
       "Enter",
@@ -30,7 +30,7 @@ export class ConfirmDialog {
         make(
           "div.actions",
           {},
-          button("Go on operating", "Esc", () => {
+          button(no, "Esc", () => {
             this.element.close();
           }),
           this.yes,

@@ -26,6 +26,12 @@ function linkText(state: LinkState, why: string): string {
   }
 }
 
+/** A station that was given new links says what to do to whoever loads the page again. */
+async function leaveWhereShutOut(): Promise<void> {
+  const answer = await fetch("/api/procedures", { method: "HEAD" }).catch(() => undefined);
+  if (answer?.status === 403) location.reload();
+}
+
 export class Connection {
   private readonly link: HostLink;
   private sequence = 0;
@@ -34,6 +40,7 @@ export class Connection {
     this.link = new HostLink(openPageSocket, pageWord(), {
       onState: (state, why) => {
         handlers.onLink(state, linkText(state, why));
+        if (state === "lost") void leaveWhereShutOut();
       },
       onMessage: (message) => {
         handlers.onMessage(message);
@@ -52,6 +59,11 @@ export class Connection {
     const sent = this.link.send(message);
     if (!sent) this.handlers.say("Not connected: nothing was sent. Wait for the connection.");
     return sent;
+  }
+
+  /** Ends what another page does here. */
+  endOther(): void {
+    this.link.endOther();
   }
 
   /** Where the hand is: many times a second, hence silent while the line does not hold. */

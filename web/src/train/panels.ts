@@ -35,6 +35,8 @@ export interface Wishes {
   restart(): void;
   /** Was asked and is sure. */
   startAnew(): void;
+  /** Ends what another page does here; was asked and is sure. */
+  endOther(): void;
   finish(): void;
 }
 
@@ -51,6 +53,7 @@ export interface Panels {
   readonly wrist: WristPanel;
   readonly finishQuestion: ConfirmDialog;
   readonly anewQuestion: ConfirmDialog;
+  readonly endQuestion: ConfirmDialog;
   /** Over the scene while there is no connection. */
   readonly frozen: HTMLElement;
   /** Over the scene while time stands still. */
@@ -125,6 +128,9 @@ export function makePanels(
       (choice) => {
         wishes.resume(choice);
       },
+      () => {
+        panels.endQuestion.ask();
+      },
     ),
     help: new HelpOverlay(),
     tray: new TrayDialog((instrument, hand) => {
@@ -145,6 +151,15 @@ export function makePanels(
       () => {
         wishes.startAnew();
       },
+    ),
+    endQuestion: new ConfirmDialog(
+      "End that operation?",
+      "What was done there is stored as unfinished, and its page is told.",
+      "End it",
+      () => {
+        wishes.endOther();
+      },
+      "Let it go on",
     ),
     frozen: make("p.frozen", { role: "alert" }),
     pausedSign: make(

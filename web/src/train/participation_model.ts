@@ -12,19 +12,27 @@ export type Arrival =
   | "ended"
   /** This page's exercise is over and another runs. */
   | "replaced"
-  /** This page has none; one waits for a page that goes on with it. */
+  /** One that this page began waits for it, after a reload. */
   | "offered"
+  /** This page has none; another page's stands still, which this one can only end by its own. */
+  | "foreign"
   /** This page has none and none runs. */
   | "free";
 
 export class Participation {
   private own = 0;
   private waiting = 0;
+  private foreign = 0;
   private asked = false;
 
   /** Whether this page operates. */
   get operates(): boolean {
     return this.own !== 0 || this.asked;
+  }
+
+  /** Whether a start ends an exercise that stands still. */
+  get endsOne(): boolean {
+    return this.waiting !== 0 || this.foreign !== 0;
   }
 
   /** Whether an exercise waits that this page may go on with. */
@@ -35,7 +43,7 @@ export class Participation {
   /** The page has asked for a new exercise. */
   ask(): void {
     this.asked = true;
-    this.waiting = 0;
+    this.waiting = this.foreign = 0;
   }
 
   /** The page goes on with the one that waits. */
@@ -52,12 +60,15 @@ export class Participation {
 
   /** The connection is lost: what was offered may be gone. */
   lose(): void {
-    this.waiting = 0;
+    this.waiting = this.foreign = 0;
   }
 
-  /** @param exercise  number in the host's welcome, 0 when none runs */
-  arrive(exercise: number): Arrival {
-    const begun = this.asked && exercise !== 0 && exercise !== this.own;
+  /**
+   * @param exercise  number in the host's welcome, 0 when none runs
+   * @param isOwn     whether this page began it
+   */
+  arrive(exercise: number, isOwn: boolean): Arrival {
+    const begun = this.asked && isOwn && exercise !== 0 && exercise !== this.own;
     const asked = this.asked;
     this.asked = false;
     if (begun) {
@@ -67,10 +78,11 @@ export class Participation {
     if (this.own !== 0 && exercise === this.own) return "goes_on";
     const had = this.own !== 0;
     this.own = 0;
-    this.waiting = exercise;
+    this.waiting = isOwn ? exercise : 0;
+    this.foreign = isOwn ? 0 : exercise;
     if (had) return exercise === 0 ? "ended" : "replaced";
     // What was asked for got lost on the way: the page asks again.
-    if (asked) return "free";
-    return exercise === 0 ? "free" : "offered";
+    if (asked || exercise === 0) return "free";
+    return isOwn ? "offered" : "foreign";
   }
 }

@@ -26,7 +26,7 @@ export interface ExerciseRoom {
 export class TakingPart {
   private readonly part = new Participation();
   private pausedByHand = false;
-  private waiting: WaitingOperation = { trainee: "", startedAt: "" };
+  private waiting: WaitingOperation = { trainee: "", startedAt: "", isOwn: false };
   /** How far the operation had come when the connection was lost; until the host has told again. */
   private seenTick: number | undefined;
   /** Said before what waits. */
@@ -43,7 +43,7 @@ export class TakingPart {
   /** Asks first where an exercise waits that would be given up. */
   start(choice: StartChoice): void {
     this.wanted = choice;
-    if (this.part.isOffered) this.room.panels.anewQuestion.ask();
+    if (this.part.endsOne) this.room.panels.anewQuestion.ask();
     else this.begin(choice);
   }
 
@@ -101,6 +101,7 @@ export class TakingPart {
     for (const { element } of [
       panels.finishQuestion,
       panels.anewQuestion,
+      panels.endQuestion,
       panels.tray,
       panels.help,
     ])
@@ -110,7 +111,7 @@ export class TakingPart {
     panels.start.open();
   }
 
-  /** Another exercise waits that this page may go on with. */
+  /** An exercise waits, this page's or another's. */
   private offer(lead: string): void {
     this.room.seen.forget();
     this.room.hand.reset();
@@ -151,9 +152,15 @@ export class TakingPart {
     panels.frozen.hidden = open || !this.operates;
     setText(panels.frozen, text);
     panels.top.showLink(state === "lost" ? "not connected" : state === "busy" ? "busy" : "");
+    panels.start.offerEnd(false);
     panels.start.setReady(open, text);
     hand.setEnabled(open && this.operates);
     if (!open) panels.arm.pedal.releaseAll();
+  }
+
+  /** Another page operates; @param mayEnd  this one may end that. */
+  wait(mayEnd: boolean): void {
+    this.room.panels.start.offerEnd(mayEnd);
   }
 
   /** Says of what waits, or was gone on with, how far it has come. */
@@ -162,7 +169,7 @@ export class TakingPart {
     const lost = lostText(this.seenTick, seen.latest?.tick ?? 0);
     this.seenTick = undefined;
     if (lost !== "") panels.notice.say(lost);
-    if (!this.part.isOffered || this.operates) return;
+    if (!this.part.endsOne || this.operates) return;
     panels.start.setReady(
       true,
       this.waitingLead +
@@ -174,7 +181,7 @@ export class TakingPart {
   arrive(exercise: number, waiting: WaitingOperation): void {
     const { hand, panels, seen } = this.room;
     this.waiting = waiting;
-    switch (this.part.arrive(exercise)) {
+    switch (this.part.arrive(exercise, waiting.isOwn)) {
       case "begun":
         // Pictures of the exercise before may have come after the request.
         seen.forget();
@@ -194,6 +201,7 @@ export class TakingPart {
         this.offer("Your operation has ended; it is among the past attempts. ");
         break;
       case "offered":
+      case "foreign":
         this.offer("");
         break;
       case "free":

@@ -121,6 +121,9 @@ export class TrainPage {
       startAnew: () => {
         this.part.startAnew();
       },
+      endOther: () => {
+        this.connection.endOther();
+      },
       finish: () => {
         this.actions.ask({ id: "finish" });
       },
@@ -263,9 +266,11 @@ export class TrainPage {
         this.part.arrive(message.exercise, {
           trainee: message.trainee,
           startedAt: message.started_at,
+          isOwn: message.is_own,
         });
         break;
       case "busy":
+        this.part.wait(message.may_end);
         break;
     }
   }

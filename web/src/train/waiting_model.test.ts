@@ -19,7 +19,7 @@ const STARTED = new Date(2026, 4, 3, 14, 7);
 describe("waitingText", () => {
   it("says whose, since when and how far", () => {
     const text = waitingText(
-      { trainee: "Ada", startedAt: STARTED.toISOString() },
+      { trainee: "Ada", startedAt: STARTED.toISOString(), isOwn: true },
       { step: 1, tick: 125_400 },
       STEPS,
       NOW,
@@ -32,7 +32,7 @@ describe("waitingText", () => {
 
   it("says the day where it is another, and no name where none was typed", () => {
     const text = waitingText(
-      { trainee: "", startedAt: STARTED.toISOString() },
+      { trainee: "", startedAt: STARTED.toISOString(), isOwn: true },
       { step: 0, tick: 9_900 },
       STEPS,
       new Date(2026, 4, 4, 8, 0),
@@ -43,8 +43,19 @@ describe("waitingText", () => {
   });
 
   it("says what it knows before the first state and without a time", () => {
-    expect(waitingText({ trainee: "Ada", startedAt: "" }, undefined, [], NOW)).toBe(
+    expect(waitingText({ trainee: "Ada", startedAt: "", isOwn: true }, undefined, [], NOW)).toBe(
       "The operation of Ada waits. Going on keeps it under that name.",
+    );
+  });
+
+  it("says of another's that it is not this page's to go on with", () => {
+    const foreign = { trainee: "", startedAt: STARTED.toISOString(), isOwn: false };
+    expect(waitingText(foreign, undefined, [], NOW)).toBe(
+      "Another page's operation waits, begun at 14:07. " +
+        "Only its own page goes on with it; starting anew stores it as unfinished.",
+    );
+    expect(waitingText({ ...foreign, trainee: "Ada" }, undefined, [], NOW)).toMatch(
+      /^The operation of Ada waits, .*Only its own page/,
     );
   });
 });

@@ -9,6 +9,8 @@ export interface WaitingOperation {
   readonly trainee: string;
   /** UTC, ISO 8601. */
   readonly startedAt: string;
+  /** Begun by this page: it may go on with it. */
+  readonly isOwn: boolean;
 }
 
 export interface HowFar {
@@ -41,8 +43,9 @@ export function waitingText(
   steps: readonly Step[],
   now: Date,
 ): string {
-  const { trainee } = waiting;
-  const whose = trainee === "" ? "An operation without a name" : `The operation of ${trainee}`;
+  const { trainee, isOwn } = waiting;
+  const unnamed = isOwn ? "An operation without a name" : "Another page's operation";
+  const whose = trainee === "" ? unnamed : `The operation of ${trainee}`;
   const started = new Date(waiting.startedAt);
   const since = Number.isNaN(started.getTime()) ? "" : `, begun at ${clock(started, now)}`;
   const step = howFar === undefined ? undefined : steps[howFar.step];
@@ -51,7 +54,8 @@ export function waitingText(
       ? ""
       : `; ${duration(howFar.tick)} in, at step ${howFar.step + 1}, ${step.title}`;
   const keeps = trainee === "" ? "" : " Going on keeps it under that name.";
-  return `${whose} waits${since}${at}.${keeps}`;
+  const ends = " Only its own page goes on with it; starting anew stores it as unfinished.";
+  return `${whose} waits${since}${at}.${isOwn ? keeps : ends}`;
 }
 
 /** After a station was started again: what this page had seen done and is not; empty where all is. */
