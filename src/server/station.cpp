@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "core/error.hpp"
-#include "core/person_name.hpp"
 #include "protocol/bodies.hpp"
 
 namespace carpus::server {
@@ -24,13 +23,6 @@ constexpr std::size_t kMaxWaitingFrames = 3;
 constexpr std::uint64_t kMaxDropped = 20000;
 /// Ticks that may still come before time stands still.
 constexpr Tick kLastTicks = 20'000;
-
-/// No number comes twice, not even after the station was started anew.
-std::uint64_t first_exercise_number() {
-  using std::chrono::milliseconds;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint64_t>(std::chrono::duration_cast<milliseconds>(now).count());
-}
 
 }  // namespace
 
@@ -50,7 +42,7 @@ Station::Station(const cases::CaseData& data,
       records_(records),
       log_(std::move(log)),
       patience_(patience),
-      exercise_number_(first_exercise_number()) {}
+      exercise_number_(number_of_now()) {}
 
 void Station::attach(NetworkServer& network) {
   network_ = &network;
@@ -85,6 +77,7 @@ void Station::on_close(const std::shared_ptr<PageConnection>& page) {
   visitors_.erase(page.get());
   if (page != operator_) return;
   operator_.reset();
+  asked_meanwhile_.clear();
   if (operator_owns_) left_at_ = steady_clock::now();
   if (!exercise_) return;
   // Whoever comes back finds the driver off and time where it stood.
@@ -127,12 +120,17 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
     return send_error(*page, "This page does not operate", "Say hello first.");
   }
   seat_used_at_ = steady_clock::now();
-  if (exercise_ && !operator_owns_ && !std::holds_alternative<protocol::Start>(*message)) {
+  if (!is_beginning_) return obey(*message);
+  if (asked_meanwhile_.size() < kMaxAskedMeanwhile) asked_meanwhile_.push_back(*message);
+}
+
+void Station::obey(const protocol::PageMessage& message) {
+  if (exercise_ && !operator_owns_ && !std::holds_alternative<protocol::Start>(message)) {
     return refuse("This operation is another page's", "Start anew, which stores it as unfinished.");
   }
   operator_acts_ = true;
   try {
-    std::visit([this](const auto& m) { on_message(m); }, *message);
+    std::visit([this](const auto& m) { on_message(m); }, message);
   } catch (const Error& error) {
     log_(error.what());
     refuse(error.what(), "Change what the message says and try again.");
@@ -142,38 +140,6 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
 void Station::on_message(const protocol::Hello&) {}
 
 void Station::on_message(const protocol::End&) {}
-
-void Station::on_message(const protocol::Start& start) {
-  const procedure::Procedure* procedure = procedures_.find(start.procedure);
-  if (procedure == nullptr) {
-    return refuse("There is no procedure '" + start.procedure + "'",
-                  "Choose one of those that the station offers.");
-  }
-  if (const auto problem = problem_of_name(start.trainee)) {
-    return refuse(*problem, "Type the name anew, then start.");
-  }
-  store_running();
-  own_what_begins();
-  ExerciseSetup setup;
-  setup.trainee = start.trainee;
-  setup.input_device = name_of(start.input_device);
-  setup.procedure = procedure;
-  setup.seed = static_cast<std::uint64_t>(start.seed);
-  paused_by_page_ = false;
-  paused_by_silence_ = false;
-  paused_by_disk_ = false;
-  journal_watch_ = {};
-  exercise_number_ = std::max(exercise_number_ + 1, first_exercise_number());
-  setup.number = exercise_number_;
-  ExerciseStart beginning = begin_anew(data_, case_fingerprint_, setup, records_.file());
-  exercise_ = std::make_unique<Exercise>(data_, std::move(setup), std::move(beginning));
-  exercise_->note_owner(owner_word_);
-  pictures_->clear();
-  shown_.clear();
-  last_heard_ = steady_clock::now();
-  welcome();
-  send(exercise_->session().exercise());
-}
 
 void Station::on_message(const protocol::Hand& hand) {
   if (has_exercise()) exercise_->loop().hold(exercise_->session().take(hand));

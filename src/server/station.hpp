@@ -26,6 +26,7 @@
 #include "server/picture_worker.hpp"
 #include "server/rate_limit.hpp"
 #include "server/recovery.hpp"
+#include "server/work_thread.hpp"
 
 namespace carpus::server {
 
@@ -85,12 +86,21 @@ class Station : public PageHandler {
     std::string browser;     ///< in which it was made
     records::KeptAttempt kept;
   };
+  /// One that was set up, or why it could not be.
+  struct BegunExercise {
+    std::unique_ptr<Exercise> exercise;
+    std::string problem;
+  };
   /// A tool pose a tick is the most that can have an effect.
   static constexpr double kMessagesPerSecond = 1000;
   static constexpr double kMessageBurst = 2000;
   /// As many as the page shows.
   static constexpr std::size_t kPicturesKept = 6;
   static constexpr std::size_t kEventsShown = 40;
+  /// What a page says while its exercise is set up.
+  static constexpr std::size_t kMaxAskedMeanwhile = 256;
+  /// Exercises that end or begin.
+  static constexpr std::size_t kMaxAside = 8;
 
   void on_message(const protocol::Hello& hello);
   void on_message(const protocol::End& end);
@@ -102,6 +112,13 @@ class Station : public PageHandler {
   void on_message(const protocol::CArm& c_arm);
   void on_message(const protocol::Pedal& pedal);
   void on_message(const protocol::Pause& pause);
+
+  void obey(const protocol::PageMessage& message);
+
+  // In station_begin.cpp: how an exercise begins.
+  [[nodiscard]] static std::uint64_t number_of_now();
+  void do_aside(WorkThread::Work work);
+  void take_begun();
 
   // In station_seat.cpp: who has the seat, whose the exercise is.
   void greet(const std::shared_ptr<PageConnection>& page, const protocol::Hello& hello);
@@ -133,6 +150,7 @@ class Station : public PageHandler {
   void store_running();
   /// Ends and stores; sends the score when there is one and it is stored.
   void conclude();
+  void store(Exercise& ended, ConcludedExercise concluded, NetworkServer* network);
   void take_stored();
   void tell_stored(const ConcludedExercise& concluded);
   void send_score(std::int64_t id, const std::string& score_json);
@@ -157,7 +175,9 @@ class Station : public PageHandler {
   std::chrono::steady_clock::time_point left_at_;  ///< when it was lost
   std::unordered_map<PageConnection*, Visitor> visitors_;
   std::unique_ptr<Exercise> exercise_;
-  std::uint64_t exercise_number_;
+  std::uint64_t exercise_number_;  ///< none comes twice, not even after a new start of the station
+  bool is_beginning_ = false;      ///< an exercise is being set up
+  std::vector<protocol::PageMessage> asked_meanwhile_;
   bool paused_by_page_ = false;
   bool paused_by_silence_ = false;
   bool paused_by_disk_ = false;
@@ -168,7 +188,10 @@ class Station : public PageHandler {
   std::unique_ptr<PictureWorker> pictures_;
   std::mutex stored_mutex_;
   std::vector<ConcludedExercise> stored_;  ///< comes from the records' thread
+  std::mutex begun_mutex_;
+  BegunExercise begun_;            ///< comes from the thread aside
   std::deque<std::string> shown_;  ///< the exercise's last pictures, for a page that comes back
+  std::unique_ptr<WorkThread> aside_ = std::make_unique<WorkThread>(kMaxAside);
 };
 
 }  // namespace carpus::server

@@ -31,6 +31,9 @@ std::string in_words(const TickTiming& timing, const RealTimeGrants& grants) {
 Station::~Station() { detach(); }
 
 void Station::detach() {
+  asked_meanwhile_.clear();
+  aside_.reset();  // does what waits
+  take_begun();
   store_running();
   pictures_.reset();  // waits for the picture that is being made
   network_ = nullptr;
@@ -70,29 +73,32 @@ void Station::store_running() {
 
 void Station::conclude() {
   send_news();
-  records::Attempt attempt = exercise_->end();
-  const std::string timing = in_words(exercise_->state().timing, exercise_->loop().grants());
-  std::shared_ptr<ExerciseJournal> journal = exercise_->take_journal();
-  exercise_.reset();
-  const bool finished = attempt.summary.outcome == records::Outcome::Finished;
-  ConcludedExercise concluded{exercise_number_,
-                              (finished ? " finished" : " unfinished") + std::string(" after ") +
-                                  std::to_string(attempt.summary.duration_ticks / 1000) + " s; " +
-                                  timing,
-                              finished ? attempt.score_json : "",
-                              owner_browser_,
-                              {}};
-  // Called in the records' thread. The journal goes when the attempt is on disk elsewhere.
-  records_.save(std::move(attempt), [this, journal, network = network_,
-                                     concluded](const records::KeptAttempt& kept) mutable {
-    if (kept.is_on_disk && journal) journal->remove();
-    concluded.kept = kept;
-    {
-      const std::lock_guard lock(stored_mutex_);
-      stored_.push_back(std::move(concluded));
-    }
-    if (network != nullptr) network->post([this] { take_stored(); });
+  // A score takes a moment, and ending the thread of ticks another.
+  const std::shared_ptr<Exercise> ended = std::move(exercise_);
+  do_aside([this, ended, number = exercise_number_, browser = owner_browser_, network = network_] {
+    store(*ended, {number, {}, {}, browser, {}}, network);
   });
+}
+
+void Station::store(Exercise& ended, ConcludedExercise concluded, NetworkServer* network) {
+  records::Attempt attempt = ended.end();
+  std::shared_ptr<ExerciseJournal> journal = ended.take_journal();
+  const bool finished = attempt.summary.outcome == records::Outcome::Finished;
+  concluded.in_words = (finished ? " finished" : " unfinished") + std::string(" after ") +
+                       std::to_string(attempt.summary.duration_ticks / 1000) + " s; " +
+                       in_words(ended.state().timing, ended.loop().grants());
+  if (finished) concluded.score_json = attempt.score_json;
+  // Called in the records' thread. The journal goes when the attempt is on disk elsewhere.
+  records_.save(std::move(attempt),
+                [this, journal, network, concluded](const records::KeptAttempt& kept) mutable {
+                  if (kept.is_on_disk && journal) journal->remove();
+                  concluded.kept = kept;
+                  {
+                    const std::lock_guard lock(stored_mutex_);
+                    stored_.push_back(std::move(concluded));
+                  }
+                  if (network != nullptr) network->post([this] { take_stored(); });
+                });
 }
 
 void Station::take_stored() {

@@ -32,6 +32,7 @@ void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol:
   if (before == page) return welcome();
   if (before) before->close();
   if (before && operator_owns_) left_at_ = steady_clock::now();
+  asked_meanwhile_.clear();
   operator_word_ = hello.page;
   operator_owns_ = owns(hello.page);
   // A station that was started anew does not know it yet.

@@ -7,12 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
 
 #include "protocol/bodies.hpp"
 #include "server/loopback_client_test_support.hpp"
@@ -605,6 +607,69 @@ TEST_F(StationTest, FullDiskWhileSavingIsToldAndNothingIsLost) {
   page->send(R"({"type":"act","id":"finish"})");
   (void)page->wait_for_type("score");
   EXPECT_EQ(records_->list().size(), 2U);
+}
+
+TEST_F(StationTest, TimeGoesOnWhileOthersAttackTheDoor) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  std::atomic<bool> goes_on{true};
+  std::vector<std::thread> attackers;
+  for (int i = 0; i < 3; ++i) {
+    attackers.emplace_back([&, i] {
+      while (goes_on) {
+        testing::RawClient client(port());
+        if (i == 0) client.send(std::string(20'000, 'x'));
+        if (i == 1) {
+          client.send("GET / HTTP/1.1\r\nHost: " + testing::host_of(port()) +
+                      "\r\nTransfer-Encoding: chunked\r\n\r\n1;" + std::string(60'000, 'x'));
+        }
+        if (i == 2) (void)request(port(), "/api/instruments");
+        std::this_thread::sleep_for(1ms);
+      }
+    });
+  }
+  const Json before = wait_for_snapshot(*page, [](const Json&) { return true; });
+  const auto begin = std::chrono::steady_clock::now();
+  const Json after = wait_for_snapshot(
+      *page, [&](const Json& s) { return s["tick"] > before["tick"].get<int>() + 1000; });
+  const auto took = std::chrono::steady_clock::now() - begin;
+  goes_on = false;
+  for (std::thread& attacker : attackers) attacker.join();
+  EXPECT_FALSE(after.is_null());
+  // Lateness up to 100 ms is made up for; a machine that is busy otherwise may take longer.
+  EXPECT_LT(took, 2s);
+}
+
+TEST_F(StationTest, WhatIsSaidWhileAnExerciseIsSetUpIsDoneInItsOrder) {
+  PageClient page(port());
+  (void)say_hello(page, kHello, "welcome");
+  page.send(kStart);
+  page.send(R"({"type":"act","id":"take","instrument":"probe"})");
+  page.send(kStart);
+  page.send(kHand);
+  page.send(R"({"type":"act","id":"finish"})");
+  const Json score = Json::parse(page.wait_for_type("score"));
+  EXPECT_EQ(score["attempt_id"], 2);
+  EXPECT_EQ(records_->find(1)->summary.outcome, records::Outcome::Unfinished);
+  EXPECT_EQ(records_->find(2)->summary.outcome, records::Outcome::Finished);
+}
+
+TEST_F(StationTest, PageThatVanishesWhileItsExerciseIsSetUpFindsIt) {
+  {
+    PageClient page(port());
+    (void)say_hello(page, kHello, "welcome");
+    page.send(kStart);
+    page.vanish();
+  }
+  PageClient again(port());
+  Json welcome;
+  for (int i = 0; i < 200 && (welcome.is_null() || welcome["exercise"] == 0); ++i) {
+    welcome = Json::parse(say_hello(again, kHello, "welcome"));
+    std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_GT(welcome["exercise"], 0);
+  EXPECT_EQ(welcome["is_own"], true);
+  EXPECT_EQ(welcome["trainee"], "Ada");
 }
 
 TEST_F(StationTest, HttpTellsTheCaseWithoutTheAnswer) {

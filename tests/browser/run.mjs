@@ -563,10 +563,30 @@ async function byItsLink(browser) {
         );
         await page.click("dialog.start button[type=submit]");
         await operator.until((s) => s.tick > 0, "the first ticks");
-        await page.goBack();
-        expect(!page.url().includes(token), "the token is in the history");
       },
     );
+    await check(
+      page,
+      "an instructor ends another page's operation",
+      async () => {
+        const other = await newPage(browser);
+        await other.goto(link);
+        await other
+          .getByRole("button", { name: "End that operation" })
+          .click();
+        await other.locator("dialog.confirm[open]").waitFor();
+        await other.keyboard.press("Enter");
+        await other
+          .locator("dialog.start button[type=submit]:not([disabled])")
+          .waitFor();
+        await page.locator(".frozen:not([hidden])").waitFor();
+        await other.close();
+      },
+    );
+    await check(page, "the token is not in the browser's history", async () => {
+      await page.goBack();
+      expect(!page.url().includes(token), "it is");
+    });
     await check(page, "the station's lines do not hold the token again", () => {
       const lines = station.output.join("").split(token).length - 1;
       expect(lines === 1, `it is there ${lines} times`);
