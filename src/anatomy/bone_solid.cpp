@@ -153,7 +153,7 @@ const LineInterval* nearest_to_zero(std::span<const LineInterval> intervals) noe
 
 }  // namespace
 
-BoneSolid::BoneSolid(std::span<const TriangleMesh* const> fragments) {
+BoneSolid::BoneSolid(std::span<const MeshIn<frame::Bone>* const> fragments) {
   Aabb box;
   for (const TriangleMesh* mesh : fragments) {
     box.include(bounds_of(mesh->vertices));

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/mesh_in.hpp"
 
 namespace carpus {
 
@@ -53,9 +53,9 @@ struct OuterPoint {
 /// where they return a vector.
 class BoneSolid {
  public:
-  /// @param fragments  closed outward surfaces in one frame [mm], at least one, not empty.
+  /// @param fragments  closed outward surfaces [mm], at least one, not empty.
   /// @throws InvalidInput when there is nothing to build from.
-  explicit BoneSolid(std::span<const TriangleMesh* const> fragments);
+  explicit BoneSolid(std::span<const MeshIn<frame::Bone>* const> fragments);
 
   /// True inside a fragment or the bridged gap; exact to about half a voxel (0.2 mm).
   [[nodiscard]] bool contains(const Vec3& point) const noexcept;

@@ -217,7 +217,8 @@ Pose<frame::Wrist, frame::Wrist> CarpalKinematics::motion_from_scan(CarpalGroup 
   return neutral_to_pose * neutral_to_scan.inverse();
 }
 
-WristLandmarks CarpalKinematics::landmarks_of(const TriangleMesh& capitate, Side side) const {
+WristLandmarks CarpalKinematics::landmarks_of(const MeshIn<frame::Wrist>& capitate,
+                                              Side side) const {
   if (capitate.facets.empty()) {
     throw InvalidInput("carpal kinematics: the wrist has no capitate to tell how the hand is held");
   }

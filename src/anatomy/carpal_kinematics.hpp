@@ -15,8 +15,8 @@
 #include "anatomy/bone_id.hpp"
 #include "anatomy/hand_pose.hpp"
 #include "geometry/mat3.hpp"
+#include "geometry/mesh_in.hpp"
 #include "geometry/pose.hpp"
-#include "geometry/triangle_mesh.hpp"
 
 namespace carpus::anatomy {
 
@@ -94,7 +94,7 @@ class CarpalKinematics {
   /// inertia; the capitate turns with the third metacarpal. The result lies within limits().
   /// @param capitate  closed surface, frame Wrist [mm].
   /// @throws InvalidInput if the capitate is empty or has no long axis.
-  [[nodiscard]] WristLandmarks landmarks_of(const TriangleMesh& capitate, Side side) const;
+  [[nodiscard]] WristLandmarks landmarks_of(const MeshIn<frame::Wrist>& capitate, Side side) const;
 
  private:
   CarpalKinematics() = default;

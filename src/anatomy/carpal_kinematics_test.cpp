@@ -30,11 +30,11 @@ HandPose pose_of(double flexion_deg, double deviation_deg) {
 }
 
 /// An ellipsoid of 26 x 20 x 14 mm: a capitate whose axis is known.
-TriangleMesh capitate_along(const Vec3& distal, const Vec3& centre) {
+MeshIn<frame::Wrist> capitate_along(const Vec3& distal, const Vec3& centre) {
   const Vec3 x = normalized_or(distal, {1, 0, 0});
   const Vec3 y = any_perpendicular(x);
   const Vec3 z = cross(x, y);
-  TriangleMesh mesh;
+  MeshIn<frame::Wrist> mesh;
   constexpr int kRings = 24;
   constexpr int kSectors = 24;
   const auto put = [&](double a, double b, double c) {
@@ -220,7 +220,7 @@ TEST(HandLimits, KeepClampedPosesCloseForPosesThatAreClose) {
 }
 
 TEST(CarpalKinematics, RefusesACapitateWithoutALongAxisAndBrokenData) {
-  EXPECT_THROW((void)model().landmarks_of({}, Side::Left), InvalidInput);
+  EXPECT_THROW((void)model().landmarks_of(MeshIn<frame::Wrist>{}, Side::Left), InvalidInput);
   EXPECT_THROW((void)CarpalKinematics::parse("{}"), InvalidInput);
   EXPECT_THROW((void)CarpalKinematics::parse("no json"), InvalidInput);
 }

@@ -64,8 +64,10 @@ TriangleMesh capsule(double radius, double half_length) {
 }
 
 CentralAxis axis_of(std::initializer_list<TriangleMesh> parts, const Vec3& towards_start) {
-  std::vector<const TriangleMesh*> pointers;
-  for (const TriangleMesh& part : parts) pointers.push_back(&part);
+  std::vector<MeshIn<frame::Bone>> fragments;
+  for (const TriangleMesh& part : parts) fragments.emplace_back(part);
+  std::vector<const MeshIn<frame::Bone>*> pointers;
+  for (const auto& fragment : fragments) pointers.push_back(&fragment);
   const BoneSolid solid(pointers);
   const auto axis = find_central_axis(solid, towards_start);
   EXPECT_TRUE(axis.has_value());

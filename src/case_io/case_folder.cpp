@@ -102,7 +102,7 @@ Grid<T> read_grid(const fs::path& folder, const std::string& name, const CaseHea
 void read_bone(const fs::path& folder, const CaseHeader& header, cases::Bone& bone) {
   const std::string name = bone_name(bone);
   const fs::path surface_file = folder / "bones" / (name + ".ply");
-  bone.surface = read_ply(surface_file);
+  bone.surface = MeshIn<frame::Bone>(read_ply(surface_file));
   if (check_surface(bone.surface) != SurfaceStatus::Ok) {
     throw IoError(surface_file.string() +
                   ": is no closed surface; restore it or make the case again from its CT");
@@ -167,7 +167,9 @@ cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
     read_bone(folder, header, bone);
     progress("loading", ++done / steps);
   }
-  if (fs::exists(folder / "skin.ply")) data.skin = read_ply(folder / "skin.ply");
+  if (fs::exists(folder / "skin.ply")) {
+    data.skin = MeshIn<frame::Patient>(read_ply(folder / "skin.ply"));
+  }
   if (const fs::path table = folder / kHandMotionFile; fs::exists(table)) {
     data.hand_motion = parse_hand_motion(read_text(table), table);
   }

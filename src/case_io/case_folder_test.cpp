@@ -110,7 +110,7 @@ cases::CaseData small_case() {
                 octahedron(BoneId::Lunate, BonePart::Whole, 4, {20, 2, 3}),
                 octahedron(BoneId::Scaphoid, BonePart::Distal, 16, {1, 20, 3})};
   data.bones[1].patient_from_bone = {rotation_about({1, 0, 0}, 0.2), {4, 5, 1.0 / 9.0}};
-  data.skin = data.bones[0].surface;
+  data.skin = Pose<frame::Patient, frame::Bone>{} * data.bones[0].surface;
   data.skin.facets.pop_back();  // skin may be open
   data.scaphoid = {{{1, 2, 3}, {4, 5, 6}}, 3.25, {{7, 8, 9}, {1.0 / 3.0, 11, 12}}, {2, 3, 4}};
   data.hand_motion = small_table();

@@ -13,8 +13,8 @@
 #include "cases/hand_motion.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/grid.hpp"
+#include "geometry/mesh_in.hpp"
 #include "geometry/pose.hpp"
-#include "geometry/triangle_mesh.hpp"
 
 namespace carpus::cases {
 
@@ -25,9 +25,9 @@ inline constexpr int kCaseSchemaVersion = 2;
 struct Bone {
   BoneId bone = BoneId::Radius;
   BonePart part = BonePart::Whole;
-  std::uint8_t label = 0;  ///< its value in CaseData::labels
-  TriangleMesh surface;    ///< closed, outward; frame Bone, which is Patient as scanned [mm]
-  ConvexPolytope hull;     ///< of the surface's vertices, same frame
+  std::uint8_t label = 0;       ///< its value in CaseData::labels
+  MeshIn<frame::Bone> surface;  ///< closed, outward; Bone is Patient as scanned [mm]
+  ConvexPolytope hull;          ///< of the surface's vertices, same frame
   Grid<float>
       distance_field;  ///< signed distance to the surface [mm], negative inside, clamped to a band
   /// Where the bone is now, relative to where it was scanned; identity until a posture moves it.
@@ -71,7 +71,8 @@ struct CaseData {
   Grid<std::int16_t> ct;                                  ///< HU
   Grid<std::uint8_t> labels;                              ///< see anatomy/bone_id.hpp
   std::vector<Bone> bones;                                ///< in the order of their labels
-  TriangleMesh skin;  ///< Patient [mm]; may be empty, may be open at the field of view's ends
+  MeshIn<frame::Patient>
+      skin;  ///< as scanned [mm]; may be empty, may be open at the field of view's ends
   ScaphoidLandmarks scaphoid;
   /// Where the bones are for any way the hand is held; empty in a case of an older program until
   /// ensure_hand_motion (make_hand_motion.hpp).

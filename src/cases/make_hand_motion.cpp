@@ -106,9 +106,9 @@ class Maker {
     if (capitate == nullptr) {
       throw InvalidInput("hand motion: the case has no capitate to tell how the hand is held");
     }
-    TriangleMesh in_wrist = capitate->surface;
-    for (Vec3& v : in_wrist.vertices) v = (data.wrist_from_patient * Point<frame::Patient>{v}).v;
-    landmarks_ = model_.landmarks_of(in_wrist, data.side);
+    const Pose<frame::Patient, frame::Bone> as_scanned;
+    landmarks_ =
+        model_.landmarks_of(data.wrist_from_patient * as_scanned * capitate->surface, data.side);
     lay_out(radians_from_degrees(options.step_deg));
   }
 

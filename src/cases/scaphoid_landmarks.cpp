@@ -12,7 +12,7 @@ Vec3 proximal_direction(const CaseData& data) noexcept {
 }
 
 ScaphoidLandmarks find_scaphoid_landmarks(const CaseData& data) {
-  std::vector<const TriangleMesh*> fragments;
+  std::vector<const MeshIn<frame::Bone>*> fragments;
   for (const Bone* part : scaphoid_parts(data)) fragments.push_back(&part->surface);
   if (fragments.empty()) {
     throw InvalidInput("scaphoid landmarks: the case has no scaphoid; check the bones' names");

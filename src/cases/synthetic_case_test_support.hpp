@@ -122,7 +122,7 @@ struct Ellipsoid {
     Bone bone;
     bone.bone = id;
     bone.label = static_cast<std::uint8_t>(id);
-    bone.surface = surface_of(body, 4);
+    bone.surface = MeshIn<frame::Bone>(surface_of(body, 4));
     bone.hull = polytope_of_convex(bone.surface);
     bone.distance_field = fields::build_distance_field(bone.surface);
     data.bones.push_back(std::move(bone));
@@ -137,7 +137,7 @@ struct Ellipsoid {
   data.scaphoid.waist = scaphoid.centre;
 
   const Ellipsoid skin{{0, 0, 12}, upright, {38, 26, 75}};
-  data.skin = surface_of(skin, 3);
+  data.skin = MeshIn<frame::Patient>(surface_of(skin, 3));
   GridGeometry geometry;
   geometry.size = {80, 56, 118};
   geometry.spacing = {1, 1, 1};

@@ -162,14 +162,14 @@ BoneField build_bone_field(const Labels& labels,
   return {imaging::gaussian_smooth(sharp.view(), options.field_sigma_mm), box.low};
 }
 
-TriangleMesh build_bone_surface(const BoneField& field, const BoneSurfaceOptions& options) {
+MeshIn<frame::Bone> build_bone_surface(const BoneField& field, const BoneSurfaceOptions& options) {
   if (field.values.values().empty()) return {};
   TriangleMesh surface = largest_piece(mesh::extract_isosurface(field.values.view(), 0.0));
   if (surface.facets.empty()) return {};
   mesh::SmoothOptions smoothing;
   smoothing.iterations = options.smoothing_pairs;
   surface = mesh::smooth(std::move(surface), smoothing);
-  return simplified(surface, options);
+  return MeshIn<frame::Bone>(simplified(surface, options));
 }
 
 void label_by_fields(std::span<const BoneField> fields,

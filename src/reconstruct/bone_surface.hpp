@@ -9,7 +9,7 @@
 #include <span>
 
 #include "geometry/grid.hpp"
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/mesh_in.hpp"
 
 namespace carpus::reconstruct {
 
@@ -42,8 +42,8 @@ struct BoneField {
 
 /// Closed, outward surface of a bone [Patient, mm]: a closed, oriented 2-manifold of one piece; a
 /// bone that leaves the grid is closed flat half a voxel beyond it. Empty for an empty field.
-[[nodiscard]] TriangleMesh build_bone_surface(const BoneField& field,
-                                              const BoneSurfaceOptions& options = {});
+[[nodiscard]] MeshIn<frame::Bone> build_bone_surface(const BoneField& field,
+                                                     const BoneSurfaceOptions& options = {});
 
 /// Makes `labels` agree with the fields' surfaces: a voxel gets the bone inside whose surface its
 /// centre lies (the deepest, should two claim it), or 0. `fields[i]` belongs to `label_of[i]`.

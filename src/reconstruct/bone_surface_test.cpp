@@ -115,7 +115,7 @@ TEST(SkinSurface, IsATubeThatIsOpenWhereTheLimbLeavesTheScan) {
     const VoxelIndex v = g.index_of(i);
     if (std::hypot(v.x - 40, v.y - 40) * 0.5 < 12) ct[i] = 40;
   }
-  const TriangleMesh skin = build_skin_surface(ct.view());
+  const MeshIn<frame::Patient> skin = build_skin_surface(ct.view());
   ASSERT_FALSE(skin.facets.empty());
   EXPECT_EQ(check_surface(skin), SurfaceStatus::OpenOrNonManifold);
   EXPECT_NEAR(area_of(skin) / (2 * kPi * 12 * 30), 1.0, 0.08);
@@ -140,8 +140,8 @@ TEST(SkinSurface, IsATubeThatIsOpenWhereTheLimbLeavesTheScan) {
 }
 
 TEST(SkinSurface, TrimmingKeepsTheLargestPieceOnly) {
-  TriangleMesh skin{{{10, 10, -5}, {20, 10, 40}, {10, 20, 40}, {10, 10, 40}},
-                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  MeshIn<frame::Patient> skin(TriangleMesh{{{10, 10, -5}, {20, 10, 40}, {10, 20, 40}, {10, 10, 40}},
+                                           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
   const std::size_t alone =
       trimmed_skin(skin, GridGeometry{{80, 80, 60}, {0.5, 0.5, 0.5}}).facets.size();
   skin.vertices.insert(skin.vertices.end(), {{30, 30, 15}, {31, 30, 15}, {30, 31, 15}});

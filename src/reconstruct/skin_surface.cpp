@@ -87,7 +87,7 @@ TriangleMesh without_caps(const TriangleMesh& mesh, const GridGeometry& g) {
 
 }  // namespace
 
-TriangleMesh build_skin_surface(const GridView<const std::int16_t>& ct) {
+MeshIn<frame::Patient> build_skin_surface(const GridView<const std::int16_t>& ct) {
   const Grid<float> coarse = coarsened(ct);
   if (coarse.values().empty()) return {};
   const Grid<float> smoothed = imaging::gaussian_smooth(coarse.view(), kSigmaMm);
@@ -95,10 +95,11 @@ TriangleMesh build_skin_surface(const GridView<const std::int16_t>& ct) {
   if (skin.facets.empty()) return {};
   // The Gaussian is smoothing enough; Taubin's filter would round the rims of the caps.
   skin = mesh::simplify(skin, {kMostFacets, kMaxErrorMm}).mesh;
-  return without_caps(skin, coarse.geometry());
+  return MeshIn<frame::Patient>(without_caps(skin, coarse.geometry()));
 }
 
-TriangleMesh trimmed_skin(const TriangleMesh& skin, const GridGeometry& volume) {
+MeshIn<frame::Patient> trimmed_skin(const MeshIn<frame::Patient>& skin,
+                                    const GridGeometry& volume) {
   TriangleMesh result = skin;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Vec3 last;
@@ -110,7 +111,7 @@ TriangleMesh trimmed_skin(const TriangleMesh& skin, const GridGeometry& volume) 
     result = mesh::clipped(result, low + inwards * kTrimMm, inwards);
     result = mesh::clipped(result, high - inwards * kTrimMm, -inwards);
   }
-  return largest_piece(result);
+  return MeshIn<frame::Patient>(largest_piece(result));
 }
 
 }  // namespace carpus::reconstruct

@@ -34,7 +34,7 @@ std::vector<fields::ContactField> fields_of(const cases::CaseData& data) {
 }
 
 std::vector<BoneSolid> target_of(const cases::CaseData& data, BoneId target) {
-  std::vector<const TriangleMesh*> fragments;
+  std::vector<const MeshIn<frame::Bone>*> fragments;
   for (const cases::Bone& bone : data.bones) {
     if (bone.bone == target) fragments.push_back(&bone.surface);
   }

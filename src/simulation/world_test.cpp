@@ -192,8 +192,8 @@ const cases::CaseData& broken_wrist() {
       cases::Bone bone;
       bone.bone = BoneId::Scaphoid;
       bone.part = part;
-      bone.surface = cases::test::surface_of(
-          {whole.centre + towards_distal * side, whole.rotation, {5.6, 4.8, 6.0}}, 4);
+      bone.surface = MeshIn<frame::Bone>(cases::test::surface_of(
+          {whole.centre + towards_distal * side, whole.rotation, {5.6, 4.8, 6.0}}, 4));
       bone.hull = cases::test::polytope_of_convex(bone.surface);
       bone.distance_field = fields::build_distance_field(bone.surface);
       data.bones.push_back(std::move(bone));

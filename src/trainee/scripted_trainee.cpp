@@ -34,7 +34,7 @@ Tick ticks_of(double seconds) { return static_cast<Tick>(seconds / kTickSeconds)
 const Instrument& kind_of(InstrumentIndex index) { return instruments::catalogue()[index]; }
 
 BoneSolid solid_of(const cases::CaseData& data) {
-  std::vector<const TriangleMesh*> fragments;
+  std::vector<const MeshIn<frame::Bone>*> fragments;
   for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
   return BoneSolid(fragments);
 }

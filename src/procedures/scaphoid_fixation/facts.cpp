@@ -130,7 +130,7 @@ Facts facts_of(const cases::CaseData& data,
   find_lines(facts);
   find_passes(facts);
   if (const auto& lain = fixed_line(facts)) {
-    std::vector<const TriangleMesh*> fragments;
+    std::vector<const MeshIn<frame::Bone>*> fragments;
     for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
     const BoneSolid scaphoid(fragments);
     facts.line = place_line(scaphoid, data.scaphoid, rules.approach, lain->entry_in_bone,
