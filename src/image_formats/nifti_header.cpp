@@ -215,7 +215,7 @@ class Parser {
       if (!(std::abs(step - stated.spacing[i]) <= kSameSpacingRatio * step)) {
         refuse_.damaged("pixdim[" + std::to_string(i + 1) + "]",
                         printable(stated.spacing[i]) + " mm",
-                        "but sform says " + printable(step) + " mm");
+                        "but sform says " + printable(decimal_of_float(step)) + " mm");
       }
       stated.axes[i] = normalized_or(form.columns[i], {0, 0, 0});
     }

@@ -10,7 +10,7 @@
 namespace carpus::image_formats {
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kLongest = 80;
   std::string shown;
   for (const char c : text.substr(0, kLongest)) shown += c >= ' ' && c <= '~' ? c : '?';
   return text.size() > kLongest ? shown + "..." : shown;

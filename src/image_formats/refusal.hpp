@@ -9,7 +9,7 @@
 
 namespace carpus::image_formats {
 
-/// What a file claims, fit for a message: cut to 60 characters, others than printable ones as '?'.
+/// What a file claims, fit for a message: cut to 80 characters, others than printable ones as '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 /// The shortest digits of a number.
 [[nodiscard]] std::string printable(double number);
