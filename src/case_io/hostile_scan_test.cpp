@@ -5,6 +5,7 @@
 // the memory that it claims.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -220,16 +221,16 @@ TEST_F(HostileSeries, WhoseLastSliceEndsBetweenTwoElements) {
 }
 
 TEST_F(HostileSeries, ThatUnpacksToFarMoreThanASlice) {
-  std::string packed(std::size_t{1} << 21U, '\0');
+  std::string packed(std::size_t{1} << 23U, '\0');
   z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY);
+  deflateInit2(&stream, 1, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY);
   std::string zeros(std::size_t{1} << 20U, '\0');
   stream.next_out = reinterpret_cast<Bytef*>(packed.data());
   stream.avail_out = static_cast<uInt>(packed.size());
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 270; ++i) {
     stream.next_in = reinterpret_cast<Bytef*>(zeros.data());
     stream.avail_in = static_cast<uInt>(zeros.size());
-    deflate(&stream, i == 399 ? Z_FINISH : Z_NO_FLUSH);
+    deflate(&stream, i == 269 ? Z_FINISH : Z_NO_FLUSH);
   }
   packed.resize(stream.total_out);
   deflateEnd(&stream);
@@ -244,6 +245,16 @@ TEST_F(HostileSeries, ThatUnpacksToFarMoreThanASlice) {
   bytes.resize(data);
   EXPECT_THAT(refusal_with(bytes + packed),
               AllOf(HasSubstr("IM_0005.dcm"), HasSubstr("deflated data set")));
+}
+
+TEST_F(HostileSeries, WhoseWordsWouldCommandATerminal) {
+  DicomDescription other;
+  other.series_description = "\x1b]0;owned\x07 \x1b[2J";
+  other.seed = 7;
+  write_dicom_series(folder() / "t", small_ct().view(), other);
+  const std::string words = refusal_of(folder());
+  EXPECT_THAT(words, AllOf(HasSubstr("2 series"), HasSubstr("?]0;owned?")));
+  EXPECT_EQ(words.find('\x1b'), std::string::npos);
 }
 
 TEST_F(HostileSeries, WithAPipeAmongItsFilesIsStillRead) {
@@ -347,6 +358,23 @@ TEST_F(HostileNifti, ThatClaimsMoreThanItsBytesCanUnpackTo) {
   EXPECT_THAT(refusal_of(folder() / "huge.nii"), HasSubstr("crop it"));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they map terabytes
+TEST_F(HostileNifti, ThatNeedsMoreMemoryThanThereIs) {
+  std::string header = bytes_of(file()).substr(0, 352);
+  for (std::size_t i = 0; i < 3; ++i) header.replace(42 + 2 * i, 2, raw(std::int16_t{1000}));
+  write(folder() / "big.nii", header);
+  fs::resize_file(folder() / "big.nii", 352 + std::uintmax_t{2000000000});  // sparse
+  rlimit before{};
+  ::getrlimit(RLIMIT_AS, &before);
+  rlimit small = before;
+  small.rlim_cur = rlim_t{1} << 30U;
+  ::setrlimit(RLIMIT_AS, &small);
+  const std::string words = refusal_of(folder() / "big.nii");
+  ::setrlimit(RLIMIT_AS, &before);
+  EXPECT_THAT(words, AllOf(HasSubstr("big.nii: needs 2067 MB"), HasSubstr("MB are free")));
+}
+#endif
+
 std::string nrrd_header(const std::string& more) {
   return "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
          "space directions: (1,0,0) (0,1,0) (0,0,1)\nendian: little\n" +
@@ -378,7 +406,7 @@ TEST_F(HostileScan, NrrdThatUnpacksToAnotherLength) {
   const std::string header = nrrd_header("encoding: gzip");
   const std::string bytes = header + bytes_of(odd);
   const std::size_t begins = header.size();
-  for (std::size_t at = begins + 10; at < bytes.size(); ++at) {
+  for (std::size_t at = begins + 10; at < bytes.size(); at += 11) {
     std::string changed = bytes;
     changed[at] = static_cast<char>(changed[at] ^ 1);
     write(file, changed);

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "case_io/mutation_test_support.hpp"
 #include "case_io/read_volume.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/amount_test_support.hpp"
@@ -31,6 +32,11 @@ namespace carpus::case_io {
 namespace {
 
 namespace fs = std::filesystem;
+using test::bytes_of;
+using test::is_failure_of_child;
+using test::MemoryLimit;
+using test::mutated;
+using test::write;
 
 /// What a format states so that a change of it can be seen.
 struct Redundancy {
@@ -46,15 +52,6 @@ struct Format {
   Redundancy has;
   bool is_by_library = false;  ///< a library decodes the voxels
 };
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-void write(const fs::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
 
 /// The same numbers at every run; what a wrist is like: smooth, with noise.
 Grid<std::int16_t> small_ct() {
@@ -161,46 +158,6 @@ class MutatedFiles : public ::testing::Test {
   std::vector<Format> formats_;
 };
 
-enum class Change { Bit, Byte, Number, Cut, Append, Remove, Double, Zeros };
-
-std::string mutated(std::string bytes, Rng& rng) {
-  const std::size_t size = bytes.size();
-  // Half of all changes go where headers are.
-  const std::size_t front = std::min<std::size_t>(size, 1500);
-  const std::size_t at = rng.below(2) == 0 ? rng.below(front) : rng.below(size);
-  const std::size_t length = std::min<std::size_t>(1 + rng.below(40), size - at);
-  switch (static_cast<Change>(rng.below(8))) {
-    case Change::Bit:
-      bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ (1U << rng.below(8)));
-      break;
-    case Change::Byte:
-      bytes[at] = static_cast<char>(rng.below(256));
-      break;
-    case Change::Number:
-      for (std::size_t i = at; i < std::min(at + 4, size); ++i) {
-        constexpr std::array<char, 4> kEdges{'\xFF', '\x7F', '\x00', '\x80'};
-        bytes[i] = kEdges[rng.below(4)];
-      }
-      break;
-    case Change::Cut:
-      bytes.resize(at);
-      break;
-    case Change::Append:
-      bytes.append(length, static_cast<char>(rng.below(2) == 0 ? 0 : rng.below(256)));
-      break;
-    case Change::Remove:
-      bytes.erase(at, length);
-      break;
-    case Change::Double:
-      bytes.insert(at, bytes.substr(at, length));
-      break;
-    case Change::Zeros:
-      std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), length, '\0');
-      break;
-  }
-  return bytes;
-}
-
 struct Row {
   std::size_t tried = 0;
   std::size_t refused = 0;
@@ -244,12 +201,6 @@ void judge(const Format& format,
   const bool is_voxels = format.is_by_library || are_voxels_alone(whole, read);
   const bool is_knowable = is_voxels ? format.has.voxels : format.has.scaling;
   ++(is_knowable ? row.believed : row.unknowable);
-}
-
-bool is_failure_of_child(const std::string& words) {
-  return words.find("its decoder crashed") != std::string::npos ||
-         words.find("takes too long") != std::string::npos ||
-         words.find("asks its decoder") != std::string::npos;
 }
 
 void try_once(const Format& format,
@@ -298,27 +249,8 @@ void print(const std::map<std::string, Row>& table) {
               sum.library_failed, sum.same, sum.unknowable, sum.believed, sum.slowest_s);
 }
 
-/// No more than so much memory in all, while it lives.
-class MemoryLimit {
- public:
-  explicit MemoryLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_AS, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = std::min(limit.rlim_max, bytes);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    setrlimit(RLIMIT_AS, &limit);
-#endif
-  }
-  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
-
 TEST_F(MutatedFiles, AreRefusedOrSaySomethingThatNoReaderCouldKnow) {
-  const std::size_t tries = test::amount<std::size_t>(100, 800, 20000);
+  const std::size_t tries = carpus::test::amount<std::size_t>(100, 800, 20000);
   const MemoryLimit limit(rlim_t{2} << 30U);
   std::map<std::string, Row> table;
   Rng rng(20);

@@ -10,6 +10,7 @@
 #include "case_io/detail/dicom_series.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "core/error.hpp"
+#include "image_formats/refusal.hpp"
 
 namespace carpus::case_io {
 namespace fs = std::filesystem;
@@ -24,10 +25,11 @@ constexpr double kAirLikelyBelowHu = -200;
 std::string series_list(const std::vector<DicomSeries>& all) {
   std::string list;
   for (const DicomSeries& s : all) {
+    using image_formats::printable;  // a terminal obeys what it is shown
     list += "\n  " + std::to_string(s.summary.slices) + " slices  " +
-            (s.summary.modality.empty() ? "?" : s.summary.modality) + "  \"" +
-            s.summary.description + "\"  in " + s.summary.folder.string() + "\n    --series " +
-            s.summary.uid;
+            (s.summary.modality.empty() ? "?" : printable(s.summary.modality)) + "  \"" +
+            printable(s.summary.description) + "\"  in " + s.summary.folder.string() +
+            "\n    --series " + printable(s.summary.uid);
   }
   return list;
 }
@@ -55,7 +57,8 @@ DicomSeries choose_series(std::vector<DicomSeries> all,
                        "\n  give the folder of the whole scan");
   }
   if (all.size() > 1 && options.warn) {
-    options.warn(folder.string() + ": reads the series \"" + all.front().summary.description +
+    options.warn(folder.string() + ": reads the series \"" +
+                 image_formats::printable(all.front().summary.description) +
                  "\"; passed over what is too short to be a volume");
   }
   DicomSeries chosen = std::move(all.front());  // sorted by number of slices

@@ -37,6 +37,9 @@ std::uint8_t label_of(const std::string& name) {
 }
 
 LabelMap read_map(const fs::path& file) {
+  if (!fs::is_regular_file(file)) {  // a pipe would wait for whoever writes into it
+    throw IoError(file.string() + ": is no regular file; give one, or remove it");
+  }
   std::ifstream stream(file);
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
   if (!json.is_object()) {
