@@ -167,6 +167,7 @@ TEST(DisposableChild, TellsItsStepsInOrderAndNeverMoreThanThereAre) {
 }
 
 TEST(DisposableChild, WorksWhileOtherThreadsHoldLocks) {
+  if (kIsSanitized) GTEST_SKIP() << "a sanitizer's allocator is not made for a fork among threads";
   std::atomic<bool> is_over = false;
   std::vector<std::thread> busy;
   for (int i = 0; i < 3; ++i) {
@@ -176,8 +177,8 @@ TEST(DisposableChild, WorksWhileOtherThreadsHoldLocks) {
   }
   for (int i = 0; i < 100; ++i) {
     SharedArray<char> result(1);
-    ASSERT_EQ(ending_of([&] { result.values()[0] = std::vector<char>(100000, 'c').back(); }), "");
-    ASSERT_EQ(result.values()[0], 'c');
+    EXPECT_EQ(ending_of([&] { result.values()[0] = std::vector<char>(100000, 'c').back(); }), "");
+    EXPECT_EQ(result.values()[0], 'c');
   }
   is_over = true;
   for (std::thread& t : busy) t.join();

@@ -10,6 +10,7 @@
 #include "anatomy/bone_id.hpp"
 #include "cases/case_data.hpp"
 #include "geometry/mat3.hpp"
+#include "geometry/pose.hpp"
 
 namespace carpus::case_io::test {
 
