@@ -19,6 +19,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/simulated_scan.hpp"
 #include "core/error.hpp"
+#include "core/person_name.hpp"
 #include "core/version.hpp"
 #include "reconstruct/reconstruct_case.hpp"
 #include "reconstruct/reconstruction_report.hpp"
@@ -95,6 +96,8 @@ void run(const Arguments& a) {
   const double reading_seconds = reconstruct::StageClock::seconds_since(started);
 
   reconstruct::ReconstructOptions options;
+  if (const auto problem = problem_of_name(a.pseudonym))
+    throw UsageError("--pseudonym: " + *problem);
   options.pseudonym = a.pseudonym;
   options.provenance.simulated = a.simulated || is_simulated_scan(a.input, a.series);
   options.provenance.source = source_in_words(a, ct.geometry(), options.provenance.simulated);

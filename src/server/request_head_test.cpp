@@ -8,6 +8,8 @@
 
 #include <string>
 
+#include "core/rng.hpp"
+
 namespace carpus::server {
 namespace {
 
@@ -156,6 +158,63 @@ TEST(RequestHead, EndIsFoundHoweverTheBytesArrive) {
     EXPECT_EQ(found.end, bytes.size() - 9) << step;
     EXPECT_FALSE(found.problem.has_value());
   }
+}
+
+/// What whoever reads on may rely on.
+void expect_unambiguous(const RequestHead& head, const std::string& bytes) {
+  EXPECT_TRUE(head.method == "GET" || head.method == "HEAD") << bytes;
+  ASSERT_FALSE(head.target.empty() || head.authority.empty()) << bytes;
+  EXPECT_EQ(head.target.front(), '/') << bytes;
+  std::size_t hosts = 0;
+  for (const RequestField& field : head.fields) {
+    hosts += field.name == "host" ? 1 : 0;
+    EXPECT_NE(field.name, "transfer-encoding") << bytes;
+    for (const char c : field.value) {
+      EXPECT_TRUE(c == '\t' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F)) << bytes;
+    }
+  }
+  EXPECT_EQ(hosts, 1U) << bytes;
+}
+
+TEST(RequestHead, WhateverIsChangedIsReadOneWayOrRefused) {
+  Rng rng(7);
+  const std::string whole =
+      "GET http://here:1/a?b HTTP/1.1\r\nHost: here:1\r\nContent-Length: 0\r\n"
+      "Transfer-Encoding: chunked\r\nConnection: close, x\r\nX : y\r\n z\r\n\r\n";
+  const std::string pieces = std::string("\0\r\n\t :,;/?#GETHTP10.\x80\xff", 22) + "\r\n\r\n";
+  int accepted = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    // Lines of it in any number, then single bytes changed, dropped and repeated.
+    std::string bytes = whole.substr(0, whole.find("\n") + 1);
+    for (std::size_t at = bytes.size(); at < whole.size();) {
+      const std::size_t end = whole.find('\n', at) + 1;
+      for (auto copies = rng.below(3); copies > 0; --copies) bytes += whole.substr(at, end - at);
+      at = end;
+    }
+    if (rng.below(2) == 0) bytes += "\r\n";
+    for (auto changes = rng.below(4); changes > 0; --changes) {
+      const auto at = static_cast<std::size_t>(rng.below(bytes.size()));
+      const char piece = pieces[static_cast<std::size_t>(rng.below(pieces.size()))];
+      switch (rng.below(3)) {
+        case 0:
+          bytes[at] = piece;
+          break;
+        case 1:
+          bytes.erase(at, 1);
+          break;
+        default:
+          bytes.insert(at, 1, piece);
+      }
+    }
+    const HeadEnd found = find_head_end(bytes);
+    if (found.problem || found.end == 0) continue;
+    const auto parsed = parse_request_head(std::string_view(bytes).substr(0, found.end));
+    if (const auto* head = std::get_if<RequestHead>(&parsed)) {
+      ++accepted;
+      expect_unambiguous(*head, bytes);
+    }
+  }
+  EXPECT_GT(accepted, 100);
 }
 
 }  // namespace
