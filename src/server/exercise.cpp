@@ -29,11 +29,22 @@ ExerciseStart begin_anew(const cases::CaseData& data,
                          std::uint64_t case_fingerprint,
                          const ExerciseSetup& setup,
                          const std::filesystem::path& records) {
+  return begin_anew(data, case_fingerprint, setup, records,
+                    simulation::World(data, *setup.procedure, setup.seed),
+                    simulation::World(data, *setup.procedure, setup.seed));
+}
+
+ExerciseStart begin_anew(const cases::CaseData& data,
+                         std::uint64_t case_fingerprint,
+                         const ExerciseSetup& setup,
+                         const std::filesystem::path& records,
+                         simulation::World world,
+                         simulation::World shadow) {
   simulation::Recorder recorder(kProgramVersion, case_fingerprint, *setup.procedure, setup.seed);
   ExerciseStart start{records::new_origin(),
                       records::utc_now(),
-                      simulation::World(data, *setup.procedure, setup.seed),
-                      simulation::World(data, *setup.procedure, setup.seed),
+                      std::move(world),
+                      std::move(shadow),
                       std::move(recorder),
                       {},
                       nullptr,

@@ -53,6 +53,13 @@ struct ExerciseStart {
                                        std::uint64_t case_fingerprint,
                                        const ExerciseSetup& setup,
                                        const std::filesystem::path& records);
+/// The same with worlds that were made before: that takes longer than all else.
+[[nodiscard]] ExerciseStart begin_anew(const cases::CaseData& data,
+                                       std::uint64_t case_fingerprint,
+                                       const ExerciseSetup& setup,
+                                       const std::filesystem::path& records,
+                                       simulation::World world,
+                                       simulation::World shadow);
 
 /// How a picture came about; the numbers of protocol/README.md.
 enum class PictureKind : std::uint32_t { Shot = 0, Live = 1, Held = 2 };

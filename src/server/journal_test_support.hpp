@@ -43,6 +43,21 @@ class ScriptedExercise {
     start_.journal->note_owner("first");
   }
 
+  /// @param world, shadow  that have not begun: making them takes longer than an exercise.
+  ScriptedExercise(const std::filesystem::path& records,
+                   std::uint64_t fingerprint,
+                   simulation::World world,
+                   simulation::World shadow)
+      : setup_(make_setup()),
+        start_(begin_anew(simulation::test::wrist(),
+                          fingerprint,
+                          setup_,
+                          records,
+                          std::move(world),
+                          std::move(shadow))) {
+    start_.journal->note_owner("first");
+  }
+
   /// One tick of an exercise of so many.
   void step(Tick last) {
     const simulation::Input input = scripted_input(start_.world.now(), last);
@@ -86,12 +101,14 @@ class ScriptedExercise {
   [[nodiscard]] const std::string& origin() const { return start_.origin; }
 
  private:
+  static constexpr std::uint64_t kSeed = 7;
+
   static ExerciseSetup make_setup() {
     ExerciseSetup setup;
     setup.trainee = "Ada";
     setup.input_device = "script";
     setup.procedure = &simulation::test::exercise();
-    setup.seed = 7;
+    setup.seed = kSeed;
     setup.number = 1234567;
     return setup;
   }

@@ -135,6 +135,15 @@ ResumedExercise gone_on_with(Readable&& readable,
           std::move(shots)};
 }
 
+/// Head and recording.
+constexpr std::size_t kBlocksBeforeInputs = 2;
+
+/// Whether a journal was cut off while it was begun: nothing is in it but what begins one.
+bool is_a_beginning(const records::JournalContent& content) {
+  constexpr std::uint64_t kMostBytes = 16384;
+  return content.sound_size > 0 ? content.torn_bytes < kMostBytes : content.torn_bytes == 0;
+}
+
 /// The journals that can be read, newest first; the others are set aside.
 std::vector<Readable> readable_ones(const std::filesystem::path& records,
                                     const std::function<bool(const std::string&)>& is_stored,
@@ -148,6 +157,11 @@ std::vector<Readable> readable_ones(const std::filesystem::path& records,
       continue;
     }
     const std::string file = found.place.file.string();
+    if (found.content.blocks.size() < kBlocksBeforeInputs && is_a_beginning(found.content)) {
+      words.push_back(file + ": an exercise in which nothing was done yet is deleted");
+      records::JournalWriter(std::move(found.place)).remove();
+      continue;
+    }
     auto exercise = read_exercise(found.content);
     if (!exercise) {
       words.push_back(file + ": an exercise was left here that cannot be used: " +

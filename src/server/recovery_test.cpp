@@ -166,8 +166,8 @@ TEST_F(RecoveryTest, OneThatDoesNotReplayIsStoredAsItIs) {
 }
 
 TEST_F(RecoveryTest, WhatCannotBeReadIsSetAsideWithAWord) {
-  std::ofstream(records::journal_path(records_, "abc")) << "CARPJRN1 and nothing more";
-  std::ofstream(records::journal_path(records_, "abd"));
+  std::ofstream(records::journal_path(records_, "abc")) << "no journal";
+  std::ofstream(records::journal_path(records_, "abd")) << std::string(5000, '\0');
   const LeftBehind left = look();
   EXPECT_EQ(left.running, nullptr);
   ASSERT_EQ(left.words.size(), 2U);
@@ -185,6 +185,15 @@ TEST_F(RecoveryTest, AnExerciseWithoutATickIsDeletedWithAWord) {
   ASSERT_EQ(left.words.size(), 1U);
   EXPECT_THAT(left.words[0], HasSubstr("nothing was done"));
   EXPECT_EQ(journals(), 0U);
+}
+
+TEST_F(RecoveryTest, AJournalThatWasCutOffAtItsBeginningIsDeletedWithAWord) {
+  std::ofstream(records::journal_path(records_, "abc"));
+  std::ofstream(records::journal_path(records_, "abd")) << "CARPJRN1 and half a head";
+  const LeftBehind left = look();
+  EXPECT_EQ(left.words.size(), 2U);
+  EXPECT_EQ(journals(), 0U);
+  EXPECT_TRUE(records::files_beside(records_, ".running-", "").empty());
 }
 
 TEST_F(RecoveryTest, WhateverIsCutOffGoesOnFromThePartBefore) {
