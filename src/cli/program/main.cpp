@@ -9,6 +9,7 @@
 #include <new>
 
 #include "cli/attempts_command.hpp"
+#include "cli/bench_journal_command.hpp"
 #include "cli/bench_peers_command.hpp"
 #include "cli/bench_tick_command.hpp"
 #include "cli/collide_command.hpp"
@@ -46,6 +47,7 @@ void add_commands(CLI::App& app) {
   CLI::App* bench = app.add_subcommand("bench", "Measure how fast things are on this machine");
   bench->require_subcommand(1);
   add_bench_tick_command(*bench);
+  add_bench_journal_command(*bench);
   add_bench_peers_command(*bench);
 }
 
