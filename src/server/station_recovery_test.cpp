@@ -53,6 +53,8 @@ class StationProcess {
     child_ = ::fork();
     if (child_ == 0) {
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      // A sanitizer would make a report of these instead of dying.
+      for (const int fatal : {SIGSEGV, SIGABRT}) std::signal(fatal, SIG_DFL);
       ::close(pipe[0]);
       ::_exit(serve(records, log, pipe[1]));
     }
