@@ -59,6 +59,10 @@ void check(const AttemptsArguments& arguments) {
 }
 
 void repair(const AttemptsArguments& arguments) {
+  if (records::check_records(arguments.records).problems.empty()) {
+    std::printf("%s is sound; nothing was changed\n", arguments.records.c_str());
+    return;
+  }
   const records::RecordsRepair done = records::repair_records(arguments.records);
   std::printf("%lld attempts saved, %zu lost", static_cast<long long>(done.saved),
               done.lost.size());
