@@ -28,7 +28,11 @@ class Reader {
 
   void check_end() const {
     std::size_t size = bytes_.size();
-    if (size > 0 && bytes_[size - 1] == std::byte{0}) --size;  // padding to an even length
+    const bool is_ended = size >= 2 && at(size - 2, 2) == 0xFFD9U;
+    // Padding to an even length: zeros, or JPEG's own fill byte.
+    const bool is_padded =
+        size >= 3 && (bytes_[size - 1] == std::byte{0} || bytes_[size - 1] == std::byte{0xFF});
+    if (!is_ended && is_padded) --size;
     if (size < 2 || at(size - 2, 2) != 0xFFD9U) {
       refuse_.damaged("a compressed frame", "without its end", "so that it is cut short");
     }
@@ -104,7 +108,8 @@ void check_codestream(std::span<const std::byte> bytes,
                            std::to_string(own.components) + " components";
   if (own.rows != static_cast<std::uint32_t>(header.rows) ||
       own.columns != static_cast<std::uint32_t>(header.columns) || own.components != 1 ||
-      own.bits < 2 || own.bits > header.bits_allocated || own.bits < header.bits_stored ||
+      own.bits < 2 || own.bits > header.bits_allocated ||
+      (header.is_signed && own.bits < header.bits_stored) ||  // where would the sign be
       (own.is_signed && *own.is_signed != header.is_signed)) {
     refuse.damaged("a compressed frame", said,
                    "but its DICOM header says " + std::to_string(header.rows) + " x " +

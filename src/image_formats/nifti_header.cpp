@@ -78,6 +78,9 @@ class Parser {
     if (front_.size() < kNiftiFrontBytes) {
       refuse_.damaged("the file", "shorter than a header", "NIfTI has one of 352 bytes");
     }
+    if (const auto size = raw<std::int32_t>(0); size == 540 || size == 0x1C020000) {
+      refuse_.unusable("sizeof_hdr", "540 (NIfTI-2)", "save it as NIfTI-1 and open that");
+    }
     is_swapped_ = raw<std::int32_t>(0) != 348;
     if (raw<std::int32_t>(0) != 348 || text(344, 4) != "n+1") {
       refuse_.damaged("its start", "not that of a NIfTI-1 volume in one file",

@@ -177,7 +177,7 @@ TEST(VolumeHeaders, ReadBigEndianAndScaledNifti) {
 TEST(NiftiHeader, RefusesByTheFieldsName) {
   EXPECT_THAT(nifti_refusal(nifti().substr(0, 351)), HasSubstr("v.nii: the file"));
   EXPECT_THAT(nifti_refusal(nifti_with(344, 'x')), HasSubstr("its start"));
-  EXPECT_THAT(nifti_refusal(nifti_with(0, std::int32_t{540})), HasSubstr("its start"));
+  EXPECT_THAT(nifti_refusal(nifti_with(0, std::int32_t{540})), HasSubstr("NIfTI-2"));
   EXPECT_THAT(nifti_refusal(nifti_with(70, std::int16_t{128})), HasSubstr("datatype is 128"));
   EXPECT_THAT(nifti_refusal(nifti_with(72, std::int16_t{8})), HasSubstr("bitpix is 8"));
   EXPECT_THAT(nifti_refusal(nifti_with(40, std::int16_t{2})), HasSubstr("dim[0] is 2"));
