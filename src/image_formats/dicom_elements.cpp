@@ -87,6 +87,26 @@ DicomElement DicomElements::header(std::uint64_t at, std::uint64_t end, bool is_
   return e;
 }
 
+bool DicomElements::check_tag(std::uint64_t at, std::uint64_t end, bool is_item) {
+  constexpr std::uint64_t kLeastElement = 8;
+  if (!is_item && end - at < kLeastElement) {
+    refuse_.damaged("its end", "followed by " + std::to_string(end - at) + " bytes",
+                    "which belong to nothing");
+  }
+  const std::uint32_t tag = take_tag(at, end);
+  const bool is_delimiter = tag >> 16U == kItem >> 16U;
+  if (is_forbidden_group(tag >> 16U) || (is_delimiter && !is_item)) {
+    refuse_.damaged("an element", tag_text(tag), "where no such element may stand");
+  }
+  return is_delimiter;
+}
+
+std::uint64_t DicomElements::item_end(const DicomElement& e) const {
+  if (e.tag != kItemEnd) refuse_.damaged("an element", tag_text(e.tag), "in an item");
+  if (e.length != 0) refuse_.damaged("the end of an item", "not empty", "as it must be");
+  return e.value_begins;
+}
+
 std::uint64_t DicomElements::elements(std::uint64_t at,
                                       std::uint64_t end,
                                       bool is_item,
@@ -95,22 +115,9 @@ std::uint64_t DicomElements::elements(std::uint64_t at,
                                       int depth) {
   std::uint64_t last_tag = 0;
   while (at < end) {
-    constexpr std::uint64_t kLeastElement = 8;
-    if (depth == 0 && end - at < kLeastElement) {
-      refuse_.damaged("its end", "followed by " + std::to_string(end - at) + " bytes",
-                      "which belong to nothing");
-    }
-    const std::uint32_t group = take_tag(at, end) >> 16U;
-    const bool is_delimiter = group == kItem >> 16U;
-    if (is_forbidden_group(group) || (is_delimiter && !is_item)) {
-      refuse_.damaged("an element", tag_text(take_tag(at, end)), "where no such element may stand");
-    }
+    const bool is_delimiter = check_tag(at, end, is_item);
     const DicomElement e = header(at, end, is_implicit);
-    if (is_delimiter) {
-      if (e.tag != kItemEnd) refuse_.damaged("an element", tag_text(e.tag), "in an item");
-      if (e.length != 0) refuse_.damaged("the end of an item", "not empty", "as it must be");
-      return e.value_begins;
-    }
+    if (is_delimiter) return item_end(e);
     if (depth == 0 && e.tag <= last_tag) {
       refuse_.damaged("an element",
                       tag_text(e.tag) + " after " + tag_text(static_cast<std::uint32_t>(last_tag)),

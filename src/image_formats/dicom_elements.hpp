@@ -80,6 +80,9 @@ class DicomElements {
                          bool is_implicit,
                          const Visit& visit,
                          int depth);
+  /// Whether a delimiter comes next; refuses what may not.
+  bool check_tag(std::uint64_t at, std::uint64_t end, bool is_item);
+  [[nodiscard]] std::uint64_t item_end(const DicomElement& e) const;
   std::uint64_t skip_items(std::uint64_t at, std::uint64_t end, bool is_implicit, int depth);
   DicomElement header(std::uint64_t at, std::uint64_t end, bool is_implicit);
   [[nodiscard]] std::uint32_t take(std::uint64_t at, std::uint64_t end, std::size_t bytes);

@@ -15,38 +15,36 @@ constexpr std::uint64_t kPreambleBytes = 132;
 /// More frames or pieces than any volume has.
 constexpr std::int64_t kMostFrames = 65535;
 
-enum Tag : std::uint32_t {
-  kMediaClassUid = 0x00020002U,
-  kTransferSyntax = 0x00020010U,
-  kInstanceUid = 0x00080018U,
-  kModality = 0x00080060U,
-  kSeriesDescription = 0x0008103EU,
-  kSeriesUid = 0x0020000EU,
-  kPosition = 0x00200032U,
-  kOrientation = 0x00200037U,
-  kFrameOfReference = 0x00200052U,
-  kPlanePositionSequence = 0x00209113U,
-  kPlaneOrientationSequence = 0x00209116U,
-  kSamples = 0x00280002U,
-  kPhotometric = 0x00280004U,
-  kNumberOfFrames = 0x00280008U,
-  kRows = 0x00280010U,
-  kColumns = 0x00280011U,
-  kPixelSpacing = 0x00280030U,
-  kBitsAllocated = 0x00280100U,
-  kBitsStored = 0x00280101U,
-  kHighBit = 0x00280102U,
-  kPixelRepresentation = 0x00280103U,
-  kIntercept = 0x00281052U,
-  kSlope = 0x00281053U,
-  kPixelMeasuresSequence = 0x00289110U,
-  kValueTransformationSequence = 0x00289145U,
-  kSharedGroups = 0x52009229U,
-  kPerFrameGroups = 0x52009230U,
-  kFloatPixelData = 0x7FE00008U,
-  kDoublePixelData = 0x7FE00009U,
-  kPixelData = 0x7FE00010U,
-};
+constexpr std::uint32_t kMediaClassUid = 0x00020002U;
+constexpr std::uint32_t kTransferSyntax = 0x00020010U;
+constexpr std::uint32_t kInstanceUid = 0x00080018U;
+constexpr std::uint32_t kModality = 0x00080060U;
+constexpr std::uint32_t kSeriesDescription = 0x0008103EU;
+constexpr std::uint32_t kSeriesUid = 0x0020000EU;
+constexpr std::uint32_t kPosition = 0x00200032U;
+constexpr std::uint32_t kOrientation = 0x00200037U;
+constexpr std::uint32_t kFrameOfReference = 0x00200052U;
+constexpr std::uint32_t kPlanePositionSequence = 0x00209113U;
+constexpr std::uint32_t kPlaneOrientationSequence = 0x00209116U;
+constexpr std::uint32_t kSamples = 0x00280002U;
+constexpr std::uint32_t kPhotometric = 0x00280004U;
+constexpr std::uint32_t kNumberOfFrames = 0x00280008U;
+constexpr std::uint32_t kRows = 0x00280010U;
+constexpr std::uint32_t kColumns = 0x00280011U;
+constexpr std::uint32_t kPixelSpacing = 0x00280030U;
+constexpr std::uint32_t kBitsAllocated = 0x00280100U;
+constexpr std::uint32_t kBitsStored = 0x00280101U;
+constexpr std::uint32_t kHighBit = 0x00280102U;
+constexpr std::uint32_t kPixelRepresentation = 0x00280103U;
+constexpr std::uint32_t kIntercept = 0x00281052U;
+constexpr std::uint32_t kSlope = 0x00281053U;
+constexpr std::uint32_t kPixelMeasuresSequence = 0x00289110U;
+constexpr std::uint32_t kValueTransformationSequence = 0x00289145U;
+constexpr std::uint32_t kSharedGroups = 0x52009229U;
+constexpr std::uint32_t kPerFrameGroups = 0x52009230U;
+constexpr std::uint32_t kFloatPixelData = 0x7FE00008U;
+constexpr std::uint32_t kDoublePixelData = 0x7FE00009U;
+constexpr std::uint32_t kPixelData = 0x7FE00010U;
 
 /// Numbers of a backslash-separated value; empty where one is not a number.
 std::vector<double> decimals(std::string_view value) {

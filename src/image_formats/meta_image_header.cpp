@@ -179,7 +179,7 @@ class Parser {
     header.packed_bytes = static_cast<std::uint64_t>(*size);
   }
 
-  GridGeometry geometry() const {
+  [[nodiscard]] GridGeometry geometry() const {
     StatedGeometry stated;
     const std::vector<double> size = numbers({"DimSize"}, 3);
     const std::vector<double> spacing = numbers({"ElementSpacing"}, 3);

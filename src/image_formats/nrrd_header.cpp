@@ -194,7 +194,7 @@ class Parser {
   }
 
   [[nodiscard]] std::string space_without_case() const {
-    const std::string space = lower(needed("space"));
+    std::string space = lower(needed("space"));
     if (space == "lps") return "left-posterior-superior";
     if (space == "ras") return "right-anterior-superior";
     if (space == "las") return "left-anterior-superior";
