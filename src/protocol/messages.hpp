@@ -108,7 +108,7 @@ struct CArm {
   bool operator==(const CArm&) const = default;
 };
 
-/// The C-arm's foot pedal: live pictures while it is down. It is let go 150 ms after it was last
+/// The C-arm's foot pedal: live pictures while it is down. It is let go 500 ms after it was last
 /// said to be held, so say it again meanwhile.
 struct Pedal {
   bool down = false;

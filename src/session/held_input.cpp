@@ -19,7 +19,7 @@ simulation::Input InputSource::input(const simulation::Command& command) const n
       input.hands[hand].driver = simulation::Driver::Off;
     }
   }
-  if (ticks_since_pedal_ >= kDriverHoldTicks) input.c_arm.pedal_is_down = false;
+  if (ticks_since_pedal_ >= kPedalHoldTicks) input.c_arm.pedal_is_down = false;
   return input;
 }
 

@@ -35,8 +35,10 @@ static_assert(std::is_trivially_copyable_v<HeldInput>);
 class InputSource {
  public:
   /// A driver runs only this long after its hand was last heard of: a page that is held up must not
-  /// drill on. The pedal likewise: nor must it burn on.
+  /// drill on.
   static constexpr Tick kDriverHoldTicks = 150;
+  /// The pedal likewise; longer, since every time that it is let go is a look of its own.
+  static constexpr Tick kPedalHoldTicks = 500;
 
   explicit InputSource(const HeldInput& initial) noexcept : held_(initial) {}
 

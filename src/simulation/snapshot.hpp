@@ -70,7 +70,7 @@ enum class EventKind : std::uint8_t {
   EnteredBone = 2,     ///< an instrument engaged; detail: body
   LeftFarSide = 3,     ///< the tip came out of the target's far side; value: mm
   Withdrawn = 4,       ///< an instrument came out of bone; detail: instrument
-  ShotTaken = 5,       ///< detail: number of the shot
+  ShotTaken = 5,       ///< detail: number of the look
   GaugeRead = 6,       ///< value: mm
   Taken = 7,           ///< detail: instrument
   PutDown = 8,         ///< detail: instrument
@@ -82,7 +82,7 @@ enum class EventKind : std::uint8_t {
   WrongBone = 14,     ///< a bone was entered that is neither target nor allowed; detail: body
   Slipped = 15,       ///< a turning tip slipped along a surface it met too flat; detail: body
   WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
-  LiveEnded = 17,     ///< the pedal was let go; detail: number of the look's shot, value: s
+  LiveEnded = 17,     ///< the pedal was let go; detail: number of the look, value: s
 };
 
 struct Event {

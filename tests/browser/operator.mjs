@@ -243,6 +243,20 @@ export class Operator {
     await this.settle();
   }
 
+  /** Holds the C-arm's pedal while `meanwhile` goes on; the last picture stays. */
+  async lookLive(meanwhile) {
+    const before = (await this.snapshot()).shots;
+    await this.page.keyboard.down("e");
+    await this.until((s) => s.c_arm.live, "live pictures");
+    await this.page.locator(".c-arm header span", { hasText: "live" }).waitFor();
+    await meanwhile();
+    await this.page.keyboard.up("e");
+    await this.until((s) => !s.c_arm.live, "the pedal let go");
+    await this.page
+      .locator(`.c-arm-strip button[aria-label*="shot ${before + 1},"]`)
+      .waitFor();
+  }
+
   /** Mean and standard deviation of the middle of the shown picture. */
   picture() {
     return this.page.evaluate(() => {

@@ -172,6 +172,37 @@ async function operate(page, station, problems) {
   );
   await check(
     page,
+    "the pedal shows the forearm turning, live, and holds the last picture",
+    async () => {
+      const before = await operator.snapshot();
+      const pictures = new Set();
+      await operator.lookLive(async () => {
+        for (let tap = 0; tap < 8; ++tap) {
+          await operator.tap("n");
+          const { mean, deviation } = await operator.picture();
+          pictures.add(`${mean} ${deviation}`);
+        }
+      });
+      expect(pictures.size > 1, "the live picture does not change");
+      const after = await operator.snapshot();
+      expect(after.shots === before.shots + 1, "a live look is one look");
+      expect(after.dose_cgy_cm2 > before.dose_cgy_cm2, "it costs no dose");
+      const turned = after.wrist.pronation_deg - before.wrist.pronation_deg;
+      const seen = before.c_arm.rotation_deg - after.c_arm.rotation_deg;
+      expect(
+        turned > 5 && Math.abs(turned - seen) < 1,
+        `the forearm turned by ${turned}, what is seen by ${seen} degrees`,
+      );
+      for (let tap = 0; tap < 8; ++tap) await operator.tap("b");
+      const pronation = before.wrist.pronation_deg;
+      await operator.until(
+        (s) => Math.abs(s.wrist.pronation_deg - pronation) < 0.2,
+        "the way back",
+      );
+    },
+  );
+  await check(
+    page,
     "what cannot be done now says why, in the host's words",
     async () => {
       const undo = page.getByRole("button", { name: "Undo" });

@@ -37,7 +37,7 @@ void World::State::note_look(double rotation_deg, double tilt_deg, Look look) no
 
 void World::State::take_shot(const Command& command) noexcept {
   note_look(command.rotation_deg, command.tilt_deg, Look::Single);
-  emit(EventKind::ShotTaken, kNoItem, static_cast<std::int32_t>(spent.shot_count), 0.0);
+  emit(EventKind::ShotTaken, kNoItem, static_cast<std::int32_t>(spent.looks), 0.0);
 }
 
 void World::State::look_through(const CArmInput& raw) noexcept {
@@ -50,7 +50,7 @@ void World::State::look_through(const CArmInput& raw) noexcept {
   spent.c_arm = wanted;
   if (!wanted.pedal_is_down) {
     if (spent.live_ticks == 0) return;
-    emit(EventKind::LiveEnded, kNoItem, static_cast<std::int32_t>(spent.live_shot),
+    emit(EventKind::LiveEnded, kNoItem, static_cast<std::int32_t>(spent.live_look),
          spent.live_ticks * kTickSeconds);
     spent.live_ticks = 0;
     return;
@@ -76,7 +76,7 @@ void World::State::pulse() noexcept {
   if (is_new && spent.shot_count < kMaxShots) {
     note_look(stand.rotation_deg, stand.tilt_deg, is_first ? Look::Live : Look::LiveOn);
   }
-  if (is_first) spent.live_shot = spent.shot_count;
+  if (is_first) spent.live_look = spent.looks;
   ++spent.pulses;
   ++shots[spent.shot_count - 1].pulses;
 }

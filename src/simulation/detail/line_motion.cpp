@@ -26,7 +26,6 @@ constexpr double kScratchMm = 0.3;    // deeper, a bone counts as entered
 constexpr double kFarExitMm = 0.3;    // beyond the far surface, past what is doubtful
 constexpr double kNearBoneMm = 1.5;   // as far as a CT blurs a bone's density around it
 constexpr double kSoftTissueHu = 40.0;
-constexpr double kWidenedPartMm = 2.0;   // of a taper, a turn
 constexpr double kStiffLengthMm = 10.0;  // of a wire in bone, over which it gives way [E]
 constexpr double kCutStepMm = 0.05;      // removed at once by a wire: a fifth of a voxel
 constexpr double kWideCutStepMm = 0.25;  // by what is wide and slow: half a voxel

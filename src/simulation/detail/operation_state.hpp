@@ -183,7 +183,7 @@ struct Spent {
   std::uint32_t looks = 0;
   std::uint32_t pulses = 0;
   std::uint32_t live_ticks = 0;  ///< since the pedal went down; 0 while it is up
-  std::uint32_t live_shot = 0;   ///< number of the shot with which that began
+  std::uint32_t live_look = 0;   ///< its number
   CArmInput c_arm;
   bool finished = false;
   bool wrist_is_told = false;  ///< that it came to its limit or is held
@@ -204,7 +204,7 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
   v(spent.looks);
   v(spent.pulses);
   v(spent.live_ticks);
-  v(spent.live_shot);
+  v(spent.live_look);
   v(spent.c_arm.rotation_deg);
   v(spent.c_arm.tilt_deg);
   v(spent.c_arm.pedal_is_down);

@@ -5,8 +5,8 @@
 // since the host lets go of what it does not hear of.
 import { make } from "../dom";
 
-/** The host lets go after 150 ms. */
-const REPEAT_MS = 40;
+/** The host lets go after 500 ms. */
+const REPEAT_MS = 100;
 
 export interface PedalHandlers {
   /** Why it cannot be pressed now, if it cannot. */
@@ -19,7 +19,7 @@ export class Pedal {
   readonly button: HTMLButtonElement;
   /** What holds it down: codes of keys, "pointer". */
   private readonly holders = new Set<string>();
-  private lastSentMs = -Infinity;
+  private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly handlers: PedalHandlers) {
     this.button = make(
@@ -79,14 +79,13 @@ export class Pedal {
     this.tell();
   }
 
-  /** Once per frame. */
-  frame(nowMs: number): void {
-    if (this.isDown && nowMs - this.lastSentMs >= REPEAT_MS) this.tell(nowMs);
-  }
-
-  private tell(nowMs = performance.now()): void {
-    this.lastSentMs = nowMs;
+  private tell(): void {
     this.button.setAttribute("aria-pressed", String(this.isDown));
     this.handlers.send(this.isDown);
+    clearInterval(this.timer);
+    if (!this.isDown) return;
+    this.timer = setInterval(() => {
+      this.handlers.send(true);
+    }, REPEAT_MS);
   }
 }

@@ -5,7 +5,7 @@
 // each point, so that a bent wrist costs no more than a straight one.
 import * as THREE from "three";
 import { depthOnlyMaterial, skinMaterial } from "./materials";
-import { dualQuaternion, handWeights, sideOf, type RigidMotion } from "./skin_blend_model";
+import { dualQuaternion, evened, handWeights, sideOf, type RigidMotion } from "./skin_blend_model";
 
 /** The bones whose motion is that of their side of the skin, the first that is there. */
 const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"] } as const;
@@ -58,7 +58,8 @@ export class Skin {
       name: bone.name,
       positions: bone.geometry.getAttribute("position").array,
     }));
-    const weights = handWeights(surface.getAttribute("position").array, points);
+    const nearest = handWeights(surface.getAttribute("position").array, points);
+    const weights = evened(nearest, surface.getIndex()?.array ?? []);
     surface.setAttribute("handWeight", new THREE.BufferAttribute(weights, 1));
     const carriers = Object.values(CARRIERS).map((names) =>
       names.find((name) => bones.some((bone) => bone.name === name)),

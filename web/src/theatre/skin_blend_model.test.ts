@@ -7,6 +7,7 @@ import type { Vec3 } from "../protocol";
 import {
   blendedPoint,
   dualQuaternion,
+  evened,
   handWeights,
   sideOf,
   type RigidMotion,
@@ -63,6 +64,28 @@ describe("handWeights", () => {
     expect([...handWeights([1, 2, 3], bones.slice(0, 1))]).toEqual([0]);
     expect([...handWeights([1, 2, 3], bones.slice(2))]).toEqual([1]);
     expect([...handWeights([1, 2, 3], [])]).toEqual([0]);
+  });
+});
+
+describe("evened", () => {
+  /** A strip of squares, two facets each. */
+  const length = 60;
+  const facets = Array.from({ length: length - 1 }, (_, i) => {
+    const [a, b, c, d] = [2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3];
+    return [a, b, c, b, d, c];
+  }).flat();
+  it("turns a step into a slope and leaves the ends alone", () => {
+    const step = Float32Array.from({ length: 2 * length }, (_, v) => (v < length ? 0 : 1));
+    const weights = evened(step, facets);
+    expect(weights[0]).toBeCloseTo(0, 2);
+    expect(weights[2 * length - 1]).toBeCloseTo(1, 2);
+    for (let v = 2; v < weights.length; ++v)
+      expect((weights[v] ?? 0) - (weights[v - 2] ?? 0)).toBeLessThan(0.12);
+  });
+  it("changes nothing where all agree", () => {
+    expect([...evened(new Float32Array(8).fill(0.5), facets.slice(0, 18))]).toEqual(
+      Array.from({ length: 8 }, () => 0.5),
+    );
   });
 });
 

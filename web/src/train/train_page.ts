@@ -62,6 +62,7 @@ export class TrainPage {
   dispose(): void {
     for (const stop of this.stops) stop();
     this.panels.notice.dispose();
+    this.panels.arm.pedal.releaseAll();
     this.abort.abort();
     this.connection.dispose();
     this.hand.dispose();
@@ -223,7 +224,6 @@ export class TrainPage {
     return startFrameLoop({
       hand: (nowMs) => {
         this.hand.frame(nowMs);
-        this.panels.arm.pedal.frame(nowMs);
       },
       draw: () => {
         this.theatre.draw();
