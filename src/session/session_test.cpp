@@ -131,9 +131,10 @@ class Page {
     commands_.push_back(session_.take(message));
     return {};
   }
-  std::string take(const protocol::Hello&) { return "not the session's"; }
-  std::string take(const protocol::Start&) { return "not the session's"; }
-  std::string take(const protocol::Pause&) { return "not the session's"; }
+  template <typename Message>
+  std::string take(const Message&) {
+    return "not the session's";
+  }
 
   simulation::World world_;
   Session session_;
