@@ -24,6 +24,7 @@
 #include "core/rng.hpp"
 #include "procedures/built_in.hpp"
 #include "records/atomic_file.hpp"
+#include "records/journals_left_behind.hpp"
 #include "server/exercise.hpp"
 
 namespace carpus::cli {
@@ -171,6 +172,41 @@ double share_of_a_core(const simulation::Recording& recording, const fs::path& f
   return (here + std::max(0.0, process - thread)) / wall;
 }
 
+/// How long it takes to read what an hour of such inputs left, up to where it can be gone on with
+/// from the last keyframe [s].
+double time_to_read_an_hour(const simulation::Recording& recording,
+                            std::vector<std::byte> keyframe,
+                            const fs::path& records) {
+  constexpr Tick kHour = 3'600'000;
+  server::ExerciseJournal journal(records::journal_path(records, "hour"),
+                                  protocol::RunningExercise{}, simulation::Recording{});
+  simulation::Keyframe state{0, std::move(keyframe)};
+  for (Tick tick = 0; tick < kHour;) {
+    for (const simulation::InputRun& run : recording.runs) {
+      for (std::uint32_t i = 0; i < run.ticks && tick < kHour; ++i) {
+        journal.append(run.input);
+        ++tick;
+        if (tick % server::ExerciseJournal::kPartTicks == 0) journal.hand_over_now(1);
+        if (tick % simulation::kKeyframeTicks != 0) continue;
+        state.tick = tick;
+        journal.append(state, 1);
+        (void)journal.wait_until_safe(milliseconds(5000));
+      }
+    }
+  }
+  (void)journal.wait_until_safe(milliseconds(5000));
+  const auto begin = steady_clock::now();
+  const auto content = records::decode_journal(records::read_file(journal.file()));
+  const auto exercise = server::read_exercise(content);
+  const double seconds = std::chrono::duration<double>(steady_clock::now() - begin).count();
+  journal.remove();
+  if (!exercise || exercise->recording.tick_count() != kHour) {
+    throw IoError("bench journal: the journal of an hour does not come back" +
+                  (exercise ? std::string() : ": " + exercise.error()));
+  }
+  return seconds;
+}
+
 nlohmann::ordered_json row_of(const cases::CaseData& data,
                               const procedure::Procedure& procedure,
                               const Operator& who,
@@ -185,8 +221,8 @@ nlohmann::ordered_json row_of(const cases::CaseData& data,
   const double simulated_s = static_cast<double>(with.recording.tick_count()) * kTickSeconds;
   const double share = share_of_a_core(
       with.recording, records.parent_path() / ("bench." + std::to_string(::getpid()) + ".journal"));
-  const double one_keyframe =
-      static_cast<double>(simulation::World(data, procedure, 1).write_state().size());
+  const std::vector<std::byte> keyframe = simulation::World(data, procedure, 1).write_state();
+  const auto one_keyframe = static_cast<double>(keyframe.size());
   return {{"input", who.name},
           {"simulated_s", simulated_s},
           {"bytes_per_s", static_cast<double>(with.journal_bytes - keyframe_bytes) / simulated_s},
@@ -194,20 +230,22 @@ nlohmann::ordered_json row_of(const cases::CaseData& data,
            one_keyframe / (static_cast<double>(simulation::kKeyframeTicks) * kTickSeconds)},
           {"share_of_a_core", share},
           {"most_behind_ms", with.most_behind_ticks},
+          {"read_an_hour_s", time_to_read_an_hour(with.recording, keyframe, records)},
           {"tick_p50_us", {without.timing.whole_p50_us, with.timing.whole_p50_us}},
           {"tick_p99_us", {without.timing.whole_p99_us, with.timing.whole_p99_us}},
           {"late_ticks", {without.timing.late_ticks, with.timing.late_ticks}}};
 }
 
 void print(const nlohmann::ordered_json& row) {
-  std::printf("%-20s %9.0f %12.0f %9.2f %% %9llu ms   %6.1f / %-6.1f %6.1f / %-6.1f %5llu / %llu\n",
-              row["input"].get<std::string>().c_str(), row["bytes_per_s"].get<double>(),
-              row["keyframe_bytes_per_s"].get<double>(),
-              100.0 * row["share_of_a_core"].get<double>(),
-              row["most_behind_ms"].get<unsigned long long>(), row["tick_p50_us"][0].get<double>(),
-              row["tick_p50_us"][1].get<double>(), row["tick_p99_us"][0].get<double>(),
-              row["tick_p99_us"][1].get<double>(), row["late_ticks"][0].get<unsigned long long>(),
-              row["late_ticks"][1].get<unsigned long long>());
+  std::printf(
+      "%-20s %9.0f %12.0f %9.2f %% %9llu ms %8.2f s   %6.1f / %-6.1f %6.1f / %-6.1f %5llu / %llu\n",
+      row["input"].get<std::string>().c_str(), row["bytes_per_s"].get<double>(),
+      row["keyframe_bytes_per_s"].get<double>(), 100.0 * row["share_of_a_core"].get<double>(),
+      row["most_behind_ms"].get<unsigned long long>(), row["read_an_hour_s"].get<double>(),
+      row["tick_p50_us"][0].get<double>(), row["tick_p50_us"][1].get<double>(),
+      row["tick_p99_us"][0].get<double>(), row["tick_p99_us"][1].get<double>(),
+      row["late_ticks"][0].get<unsigned long long>(),
+      row["late_ticks"][1].get<unsigned long long>());
 }
 
 void run(const BenchJournalArguments& arguments) {
@@ -219,10 +257,10 @@ void run(const BenchJournalArguments& arguments) {
   const procedure::Procedure& procedure = *procedures::built_in().all().front();
   std::printf("the journal of a live exercise on %s, %s, at %s\n", in_words(data).c_str(),
               procedure.id.c_str(), arguments.folder.c_str());
-  std::printf("%-20s %9s %12s %11s %12s   %-15s %-15s %s\n", "input", "bytes/s", "+ keyframes",
-              "of a core", "most behind", "tick p50 us", "tick p99 us", "late ticks");
-  std::printf("%-20s %9s %12s %11s %12s   %-15s %-15s %s\n", "", "", "", "", "", "without / with",
-              "without / with", "without / with");
+  std::printf("%-20s %9s %12s %11s %12s %10s   %-15s %-15s %s\n", "input", "bytes/s", "+ keyframes",
+              "of a core", "most behind", "an hour", "tick p50 us", "tick p99 us", "late ticks");
+  std::printf("%-20s %9s %12s %11s %12s %10s   %-15s %-15s %s\n", "", "", "", "", "", "read in",
+              "without / with", "without / with", "without / with");
   auto rows = nlohmann::ordered_json::array();
   const fs::path records = fs::path(arguments.folder) / "bench.sqlite";
   for (const Operator& who : kOperators) {
