@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/rng.hpp"
@@ -61,9 +62,9 @@ TEST(Recording, TwoHandsThatMoveEveryTickStayUnder40KilobytesASecond) {
   Recorder recorder = short_recorder();
   Rng rng(4);
   Input input;
-  Vec3 velocity[2];
+  std::array<Vec3, 2> velocity;
   for (int i = 0; i < 10000; ++i) {
-    for (int h = 0; h < 2; ++h) {
+    for (std::size_t h = 0; h < kHands; ++h) {
       for (std::size_t k = 0; k < 3; ++k) {  // up to some 300 mm/s, turning, trembling
         velocity[h][k] = std::clamp(velocity[h][k] + 0.01 * rng.normal(), -0.3, 0.3);
         input.hands[h].tip_in_patient[k] += velocity[h][k];
