@@ -7,14 +7,17 @@
 
 #include <utility>  // before asio: its 1.74 needs std::exchange and does not include it
 //
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/rate_policy.hpp>
+#include <boost/beast/core/role.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
-#include <boost/beast/websocket/ssl.hpp>
-#include <boost/beast/websocket/teardown.hpp>
+#include <boost/container/static_vector.hpp>
 #include <variant>
+
+#include "server/detail/any_handler.hpp"
 
 namespace carpus::server::detail {
 
@@ -50,31 +53,46 @@ class DoorStream {
 
   template <typename Buffers, typename Handler>
   void async_read_some(const Buffers& buffers, Handler&& handler) {
-    std::visit(
-        [&](auto& stream) { stream.async_read_some(buffers, std::forward<Handler>(handler)); },
-        stream_);
+    read_some(pieces_of<boost::asio::mutable_buffer>(buffers),
+              Done(std::forward<Handler>(handler), get_executor()));
   }
   template <typename Buffers, typename Handler>
   void async_write_some(const Buffers& buffers, Handler&& handler) {
-    std::visit(
-        [&](auto& stream) { stream.async_write_some(buffers, std::forward<Handler>(handler)); },
-        stream_);
+    write_some(pieces_of<boost::asio::const_buffer>(buffers),
+               Done(std::forward<Handler>(handler), get_executor()));
   }
 
   /// What Beast asks for at the end of a WebSocket, and when it does not end in time.
   template <typename Handler>
   friend void async_teardown(boost::beast::role_type role, DoorStream& door, Handler&& handler) {
-    using boost::beast::async_teardown;
-    using boost::beast::websocket::async_teardown;
-    if (Tls* const secure = door.tls()) {
-      async_teardown(role, *secure, std::forward<Handler>(handler));
-    } else {
-      async_teardown(role, door.tcp(), std::forward<Handler>(handler));
-    }
+    door.tear_down(role, TornDown(std::forward<Handler>(handler), door.get_executor()));
   }
   friend void beast_close_socket(DoorStream& door) { door.tcp().close(); }
 
  private:
+  using Done = AnyHandler<boost::system::error_code, std::size_t>;
+  using TornDown = AnyHandler<boost::system::error_code>;
+  /// More than these wait for the next call: "some" may be as little.
+  static constexpr std::size_t kMostPieces = 16;
+  template <typename Buffer>
+  using Pieces = boost::container::static_vector<Buffer, kMostPieces>;
+
+  template <typename Buffer, typename Buffers>
+  [[nodiscard]] static Pieces<Buffer> pieces_of(const Buffers& buffers) {
+    Pieces<Buffer> pieces;
+    const auto end = boost::asio::buffer_sequence_end(buffers);
+    for (auto at = boost::asio::buffer_sequence_begin(buffers);
+         at != end && pieces.size() < kMostPieces; ++at) {
+      const Buffer piece(*at);
+      if (piece.size() > 0) pieces.push_back(piece);
+    }
+    return pieces;
+  }
+
+  void read_some(const Pieces<boost::asio::mutable_buffer>& pieces, Done done);
+  void write_some(const Pieces<boost::asio::const_buffer>& pieces, Done done);
+  void tear_down(boost::beast::role_type role, TornDown done);
+
   std::variant<Tcp, Tls> stream_;
 };
 
