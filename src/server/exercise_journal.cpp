@@ -143,21 +143,6 @@ Result<Part> read_part(Bytes content) {
               content.subspan(kPartHead + size)};
 }
 
-/// The runs of all parts; a run that a part's end had cut is one again.
-Result<std::vector<simulation::InputRun>> join_runs(Bytes parts, std::uint64_t whole_size) {
-  auto runs = simulation::decode_runs(parts, static_cast<std::size_t>(whole_size));
-  if (!runs) return runs;
-  std::vector<simulation::InputRun> joined;
-  for (const simulation::InputRun& run : *runs) {
-    if (!joined.empty() && joined.back().input == run.input) {
-      joined.back().ticks += run.ticks;
-    } else {
-      joined.push_back(run);
-    }
-  }
-  return joined;
-}
-
 }  // namespace
 
 Result<JournaledExercise> read_exercise(const records::JournalContent& journal) {
@@ -192,9 +177,9 @@ Result<JournaledExercise> read_exercise(const records::JournalContent& journal) 
     if (!log) return Refusal{"its log cannot be read: " + log.error()};
     exercise.log.insert(exercise.log.end(), log->begin(), log->end());
   }
-  auto joined = join_runs(runs, journal.sound_size);
-  if (!joined) return Refusal{joined.error()};
-  recording.runs = std::move(joined.value());
+  auto decoded = simulation::decode_runs(runs, static_cast<std::size_t>(journal.sound_size));
+  if (!decoded) return Refusal{decoded.error()};
+  recording.runs = std::move(decoded.value());
   // A part may tell of ticks whose inputs were to come with the next: they have not been.
   std::erase_if(exercise.log,
                 [tick](const auto& event) { return static_cast<Tick>(event.tick) > tick; });

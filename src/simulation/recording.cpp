@@ -219,7 +219,8 @@ std::uint64_t most_ticks(std::size_t bytes) {
 
 /// Reads the runs up to their end mark; the reason for refusing, or empty.
 /// @param size  of the whole that they are part of.
-std::string get_runs(Reader& in, std::size_t size, std::vector<InputRun>& runs) {
+/// @param joins  a run that goes on with the input of the one before is one with it.
+std::string get_runs(Reader& in, std::size_t size, bool joins, std::vector<InputRun>& runs) {
   InputUnits units = in_units(Input{});
   std::uint64_t ticks = 0;
   while (true) {
@@ -237,7 +238,12 @@ std::string get_runs(Reader& in, std::size_t size, std::vector<InputRun>& runs) 
       return "recording: " + std::to_string(size) + " bytes that claim " +
              std::to_string(ticks / 1000) + " s or more; an exercise of that length takes more";
     }
-    runs.push_back({input_of(units), count});
+    const Input input = input_of(units);
+    if (joins && mask == 0 && !runs.empty() && runs.back().ticks <= UINT32_MAX - count) {
+      runs.back().ticks += count;
+    } else {
+      runs.push_back({input, count});
+    }
   }
 }
 
@@ -335,7 +341,7 @@ Result<std::vector<InputRun>> decode_runs(std::span<const std::byte> bytes,
   ended.insert(ended.end(), 4, std::byte{0});
   Reader in(ended);
   std::vector<InputRun> runs;
-  std::string reason = get_runs(in, whole_size, runs);
+  std::string reason = get_runs(in, whole_size, true, runs);
   if (reason.empty() && in.at() != ended.size()) reason = "recording: inputs that end too early";
   if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   return runs;
@@ -395,7 +401,7 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   recording.procedure = in.get_text();
   recording.seed = in.get(8);
   std::string reason = get_instruments(in, recording.instruments);
-  if (reason.empty()) reason = get_runs(in, bytes.size(), recording.runs);
+  if (reason.empty()) reason = get_runs(in, bytes.size(), false, recording.runs);
   if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   const auto ticks = in.get(8);
   recording.end_hash = in.get(8);

@@ -115,7 +115,8 @@ class RunEncoder {
   std::vector<std::byte> bytes_;
 };
 
-/// The runs of an encoder's parts, untrusted; refuses by name as `decode` does.
+/// The runs of an encoder's parts, untrusted; refuses by name as `decode` does. A run that the end
+/// of a part had cut is one again.
 /// @param whole_size  of the file that they are of: with its keyframes it vouches for their length.
 [[nodiscard]] Result<std::vector<InputRun>> decode_runs(std::span<const std::byte> bytes,
                                                         std::size_t whole_size);

@@ -202,6 +202,11 @@ TEST(RunEncoder, PartsPutTogetherAreTheRuns) {
   const auto again = decode_runs(parts, parts.size());
   ASSERT_TRUE(again.has_value()) << again.error();
   EXPECT_EQ(*again, runs);
+  RunEncoder still;
+  for (const std::uint32_t ticks : {250U, 250U, 7U}) still.put({runs[0].input, ticks});
+  const auto joined = decode_runs(still.take(), 1000);
+  ASSERT_TRUE(joined.has_value());
+  EXPECT_EQ(*joined, (std::vector<InputRun>{{runs[0].input, 507}}));
   parts.pop_back();
   EXPECT_FALSE(decode_runs(parts, parts.size()).has_value());
 }
