@@ -61,7 +61,9 @@ void forget_signals() {
 }
 
 /// Everything but memory and the pipe is gone after this.
-void lock_in(const ChildTask& task, int complaints, std::uint64_t mapped) {
+void lock_in(const ChildTask& task, int complaints) {
+  // Asked for here: until the fork other threads may have mapped more.
+  const std::uint64_t mapped = mapped_bytes();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   forget_signals();
   if (::dup2(complaints, STDERR_FILENO) < 0) ::_exit(EXIT_FAILURE);
@@ -86,11 +88,8 @@ void say(Report& report, Outcome outcome, const char* words) noexcept {
   report.outcome = outcome;
 }
 
-[[noreturn]] void be_the_child(const ChildTask& task,
-                               Report& report,
-                               int complaints,
-                               std::uint64_t mapped) noexcept {
-  lock_in(task, complaints, mapped);
+[[noreturn]] void be_the_child(const ChildTask& task, Report& report, int complaints) noexcept {
+  lock_in(task, complaints);
   try {
     task.work(report.steps);
     report.outcome = Outcome::Done;
@@ -239,13 +238,12 @@ void run_in_child(const ChildTask& task) {
   }
   const Descriptor read_end(ends[0]);
   Descriptor write_end(ends[1]);
-  const std::uint64_t mapped = mapped_bytes();
   sigset_t all;
   sigset_t before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);  // no handler of ours may run in the child
   const pid_t child = ::fork();
-  if (child == 0) be_the_child(task, report, ends[1], mapped);
+  if (child == 0) be_the_child(task, report, ends[1]);
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) {
     throw IoError(task.subject(0) + ": cannot be read, no process can be started (" +

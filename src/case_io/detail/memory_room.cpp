@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_io/detail/memory_room.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 
@@ -40,10 +43,16 @@ std::uint64_t free_in_group() {
 
 }  // namespace
 
-std::uint64_t mapped_bytes() {
-  std::uint64_t pages = 0;
-  if (!(std::ifstream("/proc/self/statm") >> pages)) return 0;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+std::uint64_t mapped_bytes() noexcept {
+  // Plain calls: asked for in a process that was just forked, too.
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  std::array<char, 64> text{};
+  const ssize_t got = ::read(file, text.data(), text.size() - 1);
+  ::close(file);
+  if (got <= 0) return 0;
+  return std::strtoull(text.data(), nullptr, 10) *
+         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 std::uint64_t memory_room() {

@@ -16,6 +16,6 @@ namespace carpus::case_io {
 void require_memory(std::uint64_t bytes, const std::string& file);
 
 /// What this process has mapped; a limit on memory counts all of it.
-[[nodiscard]] std::uint64_t mapped_bytes();
+[[nodiscard]] std::uint64_t mapped_bytes() noexcept;
 
 }  // namespace carpus::case_io
