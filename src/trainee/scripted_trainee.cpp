@@ -122,10 +122,16 @@ Vec3 ScriptedTrainee::random_across() {
   return normalized_or(across, any_perpendicular(axis));
 }
 
+/// One draw after the other, in this order: in one expression compilers would choose.
+Vec3 ScriptedTrainee::random_error(const Range& range_mm) {
+  const double error_mm = draw(range_mm) * error_scale_;
+  return random_across() * error_mm;
+}
+
 /// Where the trainee believes that the axis runs, for this try.
 void ScriptedTrainee::plan_line(const Snapshot& now) {
-  const Vec3 entry = near_end_ + random_across() * (draw(profile_.entry_error_mm) * error_scale_);
-  const Vec3 aim = far_end_ + random_across() * (draw(profile_.aim_error_mm) * error_scale_);
+  const Vec3 entry = near_end_ + random_error(profile_.entry_error_mm);
+  const Vec3 aim = far_end_ + random_error(profile_.aim_error_mm);
   planned_entry_ = to_patient(now, entry);
   planned_direction_ = turned(now, normalized_or(aim - entry, {0, 0, 1}));
   thrust_n_ = draw(profile_.drive_thrust_n);

@@ -81,6 +81,7 @@ class ScriptedTrainee {
   void plan_shots();
   [[nodiscard]] double draw(const Range& range) { return rng_.uniform(range.low, range.high); }
   [[nodiscard]] Vec3 random_across();
+  [[nodiscard]] Vec3 random_error(const Range& range_mm);
   [[nodiscard]] double offset_of_line(const simulation::Snapshot& now) const;
   /// What the first hand holds.
   [[nodiscard]] static simulation::ItemView held(const simulation::Snapshot& now);
