@@ -108,8 +108,8 @@ struct CArm {
   bool operator==(const CArm&) const = default;
 };
 
-/// The C-arm's foot pedal: live pictures while it is down. It is let go 500 ms after it was last
-/// said to be held, so say it again meanwhile.
+/// The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said
+/// to be held, so say it again meanwhile.
 struct Pedal {
   bool down = false;
   bool operator==(const Pedal&) const = default;

@@ -38,7 +38,7 @@ class InputSource {
   /// drill on.
   static constexpr Tick kDriverHoldTicks = 150;
   /// The pedal likewise; longer, since every time that it is let go is a look of its own.
-  static constexpr Tick kPedalHoldTicks = 500;
+  static constexpr Tick kPedalHoldTicks = 2000;
 
   explicit InputSource(const HeldInput& initial) noexcept : held_(initial) {}
 

@@ -5,7 +5,7 @@
 // since the host lets go of what it does not hear of.
 import { make } from "../dom";
 
-/** The host lets go after 500 ms. */
+/** The host lets go after 2 s. */
 const REPEAT_MS = 100;
 
 export interface PedalHandlers {

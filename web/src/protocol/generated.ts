@@ -485,7 +485,7 @@ export interface CArmMessage {
   readonly reference: AngleReference;
 }
 
-/** The C-arm's foot pedal: live pictures while it is down. It is let go 500 ms after it was last said to be held, so say it again meanwhile. */
+/** The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said to be held, so say it again meanwhile. */
 export interface PedalMessage {
   readonly type: "pedal";
   readonly down: boolean;
