@@ -87,9 +87,15 @@ TakenShot PictureWorker::next_in_turn() {
 std::string PictureWorker::frame_of(const TakenShot& shot) {
   const session::PictureView view{shot.target, shot.rotation_deg, shot.tilt_deg};
   try {
-    return encode_picture(shot, shot.kind == PictureKind::Live
-                                    ? pictures_.take_live(view, shot.snapshot)
-                                    : pictures_.take(view, shot.snapshot));
+    switch (shot.kind) {
+      case PictureKind::Live:
+        return encode_picture(shot, pictures_.take_live(view, shot.snapshot));
+      case PictureKind::Held:
+        return encode_picture(shot, pictures_.take_held(view, shot.snapshot));
+      case PictureKind::Shot:
+        return encode_picture(shot, pictures_.take(view, shot.snapshot));
+    }
+    return {};
   } catch (const std::exception&) {
     return {};
   }

@@ -36,6 +36,15 @@ Vec3 centre_of(const cases::CaseData& data, BoneId target, const simulation::Sna
   return bounds.is_empty() ? Vec3{} : (bounds.low + bounds.high) / 2;
 }
 
+/// Nothing is averaged: what one pulse brings.
+fluoroscopy::Exposure exposure_of_a_pulse(std::uint64_t tick) {
+  fluoroscopy::Exposure exposure;
+  exposure.beam_mas /= procedure::kPulsesPerShot;
+  exposure.held_mas = exposure.beam_mas;
+  exposure.seed = tick;
+  return exposure;
+}
+
 }  // namespace
 
 ExercisePictures::ExercisePictures(const cases::CaseData& data)
@@ -95,11 +104,16 @@ fluoroscopy::Image ExercisePictures::take_live(const PictureView& view,
   if (!rests) scene.pose.geometry.pixels = kMovingPixels;
   const auto metal = metal_in_beam(now);
   scene.metal = metal;
-  fluoroscopy::Exposure exposure;
-  exposure.beam_mas /= procedure::kPulsesPerShot;
-  exposure.held_mas = exposure.beam_mas;  // nothing is averaged
-  exposure.seed = now.tick;
-  return renderer_.render(scene, exposure);
+  return renderer_.render(scene, exposure_of_a_pulse(now.tick));
+}
+
+fluoroscopy::Image ExercisePictures::take_held(const PictureView& view,
+                                               const simulation::Snapshot& now) {
+  take_in_holes(now);
+  fluoroscopy::BeamScene scene = scene_of(view, now, {});
+  const auto metal = metal_in_beam(now);
+  scene.metal = metal;
+  return renderer_.render(scene, exposure_of_a_pulse(now.tick));
 }
 
 }  // namespace carpus::session

@@ -40,6 +40,11 @@ class ExercisePictures {
   [[nodiscard]] fluoroscopy::Image take_live(const PictureView& view,
                                              const simulation::Snapshot& now);
 
+  /// The last pulse of a live look in full: its noise is a pulse's, for no more was paid.
+  /// @throws InvalidInput as `take`.
+  [[nodiscard]] fluoroscopy::Image take_held(const PictureView& view,
+                                             const simulation::Snapshot& now);
+
  private:
   [[nodiscard]] fluoroscopy::BeamScene scene_of(const PictureView& view,
                                                 const simulation::Snapshot& now,

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "simulation/operation_test_support.hpp"
 
 namespace carpus::session {
@@ -50,6 +52,26 @@ TEST(ExercisePictures, LiveOnesAreCoarseWhileSomethingMovesAndFullWhenAllRests) 
   const auto rested = pictures.take_live(view, now);
   EXPECT_EQ(rested.width, 512);
   EXPECT_LT(rested.dose_cgy_cm2 * 49, pictures.take(view, now).dose_cgy_cm2);
+}
+
+/// Mean difference of neighbours in a row: noise, for bones are the same in both.
+double roughness(const fluoroscopy::Image& image) {
+  double sum = 0;
+  for (std::size_t i = 1; i < image.grey.size(); ++i) {
+    sum += std::abs(static_cast<double>(image.grey[i]) - image.grey[i - 1]);
+  }
+  return sum / static_cast<double>(image.grey.size() - 1);
+}
+
+TEST(ExercisePictures, TheHeldPictureIsNoCheapShot) {
+  const simulation::Snapshot now = at_opening();
+  ExercisePictures pictures(wrist());
+  const PictureView view;
+  const auto held = pictures.take_held(view, now);
+  const auto shot = pictures.take(view, now);
+  EXPECT_EQ(held.width, shot.width);
+  EXPECT_NEAR(held.dose_cgy_cm2 * procedure::kPulsesPerShot, shot.dose_cgy_cm2, 1e-9);
+  EXPECT_GT(roughness(held), 1.5 * roughness(shot)) << "a quarter of the quanta";
 }
 
 }  // namespace
