@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "case_io/atomic_folder.hpp"
 #include "cli/progress_line.hpp"
@@ -21,7 +22,7 @@ namespace {
 struct PhantomArguments {
   std::string out;
   std::uint64_t seed = 1;
-  std::string nonunion = "waist";
+  std::string fracture = "waist";
   std::string side = "left";
   double scale = 1.0;
   std::string format = "dicom";
@@ -32,7 +33,7 @@ void run(const PhantomArguments& arguments) {
   phantom::PhantomOptions options;
   options.seed = arguments.seed;
   options.scale = arguments.scale;
-  options.nonunion = phantom::nonunion_of(arguments.nonunion).value();  // CLI11 checked the name
+  options.fracture = phantom::fracture_of(arguments.fracture).value();  // CLI11 checked the name
   options.side = side_of(arguments.side).value();
   const auto format =
       arguments.format == "dicom" ? phantom::CtFormat::Dicom : phantom::CtFormat::Nifti;
@@ -42,8 +43,8 @@ void run(const PhantomArguments& arguments) {
   const phantom::Phantom made = phantom::make_phantom(options, show_progress);
   phantom::write_phantom(made, arguments.out, format, overwrite, show_progress);
   const auto& size = made.ct.geometry().size;
-  std::printf("simulated CT of a %s wrist, nonunion %s, %d x %d x %d voxels: %s\n",
-              arguments.side.c_str(), arguments.nonunion.c_str(), size[0], size[1], size[2],
+  std::printf("simulated CT of a %s wrist, fracture %s, %d x %d x %d voxels: %s\n",
+              arguments.side.c_str(), arguments.fracture.c_str(), size[0], size[1], size[2],
               arguments.out.c_str());
 }
 
@@ -55,8 +56,12 @@ void add_phantom_command(CLI::App& app) {
       "phantom", "Make the demo patient: a simulated CT of the parametric wrist with its truth");
   command->add_option("--out", arguments->out, "Folder to make")->required();
   add_seed_option(*command, arguments->seed, "Of noise, texture and pose");
-  command->add_option("--nonunion", arguments->nonunion, "Scaphoid nonunion")
-      ->check(CLI::IsMember({"none", "waist", "proximal"}))
+  std::vector<std::string> kinds;
+  for (const phantom::FractureKind kind : phantom::kAllFractureKinds) {
+    kinds.emplace_back(phantom::name_of(kind));
+  }
+  command->add_option("--fracture", arguments->fracture, "Of the scaphoid")
+      ->check(CLI::IsMember(kinds))
       ->capture_default_str();
   command->add_option("--side", arguments->side, "Side of the body")
       ->check(CLI::IsMember({"left", "right"}))

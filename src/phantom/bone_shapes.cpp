@@ -103,22 +103,26 @@ Shape shape_of(const anatomy::ModelBone& bone) {
 
 }  // namespace
 
-BoneShapes::BoneShapes(const anatomy::WristModel& model, const std::optional<Nonunion>& nonunion)
-    : model_(&model), nonunion_(nonunion) {
+BoneShapes::BoneShapes(const anatomy::WristModel& model, const std::optional<Fracture>& fracture)
+    : model_(&model), fracture_(fracture) {
   for (const anatomy::ModelBone& bone : model.bones()) {
     Shape shape = shape_of(bone);
     if (bone.cut_plane) {
       shafts_[slot_of(bone.bone)] = shaft_of(model, bone);
       shape.bounds = with_shaft(bone.bounds, shafts_[slot_of(bone.bone)]);
     }
-    if (bone.bone == BoneId::Scaphoid && nonunion_) shape.part = BonePart::Proximal;
+    if (bone.bone == BoneId::Scaphoid && is_apart()) shape.part = BonePart::Proximal;
     shapes_.push_back(shape);
   }
-  if (!nonunion_) return;
+  if (!is_apart()) return;
   Shape distal = shape_of(model.bone(BoneId::Scaphoid));
   distal.part = BonePart::Distal;
   distal.label = kScaphoidDistalLabel;
-  const double reach = length(distal.bounds.extent()) * 0.1;  // of a tilt of a few degrees
+  const Mat3& turn = fracture_->rotation;
+  const double angle =
+      std::acos(std::clamp((turn.rows[0].x + turn.rows[1].y + turn.rows[2].z - 1) / 2, -1.0, 1.0));
+  const double reach =
+      length(distal.bounds.extent()) * std::max(0.1, angle) + length(fracture_->shift);
   distal.bounds = distal.bounds.grown(reach);
   shapes_.push_back(distal);
 }
@@ -141,12 +145,13 @@ double BoneShapes::long_bone_value(BoneId bone, const Vec3& p) const noexcept {
 }
 
 double BoneShapes::fragment_value(BonePart part, const Vec3& p) const noexcept {
-  const double half = 0.5 * nonunion_->gap_mm;
+  const double half = 0.5 * fracture_->gap_mm;
   if (part == BonePart::Proximal) {
-    return std::max(model_->uncut_value(BoneId::Scaphoid, p), nonunion_->height(p) + half);
+    return std::max(model_->uncut_value(BoneId::Scaphoid, p), fracture_->height(p) + half);
   }
-  const Vec3 q = nonunion_->undisplaced(p);
-  double value = std::max(model_->uncut_value(BoneId::Scaphoid, q), half - nonunion_->height(q));
+  const Vec3 q = fracture_->undisplaced(p);
+  double value = std::max(model_->uncut_value(BoneId::Scaphoid, q), half - fracture_->height(q));
+  value = std::max(value, fracture_->least_gap_mm - half - fracture_->height(p));
   for (const BoneId other : kScaphoidNeighbours) {
     if (model_->bone(other).bounds.grown(kClearanceMm).contains(p)) {
       value = std::max(value, kClearanceMm - model_->signed_value(other, p));
@@ -178,18 +183,18 @@ double BoneShapes::shaft_fraction(BoneId bone, const Vec3& p) const noexcept {
 }
 
 bool BoneShapes::is_gap_tissue(const Vec3& p) const noexcept {
-  if (!nonunion_) return false;
-  const Vec3 q = nonunion_->undisplaced(p);
-  const double half = 0.5 * nonunion_->gap_mm;
-  if (!(nonunion_->height(p) > -half && nonunion_->height(q) < half)) return false;
+  if (!is_apart()) return false;
+  const Vec3 q = fracture_->undisplaced(p);
+  const double half = 0.5 * fracture_->gap_mm;
+  if (!(fracture_->height(p) > -half && fracture_->height(q) < half)) return false;
   return model_->uncut_value(BoneId::Scaphoid, p) < 0 ||
          model_->uncut_value(BoneId::Scaphoid, q) < 0;
 }
 
 double BoneShapes::depth_from_fracture(BonePart part, const Vec3& p) const noexcept {
-  const double half = 0.5 * nonunion_->gap_mm;
-  return part == BonePart::Proximal ? -nonunion_->height(p) - half
-                                    : nonunion_->height(nonunion_->undisplaced(p)) - half;
+  const double half = 0.5 * fracture_->gap_mm;
+  return part == BonePart::Proximal ? -fracture_->height(p) - half
+                                    : fracture_->height(fracture_->undisplaced(p)) - half;
 }
 
 }  // namespace carpus::phantom

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "anatomy/wrist_model.hpp"
-#include "phantom/nonunion.hpp"
+#include "phantom/fracture.hpp"
 
 namespace carpus::phantom {
 
@@ -36,7 +36,7 @@ struct Shaft {
 /// Frame Wrist of the model, unscaled [mm].
 class BoneShapes {
  public:
-  BoneShapes(const anatomy::WristModel& model, const std::optional<Nonunion>& nonunion);
+  BoneShapes(const anatomy::WristModel& model, const std::optional<Fracture>& fracture);
 
   /// In the order of their labels; a broken scaphoid is two.
   [[nodiscard]] const std::vector<Shape>& shapes() const noexcept { return shapes_; }
@@ -58,14 +58,15 @@ class BoneShapes {
   /// Distance from the fracture's face into a fragment [mm].
   [[nodiscard]] double depth_from_fracture(BonePart part, const Vec3& p) const noexcept;
 
-  [[nodiscard]] const std::optional<Nonunion>& nonunion() const noexcept { return nonunion_; }
+  [[nodiscard]] const std::optional<Fracture>& fracture() const noexcept { return fracture_; }
 
  private:
+  [[nodiscard]] bool is_apart() const noexcept { return fracture_ && fracture_->is_apart; }
   [[nodiscard]] double long_bone_value(BoneId bone, const Vec3& p) const noexcept;
   [[nodiscard]] double fragment_value(BonePart part, const Vec3& p) const noexcept;
 
   const anatomy::WristModel* model_;
-  std::optional<Nonunion> nonunion_;
+  std::optional<Fracture> fracture_;
   std::vector<Shape> shapes_;
   std::array<Shaft, kBoneCount> shafts_{};
 };

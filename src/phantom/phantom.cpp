@@ -264,12 +264,12 @@ Phantom make_phantom(const PhantomOptions& options, const Progress& progress) {
   phantom.options = options;
   const auto& model = anatomy::WristModel::generic(options.side);
   phantom.scaphoid_axis = scaphoid_axis(model);
-  if (options.nonunion != NonunionKind::None) {
-    phantom.nonunion = make_nonunion(model, options.nonunion, options.seed);
+  if (options.fracture != FractureKind::None) {
+    phantom.fracture = make_fracture(model, options.fracture, options.seed);
   }
   phantom.wrist_from_patient = pose_in_scanner(options.seed);
   progress("outline", 0.0);
-  const BoneShapes bones(model, phantom.nonunion);
+  const BoneShapes bones(model, phantom.fracture);
   const BoneTissue tissue(bones, phantom.scaphoid_axis, options.seed * 11 + 1);
   const SoftTissue soft(bones, options.side, options.seed * 13 + 2);
   const Scene scene{bones, tissue, soft, phantom.wrist_from_patient, options.scale};

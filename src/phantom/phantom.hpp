@@ -12,13 +12,13 @@
 #include "core/progress.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/pose.hpp"
-#include "phantom/nonunion.hpp"
+#include "phantom/fracture.hpp"
 
 namespace carpus::phantom {
 
 struct PhantomOptions {
   std::uint64_t seed = 1;  ///< of noise, texture, fracture relief and the tilt in the scanner
-  NonunionKind nonunion = NonunionKind::Waist;
+  FractureKind fracture = FractureKind::Waist;
   Side side = Side::Left;
   double scale = 1.0;           ///< of the whole wrist, 0.7 to 1.4
   Vec3 spacing{0.3, 0.3, 0.5};  ///< mm; 0.15 to 2
@@ -29,7 +29,7 @@ struct Phantom {
   Grid<std::uint8_t>
       labels;  ///< of the voxel's centre; numbers in anatomy/bone_id.hpp, with 16, 17
   Pose<frame::Wrist, frame::Patient> wrist_from_patient;
-  std::optional<Nonunion> nonunion;  ///< frame Wrist before scaling [mm]
+  std::optional<Fracture> fracture;  ///< frame Wrist before scaling [mm]
   LongAxis scaphoid_axis;            ///< of the unbroken scaphoid, frame Wrist before scaling [mm]
   PhantomOptions options;
 };

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -22,17 +23,18 @@
 namespace carpus::phantom {
 namespace {
 
-PhantomOptions coarse(NonunionKind kind = NonunionKind::Waist, Side side = Side::Left) {
+PhantomOptions coarse(FractureKind kind = FractureKind::Nonunion, Side side = Side::Left) {
   PhantomOptions options;
   options.spacing = {0.75, 0.75, 0.75};
-  options.nonunion = kind;
+  options.fracture = kind;
   options.side = side;
   return options;
 }
 
-/// The default patient in slightly coarser voxels, made once.
+/// A patient with a nonunion in slightly coarser voxels, made once.
 const Phantom& demo() {
   PhantomOptions options;
+  options.fracture = FractureKind::Nonunion;
   options.spacing = {0.5, 0.5, 0.6};
   static const Phantom phantom = make_phantom(options);
   return phantom;
@@ -90,7 +92,9 @@ Vec3 centroid_in_wrist(const Phantom& phantom, std::uint8_t label) {
 }
 
 TEST(Phantom, HoldsEveryBoneInOnePiece) {
-  const auto pieces = pieces_of(make_phantom({}).labels);
+  PhantomOptions options;
+  options.fracture = FractureKind::Nonunion;
+  const auto pieces = pieces_of(make_phantom(options).labels);
   for (int label = 1; label <= 16; ++label) {
     ASSERT_TRUE(pieces.contains(label)) << label;
     EXPECT_EQ(pieces.at(label).size(), 1U) << label;
@@ -151,22 +155,48 @@ TEST(Phantom, HasTheDensitiesOfAWristCt) {
   EXPECT_LT(mean(17), 450);  // 150 HU, blurred by the faces 1 mm away
 }
 
-TEST(Phantom, WithoutNonunionTheScaphoidIsWhole) {
-  const auto volumes = volumes_mm3(make_phantom(coarse(NonunionKind::None)));
+TEST(Phantom, WithoutFractureTheScaphoidIsWhole) {
+  const auto volumes = volumes_mm3(make_phantom(coarse(FractureKind::None)));
   EXPECT_FALSE(volumes.contains(16));
   EXPECT_FALSE(volumes.contains(17));
   EXPECT_NEAR(volumes.at(3), 1964, 60);
 }
 
+TEST(Phantom, AFractureInPlaceLeavesOneBone) {
+  for (const FractureKind kind :
+       {FractureKind::Waist, FractureKind::ProximalPole, FractureKind::DistalThird}) {
+    const auto volumes = volumes_mm3(make_phantom(coarse(kind)));
+    EXPECT_FALSE(volumes.contains(16)) << name_of(kind);
+    EXPECT_NEAR(volumes.at(3), 1964, 60) << name_of(kind);
+  }
+}
+
+TEST(Phantom, DisplacedFragmentsAreWholeAndApart) {
+  for (const FractureKind kind : {FractureKind::Displaced, FractureKind::Humpback}) {
+    const auto pieces = pieces_of(make_phantom(coarse(kind)).labels);
+    for (const int label : {3, 16}) {  // shards of a worn edge are small
+      const std::vector<std::size_t>& sizes = pieces.at(label);
+      const auto all = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+      EXPECT_GT(static_cast<double>(sizes.front()), 0.98 * static_cast<double>(all))
+          << name_of(kind) << " " << label;
+    }
+  }
+}
+
+TEST(Phantom, EveryKindOfFractureHasItsName) {
+  for (const FractureKind kind : kAllFractureKinds) EXPECT_EQ(fracture_of(name_of(kind)), kind);
+  EXPECT_FALSE(fracture_of("ankle"));
+}
+
 TEST(Phantom, AProximalNonunionLeavesASmallProximalPole) {
-  const auto volumes = volumes_mm3(make_phantom(coarse(NonunionKind::Proximal)));
+  const auto volumes = volumes_mm3(make_phantom(coarse(FractureKind::ProximalNonunion)));
   EXPECT_LT(volumes.at(3), 0.45 * volumes.at(16));
   EXPECT_GT(volumes.at(3), 150);
 }
 
 TEST(Phantom, LiesInThePatientAsItsPoseSays) {
   for (const Side side : {Side::Left, Side::Right}) {
-    const Phantom p = make_phantom(coarse(NonunionKind::None, side));
+    const Phantom p = make_phantom(coarse(FractureKind::None, side));
     EXPECT_NEAR(p.wrist_from_patient.rotation.determinant(), 1.0, 1e-12);
     const double ulnar = side == Side::Left ? 1.0 : -1.0;
     const Vec3 pisiform = centroid_in_wrist(p, static_cast<std::uint8_t>(BoneId::Pisiform));
@@ -178,7 +208,7 @@ TEST(Phantom, LiesInThePatientAsItsPoseSays) {
 }
 
 TEST(Phantom, ScalesTheWholeWrist) {
-  PhantomOptions small = coarse(NonunionKind::None);
+  PhantomOptions small = coarse(FractureKind::None);
   small.scale = 0.9;
   const auto volumes = volumes_mm3(make_phantom(small));
   EXPECT_NEAR(volumes.at(static_cast<int>(BoneId::Capitate)), 2548 * 0.729, 60);

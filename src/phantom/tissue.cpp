@@ -23,11 +23,11 @@ constexpr double kForearmShaftCortexMm = 2.1;
 constexpr double kThicknessVariation = 0.25;
 /// From cortex to core over this much [mm].
 constexpr double kCortexEdgeMm = 0.3;
+/// The cortices of a fracture in place still touch: of what the line takes out of the core.
+constexpr double kCortexLost = 0.6;
 constexpr double kSclerosisHu = 620;
 constexpr double kSclerosisDecayMm = 1.7;
-constexpr double kCystRadiusMm = 1.2;
 constexpr double kCystHu = 70;
-constexpr double kGapHu = 150;
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
@@ -46,11 +46,12 @@ double BoneTissue::core(const Shape& shape, const Vec3& p, double depth_mm) cons
   const double texture =
       75 * coherent_noise(p, 0.75, seed_) + 55 * coherent_noise(p, 2.4, seed_ + 1);
   double hu = level + kCoreNearCortexHu * std::exp(-depth_mm / kCoreDecayMm) + texture;
-  if (shape.part != BonePart::Whole) {
+  if (shape.part != BonePart::Whole && shapes_->fracture()->is_old) {
     const double from_face = std::max(0.0, shapes_->depth_from_fracture(shape.part, p));
     hu += kSclerosisHu * std::exp(-from_face / kSclerosisDecayMm) *
           (1 + 0.4 * coherent_noise(p, 1.6, seed_ + 2));
-    const double cyst = distance(p, shapes_->nonunion()->cyst) - kCystRadiusMm;
+    const double cyst =
+        distance(p, shapes_->fracture()->cyst) - shapes_->fracture()->cyst_radius_mm;
     hu = mix(kCystHu, hu, smooth_step(-0.2, 0.3, cyst));
   }
   return hu;
@@ -66,11 +67,17 @@ double BoneTissue::hounsfield(const Shape& shape, const Vec3& p, double depth_mm
                         (1 + kCortexVariation * coherent_noise(p, 4.0, seed_ + 4));
   const double inside =
       mix(core(shape, p, depth_mm), kMarrowHu + 12 * coherent_noise(p, 1.5, seed_ + 5), shaft);
-  return mix(cortex, inside, smooth_step(thickness, thickness + kCortexEdgeMm, depth_mm));
+  const double below_cortex = smooth_step(thickness, thickness + kCortexEdgeMm, depth_mm);
+  const double whole = mix(cortex, inside, below_cortex);
+  if (shape.bone != BoneId::Scaphoid || shape.part != BonePart::Whole || !shapes_->fracture()) {
+    return whole;
+  }
+  const double lost = shapes_->fracture()->lost_share(p) * mix(kCortexLost, 1.0, below_cortex);
+  return mix(whole, gap_hounsfield(p), lost);
 }
 
 double BoneTissue::gap_hounsfield(const Vec3& p) const noexcept {
-  return kGapHu + 35 * coherent_noise(p, 1.3, seed_ + 6);
+  return shapes_->fracture()->gap_hounsfield + 35 * coherent_noise(p, 1.3, seed_ + 6);
 }
 
 }  // namespace carpus::phantom

@@ -26,7 +26,7 @@ Json json_of(const Mat3& m) {
 Json label_numbers(const Phantom& phantom) {
   const std::set<std::uint8_t> present(phantom.labels.values().begin(),
                                        phantom.labels.values().end());
-  const bool is_broken = phantom.nonunion.has_value();
+  const bool is_broken = phantom.fracture && phantom.fracture->is_apart;
   Json labels;
   labels["background"] = kBackgroundLabel;
   for (const BoneId bone : kAllBones) {
@@ -67,7 +67,7 @@ Json truth_of(const Phantom& phantom) {
   truth["seed"] = o.seed;
   truth["side"] = name_of(o.side);
   truth["scale"] = o.scale;
-  truth["nonunion"] = name_of(o.nonunion);
+  truth["fracture"] = name_of(o.fracture);
   truth["spacing_mm"] = json_of(o.spacing);
   truth["wrist_from_patient"] = {
       {"rotation", json_of(phantom.wrist_from_patient.rotation)},
@@ -75,8 +75,8 @@ Json truth_of(const Phantom& phantom) {
   truth["scaphoid_long_axis_in_wrist"] = {{"proximal_mm", pole(axis.least)},
                                           {"distal_mm", pole(axis.greatest)},
                                           {"waist_mm", pole(axis.waist)}};
-  if (phantom.nonunion) {
-    const Nonunion& n = *phantom.nonunion;
+  if (phantom.fracture) {
+    const Fracture& n = *phantom.fracture;
     truth["fracture_in_wrist"] = {{"point_mm", json_of(n.point * o.scale)},
                                   {"normal", json_of(n.normal)},
                                   {"gap_mm", n.gap_mm * o.scale},

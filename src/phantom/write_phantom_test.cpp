@@ -43,7 +43,7 @@ Phantom block(std::array<int, 3> size, std::uint64_t seed = 7) {
   }
   phantom.options.seed = seed;
   phantom.options.side = Side::Right;
-  phantom.options.nonunion = NonunionKind::None;
+  phantom.options.fracture = FractureKind::None;
   phantom.options.spacing = g.spacing;
   return phantom;
 }
@@ -127,7 +127,7 @@ TEST_P(WritePhantom, GivesBackTheVolumesAndTheTruth) {
   EXPECT_EQ(truth["simulated"], true);
   EXPECT_EQ(truth["seed"], 7);
   EXPECT_EQ(truth["side"], "right");
-  EXPECT_EQ(truth["nonunion"], "none");
+  EXPECT_EQ(truth["fracture"], "none");
   EXPECT_DOUBLE_EQ(truth["volumes_mm3"]["lunate"].get<double>(), 24 * 20 * 12 / 5 * 0.1875);
 }
 
