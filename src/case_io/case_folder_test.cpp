@@ -156,6 +156,10 @@ TEST_F(CaseFolder, WithADamagedTableOfHandMotionIsRefusedByThatFilesName) {
   refused_with("[-0.3333333333333333,1.1],\"radial", "[1.1],\"radial");
   refused_with("1.5],\"shift_mm\":[[0.1,0.2,", "1.5],\"shift_mm\":[[0.1,");
   refused_with(whole.substr(whole.size() / 2), "");
+  // Right in form, and no wrist's motion.
+  refused_with("\"traction_n\":[0.0,100.0]", "\"traction_n\":[0.0,90000.0]");
+  refused_with("\"shift_mm\":[[0.1,", "\"shift_mm\":[[99000.1,");
+  refused_with(",3.0,0.3]", ",3000.0,0.3]");
   std::string newer = whole;
   newer.replace(newer.find("\"schema_version\":1"), 18, "\"schema_version\":2");
   std::ofstream(file) << newer;
@@ -276,6 +280,19 @@ TEST_F(CaseFolder, JsonThatLiesIsRefused) {
   fresh();
   fs::resize_file(target() / "case.json", 500);
   EXPECT_THAT(error_of<IoError>(target()), HasSubstr("damaged"));
+}
+
+TEST_F(CaseFolder, TextsThatNestWithoutEndAreRefused) {
+  const std::string deep = std::string(300'000, '[') + std::string(300'000, ']');
+  write_case(small_case(), target());
+  replace_in_json("\"size\": [", "\"size\": [" + deep + ",");
+  EXPECT_THAT(error_of<IoError>(target()), AllOf(HasSubstr("case.json"), HasSubstr("too deeply")));
+  write_case(small_case(), target(), Overwrite::Replace);
+  std::ofstream(target() / "hand_motion.json")
+      << R"({"format":"carpus hand motion","schema_version":1,"limits":{"flexion_rad":[)" << deep
+      << ",1]}}";
+  EXPECT_THAT(error_of<IoError>(target()),
+              AllOf(HasSubstr("hand_motion.json"), HasSubstr("too deeply")));
 }
 
 TEST_F(CaseFolder, IncompleteCasesAreNotWritten) {

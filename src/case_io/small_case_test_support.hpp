@@ -43,15 +43,15 @@ inline cases::Bone octahedron(BoneId id, BonePart part, std::uint8_t label, cons
   return bone;
 }
 
-/// Two by two nodes with numbers that text could round.
+/// Two by two nodes with numbers that text could round; scanned in the first of them.
 inline cases::HandMotion small_table() {
   cases::HandMotion table;
   table.limits = {{-1.0 / 3.0, 1.1}, {-0.7, 0.1 + 0.2}, {-1.5, 1.5}, {0, 100}};
-  table.scan = {0.2, 0.1, 0, 0};
+  table.scan = {-1.0 / 3.0, -0.7, 0, 0};
   table.flexion_rad = {-1.0 / 3.0, 1.1};
   table.deviation_rad = {-0.7, 0.1 + 0.2};
   table.nodes.resize(4);
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 1; i < 4; ++i) {
     for (const auto group : anatomy::kMovingGroups) {
       auto& motion = table.nodes[i].groups[static_cast<std::size_t>(group)];
       const double x = 0.01 * static_cast<double>(i) / 3.0;

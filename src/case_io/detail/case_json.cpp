@@ -13,11 +13,15 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/json_nesting.hpp"
 
 namespace carpus::case_io {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Half of it would do.
+constexpr int kDeepest = 16;
 
 /// Rotations in a case are orthonormal to rounding; anything else is damage.
 constexpr double kRotationTolerance = 1e-6;
@@ -211,6 +215,7 @@ std::string case_json_text(const cases::CaseData& data) {
 
 CaseHeader parse_case_json(const std::string& text, const std::filesystem::path& file) {
   try {
+    if (nests_deeper_than(text, kDeepest)) throw IoError("nests too deeply");
     const Json json = Json::parse(text);
     if (json.value("format", "") != "carpus case") throw IoError("is not a case of carpus");
     check_version(json, file);

@@ -7,13 +7,18 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "cases/plausible_hand_motion.hpp"
 #include "core/error.hpp"
+#include "core/json_nesting.hpp"
 
 namespace carpus::case_io {
 namespace {
 
 using anatomy::CarpalGroup;
 using Json = nlohmann::ordered_json;
+
+/// Half of it would do.
+constexpr int kDeepest = 16;
 
 constexpr int kVersion = 1;
 /// A table has no more nodes than one of half a degree's step.
@@ -155,6 +160,7 @@ cases::HandMotion motion_of(const Json& json) {
     throw IoError("the table of pronation is not full");
   }
   motion.report = report_of(json.at("report"));
+  if (const auto problem = cases::problem_of_motion(motion)) throw IoError(*problem);
   return motion;
 }
 
@@ -198,6 +204,7 @@ std::string hand_motion_text(const cases::HandMotion& motion) {
 
 cases::HandMotion parse_hand_motion(const std::string& text, const std::filesystem::path& file) {
   try {
+    if (nests_deeper_than(text, kDeepest)) throw IoError("nests too deeply");
     const Json json = Json::parse(text);
     if (json.value("format", "") != "carpus hand motion") {
       throw IoError("is no table of hand motion");

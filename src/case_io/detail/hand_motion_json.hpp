@@ -15,7 +15,8 @@ namespace carpus::case_io {
 [[nodiscard]] std::string hand_motion_text(const cases::HandMotion& motion);
 
 /// @throws SchemaError, IoError; messages name `file`. What is returned is safe to read in a step:
-///     axes rise, nodes fill the table, every number is finite and no quaternion is far from unit.
+///     axes rise, nodes fill the table, every number is finite, no quaternion is far from unit, and
+///     the motion is one that a hand could have (cases/plausible_hand_motion.hpp).
 [[nodiscard]] cases::HandMotion parse_hand_motion(const std::string& text,
                                                   const std::filesystem::path& file);
 

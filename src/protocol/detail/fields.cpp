@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/json_nesting.hpp"
 #include "protocol/types.hpp"
 
 namespace carpus::protocol {
@@ -15,29 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
-
-/// Whether arrays and objects nest deeper than allowed; looked at before parsing.
-bool is_too_deep(std::string_view text) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') {
-        ++i;
-      } else if (c == '"') {
-        in_string = false;
-      }
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kMaxDepth) return true;
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-  return false;
-}
 
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
@@ -122,7 +100,7 @@ std::string fitting(std::string_view text, std::size_t max_length) {
 JsonText::JsonText(std::string_view text, std::size_t max_bytes) : root_(std::make_unique<Json>()) {
   if (text.size() > max_bytes) {
     fail("longer than " + std::to_string(max_bytes) + " bytes");
-  } else if (is_too_deep(text)) {
+  } else if (nests_deeper_than(text, kMaxDepth)) {
     fail("nested too deeply");
   } else {
     *root_ = Json::parse(text, nullptr, false);
