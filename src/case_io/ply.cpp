@@ -50,6 +50,10 @@ std::optional<Scalar> scalar_of(std::string_view name) {
   return std::nullopt;
 }
 
+bool is_whole(std::optional<Scalar> type) {
+  return type && *type != Scalar::F32 && *type != Scalar::F64;
+}
+
 std::size_t size_of(Scalar type) {
   switch (type) {
     case Scalar::I8:
@@ -107,6 +111,8 @@ struct Header {
   std::size_t columns = 0;
   Scalar list_count = Scalar::U8;
   Scalar list_index = Scalar::I32;
+  bool has_vertices = false;
+  bool has_facets = false;
   bool has_list = false;
   bool is_binary = false;
   bool is_text = false;
@@ -117,7 +123,7 @@ enum class Accepted { BinarySurfaces, TextAndPointsToo };
 
 class Parser {
  public:
-  Parser(const std::filesystem::path& file, const std::string& content, Accepted accepted)
+  Parser(const std::filesystem::path& file, std::string_view content, Accepted accepted)
       : file_(file), content_(content), accepted_(accepted) {}
 
   TriangleMesh run() {
@@ -136,7 +142,7 @@ class Parser {
   }
 
   void read_header() {
-    const std::string_view text = std::string_view(content_).substr(0, kLongestHeader);
+    const std::string_view text = content_.substr(0, kLongestHeader);
     constexpr std::string_view kEnd = "end_header\n";
     const std::size_t end = text.find(kEnd);
     if (!text.starts_with("ply\n") || end == std::string_view::npos) refuse("is not a PLY surface");
@@ -174,10 +180,14 @@ class Parser {
     if (error != std::errc{} || last != count.data() + count.size() || n > UINT32_MAX) {
       refuse("has an impossible count of " + element);
     }
-    if (element == "vertex" && !header_.has_list) {
+    if (element == "vertex" && !header_.has_vertices && !header_.has_facets) {
       header_.vertices = n;
-    } else if (element == "face") {
+      header_.has_vertices = true;
+    } else if (element == "face" && !header_.has_facets) {
       header_.facets = n;
+      header_.has_facets = true;
+    } else if (element == "vertex" || element == "face") {
+      refuse("has vertices or facets twice, or facets before vertices");
     } else if (n > 0) {
       refuse("holds elements that no surface here has (" + element + ")");
     }
@@ -192,7 +202,7 @@ class Parser {
       words >> count >> index;
       const auto count_type = scalar_of(count);
       const auto index_type = scalar_of(index);
-      if (type != "list" || !count_type || !index_type || header_.has_list) {
+      if (type != "list" || !is_whole(count_type) || !is_whole(index_type) || header_.has_list) {
         refuse("has facets of another form than one list of vertices");
       }
       header_.list_count = *count_type;
@@ -200,6 +210,7 @@ class Parser {
       header_.has_list = true;
       return;
     }
+    if (element != "vertex") return;  // of an element of which there is none
     const auto scalar = scalar_of(type);
     if (!scalar) refuse("has a vertex property that is no number");
     std::string name;
@@ -207,6 +218,7 @@ class Parser {
     constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
       if (name != kAxes[i]) continue;
+      if (header_.type[i]) refuse("has a vertex with " + name + " twice");
       header_.place[i] = header_.vertex_stride;
       header_.type[i] = scalar;
       header_.column[i] = header_.columns;
@@ -253,11 +265,12 @@ class Parser {
       }
       mesh.facets.push_back(t);
     }
+    if (at != content_.data() + content_.size()) refuse("holds more than its header says");
   }
 
   /// Vertices and facets, one a line; polygons are cut into fans.
   TriangleMesh read_text() {
-    TextLines lines(file_, std::string_view(content_).substr(header_.bytes));
+    TextLines lines(file_, content_.substr(header_.bytes));
     TriangleMesh mesh;
     for (std::size_t i = 0; i < header_.vertices; ++i) {
       if (!lines.next()) refuse("is cut short");
@@ -278,11 +291,12 @@ class Parser {
       for (std::int64_t i = 1; i + 1 < corners; ++i)
         mesh.facets.push_back({corner(0), corner(i), corner(i + 1)});
     }
+    if (lines.next()) refuse("holds more than its header says");
     return mesh;
   }
 
   const std::filesystem::path& file_;
-  const std::string& content_;
+  std::string_view content_;
   Accepted accepted_;
   Header header_;
 };
@@ -313,12 +327,14 @@ void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh) {
 }
 
 TriangleMesh read_ply(const std::filesystem::path& file) {
-  const std::string content = read_whole_file(file);
+  return parse_ply(read_whole_file(file), file);
+}
+
+TriangleMesh parse_ply(std::string_view content, const std::filesystem::path& file) {
   return Parser(file, content, Accepted::BinarySurfaces).run();
 }
 
-TriangleMesh read_ply_or_points(const std::filesystem::path& file) {
-  const std::string content = read_whole_file(file);
+TriangleMesh parse_ply_or_points(std::string_view content, const std::filesystem::path& file) {
   return Parser(file, content, Accepted::TextAndPointsToo).run();
 }
 

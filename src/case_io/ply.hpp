@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -20,8 +21,11 @@ void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh);
 /// @throws IoError naming the file and what is wrong.
 [[nodiscard]] TriangleMesh read_ply(const std::filesystem::path& file);
 
+/// The same of bytes at hand. @param file  what errors name.
+[[nodiscard]] TriangleMesh parse_ply(std::string_view content, const std::filesystem::path& file);
+
 /// The same, and text PLY (polygons become fans), and points without facets.
-/// @throws IoError as read_ply.
-[[nodiscard]] TriangleMesh read_ply_or_points(const std::filesystem::path& file);
+[[nodiscard]] TriangleMesh parse_ply_or_points(std::string_view content,
+                                               const std::filesystem::path& file);
 
 }  // namespace carpus::case_io

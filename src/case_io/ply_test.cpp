@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "case_io/surface_file.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
@@ -103,6 +104,25 @@ TEST_F(Ply, RefusesHostileFiles) {
       HasSubstr("not binary"));
 }
 
+std::string replaced(std::string content, const std::string& from, const std::string& to) {
+  return content.replace(content.find(from), from.size(), to);
+}
+
+TEST_F(Ply, RefusesWhatItSaysTwiceOrBesideItsData) {
+  const std::string points = point(1) + point(2) + point(3);
+  const std::string whole = header("3", "1") + points + facet(0, 1, 2);
+  EXPECT_THAT(refusal(whole + "x"), HasSubstr("more than its header says"));
+  EXPECT_THAT(refusal(header("3", "0") + points + "x"), HasSubstr("more than its header says"));
+  EXPECT_THAT(refusal(replaced(whole, "float y", "float x")), HasSubstr("x twice"));
+  EXPECT_THAT(refusal(replaced(whole, "uchar int", "uchar float")), HasSubstr("another form"));
+  EXPECT_THAT(refusal(replaced(whole, "uchar int", "float int")), HasSubstr("another form"));
+  const std::string again = "element vertex 3\nend_header\n";
+  EXPECT_THAT(refusal(replaced(whole, "end_header\n", again)), HasSubstr("twice"));
+  // Properties of an element of which there is none are not the vertices'.
+  const std::string none = "element edge 0\nproperty float w\nend_header\n";
+  EXPECT_EQ(refusal(replaced(whole, "end_header\n", none)), "no error");
+}
+
 TEST_F(Ply, SurvivesRandomDamage) {
   std::string content = header("3", "1") + point(1) + point(2) + point(3) + facet(0, 1, 2);
   Rng rng(4);
@@ -133,18 +153,18 @@ TEST_F(Ply, OfPointsOrOfTextIsReadWhereAHullIsWanted) {
       "property float y\nproperty float z\n";
   const std::string points = "9 0 0 0\n9 1 0 0\n9 1 2 0\n9 0 2 3.5\n";
   std::ofstream(file(), std::ios::binary) << text_header << "end_header\n" << points;
-  EXPECT_EQ(read_ply_or_points(file()).vertices,
+  EXPECT_EQ(read_surface(file()).vertices,
             (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 3.5}}));
   EXPECT_THAT(refusal(text_header + "end_header\n" + points), HasSubstr("binary"));
 
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   fs::remove(file());
   std::ofstream(file(), std::ios::binary) << text_header << faces << points << "4 0 1 2 3\n";
-  EXPECT_EQ(read_ply_or_points(file()).facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(read_surface(file()).facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   for (const std::string wrong : {"4 0 1 2 4\n", "2 0 1\n", "3 0 1\n", "-1\n", "x\n", ""}) {
     fs::remove(file());
     std::ofstream(file(), std::ios::binary) << text_header << faces << points << wrong;
-    EXPECT_THROW((void)read_ply_or_points(file()), IoError) << wrong;
+    EXPECT_THROW((void)read_surface(file()), IoError) << wrong;
   }
 
   fs::remove(file());
@@ -152,7 +172,7 @@ TEST_F(Ply, OfPointsOrOfTextIsReadWhereAHullIsWanted) {
       << "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
          "property float y\nproperty float z\nend_header\n"
       << bytes_of(1.0F) << bytes_of(2.0F) << bytes_of(3.0F);
-  EXPECT_EQ(read_ply_or_points(file()).vertices, (std::vector<Vec3>{{1, 2, 3}}));
+  EXPECT_EQ(read_surface(file()).vertices, (std::vector<Vec3>{{1, 2, 3}}));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <tuple>
 
 #include "case_io/detail/disk_space.hpp"
-#include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/text_lines.hpp"
 #include "core/error.hpp"
 
@@ -40,7 +39,7 @@ class SharedVertices {
   std::map<std::tuple<double, double, double>, std::uint32_t> index_;
 };
 
-TriangleMesh read_binary(const std::filesystem::path& file, const std::string& content) {
+TriangleMesh read_binary(const std::filesystem::path& file, std::string_view content) {
   TriangleMesh mesh;
   SharedVertices shared(mesh);
   for (std::size_t at = kHeaderBytes + 4; at < content.size(); at += kFacetBytes) {
@@ -59,13 +58,15 @@ TriangleMesh read_binary(const std::filesystem::path& file, const std::string& c
   return mesh;
 }
 
-TriangleMesh read_text(const std::filesystem::path& file, const std::string& content) {
+TriangleMesh read_text(const std::filesystem::path& file, std::string_view content) {
   TriangleMesh mesh;
   SharedVertices shared(mesh);
   TextLines lines(file, content);
   Triangle t{};
   std::size_t corners = 0;
+  bool is_ended = false;
   while (lines.next()) {
+    is_ended = lines.words()[0] == "endsolid";
     if (lines.words()[0] == "endfacet") {
       if (corners != 3) lines.refuse("a facet of STL has three corners");
       mesh.facets.push_back(t);
@@ -76,12 +77,13 @@ TriangleMesh read_text(const std::filesystem::path& file, const std::string& con
     t[corners++] = shared.index_of({lines.number(1), lines.number(2), lines.number(3)});
   }
   if (corners != 0) lines.refuse("the last facet is cut short");
+  if (!is_ended) lines.refuse("its last line is not endsolid: it is cut short");
   return mesh;
 }
 
 /// Whether the file is exactly as long as a binary header says. Some binary files begin with
 /// "solid" too, so the word decides nothing.
-bool is_binary(const std::string& content) {
+bool is_binary(std::string_view content) {
   if (content.size() < kHeaderBytes + 4) return false;
   std::uint32_t count = 0;
   std::memcpy(&count, content.data() + kHeaderBytes, sizeof count);
@@ -90,8 +92,7 @@ bool is_binary(const std::string& content) {
 
 }  // namespace
 
-TriangleMesh read_stl(const std::filesystem::path& file) {
-  const std::string content = read_whole_file(file);
+TriangleMesh parse_stl(std::string_view content, const std::filesystem::path& file) {
   if (is_binary(content)) return read_binary(file, content);
   if (!content.starts_with("solid")) {
     throw IoError(file.string() +

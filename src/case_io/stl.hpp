@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -12,8 +13,9 @@ namespace carpus::case_io {
 
 /// Binary or text, told apart by the length that a binary header promises. Corners with the same
 /// coordinates become one vertex, in order of appearance; normals are not read.
+/// @param file  what errors name.
 /// @throws IoError naming the file and what is wrong.
-[[nodiscard]] TriangleMesh read_stl(const std::filesystem::path& file);
+[[nodiscard]] TriangleMesh parse_stl(std::string_view content, const std::filesystem::path& file);
 
 /// Binary, coordinates rounded to single precision.
 /// @throws IoError where the file cannot be written whole.

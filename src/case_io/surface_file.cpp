@@ -31,6 +31,15 @@ std::string extension_of(const fs::path& file) {
   return extension;
 }
 
+/// Before a file of any size is read in vain.
+void check_is_surface(const fs::path& file) {
+  const std::string extension = extension_of(file);
+  for (const char* known : {".ply", ".stl", ".obj", ".off", ".xyz"}) {
+    if (extension == known) return;
+  }
+  throw IoError(file.string() + ": is of no known format; give .ply, .stl, .obj, .off or .xyz");
+}
+
 Vec3 point_at(const TextLines& lines, std::size_t first_word) {
   return {lines.number(first_word), lines.number(first_word + 1), lines.number(first_word + 2)};
 }
@@ -107,6 +116,7 @@ TriangleMesh read_off(TextLines& lines) {
     }
     add_polygon(lines, polygon, mesh.vertices.size(), mesh);
   }
+  if (lines.next()) lines.refuse("more lines than vertices and facets were promised");
   return mesh;
 }
 
@@ -149,13 +159,15 @@ void write_obj_or_off(const fs::path& file,
 }  // namespace
 
 TriangleMesh read_surface(const fs::path& file) {
+  check_is_surface(file);
+  return parse_surface(read_whole_file(file), file);
+}
+
+TriangleMesh parse_surface(std::string_view content, const fs::path& file) {
+  check_is_surface(file);
   const std::string extension = extension_of(file);
-  if (extension == ".ply") return read_ply_or_points(file);
-  if (extension == ".stl") return read_stl(file);
-  if (extension != ".obj" && extension != ".off" && extension != ".xyz") {
-    throw IoError(file.string() + ": is of no known format; give .ply, .stl, .obj, .off or .xyz");
-  }
-  const std::string content = read_whole_file(file);
+  if (extension == ".ply") return parse_ply_or_points(content, file);
+  if (extension == ".stl") return parse_stl(content, file);
   TextLines lines(file, content);
   if (extension == ".obj") return read_obj(lines);
   return extension == ".off" ? read_off(lines) : read_xyz(lines);
@@ -182,7 +194,10 @@ void write_polygons(const fs::path& file,
 }
 
 std::vector<Vec2> read_planar_points(const fs::path& file) {
-  const std::string content = read_whole_file(file);
+  return parse_planar_points(read_whole_file(file), file);
+}
+
+std::vector<Vec2> parse_planar_points(std::string_view content, const fs::path& file) {
   TextLines lines(file, content, " \t\r,;");
   std::vector<Vec2> points;
   bool is_first = true;

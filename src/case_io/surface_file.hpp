@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "geometry/predicates.hpp"
@@ -14,13 +15,17 @@
 
 namespace carpus::case_io {
 
-/// Reads by the file's extension: .ply (as read_ply_or_points), .stl (binary or text; equal corners
-/// become one vertex), .obj (v and f lines; others are skipped), .off, .xyz (three numbers a line,
-/// further columns are skipped; no facets). Polygons are cut into triangles from their first
-/// corner. Nothing is believed before it is checked; no memory is set aside for what a header
+/// Reads by the file's extension: .ply (as parse_ply_or_points), .stl (binary or text; equal
+/// corners become one vertex), .obj (v and f lines; others are skipped), .off, .xyz (three numbers
+/// a line, further columns are skipped; no facets). Polygons are cut into triangles from their
+/// first corner. Nothing is believed before it is checked; no memory is set aside for what a header
 /// promises.
 /// @throws IoError naming the file, the line of a text file, and what is wrong.
 [[nodiscard]] TriangleMesh read_surface(const std::filesystem::path& file);
+
+/// The same of bytes at hand; `file` names them and says by its extension what they are.
+[[nodiscard]] TriangleMesh parse_surface(std::string_view content,
+                                         const std::filesystem::path& file);
 
 /// Writes by the file's extension: .ply, .obj and .off keep every bit of a coordinate; .stl is
 /// binary and holds single precision, as the format does.
@@ -38,5 +43,9 @@ void write_polygons(const std::filesystem::path& file,
 /// as may further columns.
 /// @throws IoError as read_surface, and where a line holds three numbers: points in space.
 [[nodiscard]] std::vector<Vec2> read_planar_points(const std::filesystem::path& file);
+
+/// The same of bytes at hand.
+[[nodiscard]] std::vector<Vec2> parse_planar_points(std::string_view content,
+                                                    const std::filesystem::path& file);
 
 }  // namespace carpus::case_io

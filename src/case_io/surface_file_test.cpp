@@ -106,6 +106,8 @@ TEST_F(SurfaceFile, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(refusal(".stl", "junk"), HasSubstr("neither text STL nor"));
   EXPECT_THAT(refusal(".stl", "solid\nvertex 0 0 0\n"), HasSubstr("cut short"));
   EXPECT_THAT(refusal(".stl", "solid\nvertex 0 0 0\nendfacet\n"), HasSubstr("three corners"));
+  EXPECT_THAT(refusal(".stl", "solid a\n"), HasSubstr("not endsolid"));
+  EXPECT_THAT(refusal(".off", "OFF\n1 0 0\n0 0 0\n1 1 1\n"), HasSubstr("more lines"));
   EXPECT_THAT(refusal(".step", ""), HasSubstr("no known format"));
   EXPECT_THROW((void)read_surface(file(".nowhere.xyz")), IoError);
   EXPECT_THROW(write_surface(file(".xyz"), kTetrahedron), IoError);
