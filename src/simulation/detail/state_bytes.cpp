@@ -10,6 +10,7 @@
 
 #include "core/state_hash.hpp"
 #include "simulation/detail/bytes.hpp"
+#include "simulation/detail/possible_state.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -55,53 +56,6 @@ struct ReadFields {
   }
 };
 
-/// Whether every index in it names something; what a hostile keyframe would bend.
-bool are_indices_sound(const detail::Operated& now,
-                       const detail::Spent& spent,
-                       std::size_t bodies,
-                       std::size_t instruments) {
-  const auto is_in = [](std::uint8_t index, std::size_t count) {
-    return index == 255 || index < count;
-  };
-  for (std::uint8_t i = 0; i < kMaxItems; ++i) {
-    const detail::Item& item = now.items[i];
-    if (!is_in(item.instrument, instruments)) return false;
-    if (!item.is_there()) continue;
-    const bool is_known = is_in(item.hand, kHands) && is_in(item.body, bodies) &&
-                          is_in(item.wire, kMaxItems) && item.wire != i &&
-                          is_in(item.hole, now.hole_count) && is_in(item.pass, detail::kMaxPasses);
-    if (!is_known || item.crossing_count > detail::kMaxCrossings) return false;
-    for (std::size_t c = 0; c < item.crossing_count; ++c) {
-      if (item.crossings[c].body >= bodies) return false;
-    }
-    if (item.hand < kHands && now.held[item.hand] != i) return false;
-    if (item.wire < kMaxItems &&
-        (!now.items[item.wire].is_there() || !now.items[item.wire].is_fixed() ||
-         now.items[item.wire].wire < kMaxItems || !item.is_fixed())) {
-      return false;
-    }
-  }
-  for (std::uint8_t h = 0; h < kHands; ++h) {
-    const std::uint8_t held = now.held[h];
-    if (!is_in(held, kMaxItems)) return false;
-    if (held < kMaxItems && (!now.items[held].is_there() || now.items[held].hand != h)) {
-      return false;
-    }
-    const HandInput& wish = spent.hands[h].wish;
-    if (static_cast<unsigned>(wish.driver) > 2 || static_cast<unsigned>(wish.guidance) > 1) {
-      return false;
-    }
-    if (!is_in(spent.hands[h].touched_body, bodies)) return false;
-    if (spent.hands[h].plan.phase > HandPhase::Lowering) return false;
-  }
-  for (std::size_t i = 0; i < now.track_count; ++i) {
-    if (now.tracks[i].body >= bodies) return false;
-  }
-  // While the pedal is down a look is on record.
-  const bool is_live_sound = spent.live_ticks == 0 || spent.shot_count > 0;
-  return now.track_count <= kMaxTracks && spent.shot_count <= kMaxShots && is_live_sound;
-}
-
 }  // namespace
 
 std::vector<std::byte> World::write_state() const {
@@ -130,23 +84,28 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   if (end.get(8) != hash.value())
     return carpus::Refusal{"keyframe: damaged, its checksum does not match"};
 
-  auto next = std::make_unique<State>(*model_);
+  // A State takes megabytes: it is made for what was looked at.
+  const auto now = std::make_unique<detail::Operated>();
+  const auto spent = std::make_unique<detail::Spent>();
   detail::Reader in(body);
   bool is_sound = true;
   const ReadFields fields{in, is_sound};
-  visit(next->now, fields);
-  visit(next->spent, fields);
-  is_sound = is_sound && !in.is_spoilt() &&
-             are_indices_sound(next->now, next->spent, model_->data.bones.size(),
-                               model_->catalogue.size());
+  visit(*now, fields);
+  visit(*spent, fields);
+  const detail::StateBounds bounds{model_->data.bones.size(), model_->catalogue.size(),
+                                   model_->procedure.steps.size(), model_->data.hand_motion.limits};
+  is_sound = is_sound && !in.is_spoilt() && detail::is_possible(*now, *spent, bounds);
   if (!is_sound) return carpus::Refusal{"keyframe: its state is not one that a tick could leave"};
+  auto next = std::make_unique<State>(*model_);
+  next->now = *now;
+  next->spent = *spent;
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);
   }
-  for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
-    is_sound = is_sound && next->shots[i].look <= procedure::Look::LiveOn;
+  const std::span<const procedure::Shot> shots(next->shots.data(), next->spent.shot_count);
+  if (!is_sound || in.is_spoilt() || !detail::are_possible(shots, next->spent)) {
+    return carpus::Refusal{"keyframe: its shots are cut off or do not add up"};
   }
-  if (!is_sound || in.is_spoilt()) return carpus::Refusal{"keyframe: cut off among the shots"};
   const Result<std::size_t> tissue = next->tissue.cuts().read_from(body.subspan(in.at()));
   if (!tissue) return carpus::Refusal{"keyframe: " + tissue.error()};
   next->pose_bodies(*model_);
