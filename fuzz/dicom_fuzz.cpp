@@ -10,7 +10,7 @@
 #include "image_formats/codestream_header.hpp"
 #include "image_formats/dicom_header.hpp"
 #include "image_formats/rle_frame.hpp"
-#include "refusals.hpp"
+#include "scan_headers.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "image_formats/meta_image_header.hpp"
-#include "refusals.hpp"
+#include "scan_headers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace carpus;

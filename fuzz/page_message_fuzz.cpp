@@ -8,6 +8,7 @@
 #include <string>
 
 #include "protocol/messages.hpp"
+#include "refusals.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto message =
@@ -16,6 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (message.error().empty()) std::abort();
     return 0;
   }
+  ++carpus::fuzz::accepted;
   const std::string text = serialize(*message);
   const auto again = carpus::protocol::parse_page_message(text);
   if (!again || serialize(*again) != text) std::abort();

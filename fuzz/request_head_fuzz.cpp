@@ -10,6 +10,8 @@
 #include <string>
 #include <variant>
 
+#include "refusals.hpp"
+
 namespace {
 
 using carpus::server::RequestField;
@@ -51,6 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto* problem = std::get_if<RequestProblem>(&parsed)) {
     demand(problem->status >= 400 && problem->status < 600 && !problem->reason.empty());
   } else if (found.end > 0) {
+    ++carpus::fuzz::accepted;
     check(*std::get_if<RequestHead>(&parsed));
   }
   return 0;
