@@ -21,6 +21,16 @@ export async function newPage(browser) {
   return context.newPage();
 }
 
+/** The same on a screen that is touched. */
+export async function newTouchPage(browser) {
+  const context = await browser.newContext({
+    viewport: VIEWPORT,
+    hasTouch: true,
+  });
+  context.setDefaultTimeout(PATIENCE_MS);
+  return context.newPage();
+}
+
 export function startBrowser() {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",

@@ -79,9 +79,10 @@ export class Operator {
   }
 
   /** Waits until the snapshot satisfies `holds`. Asked from here: the page forbids eval. */
-  async until(holds, what, timeout = PATIENCE_MS) {
-    const end = Date.now() + timeout;
+  async until(holds, what, meanwhile = async () => {}) {
+    const end = Date.now() + PATIENCE_MS;
     for (;;) {
+      await meanwhile();
       const now = await this.snapshot();
       if (now !== undefined && holds(now)) return now;
       if (Date.now() > end)
@@ -94,11 +95,11 @@ export class Operator {
 
   /** A key down and up in one moment, however busy the machine is. */
   async tap(code) {
-    await this.page.evaluate((key) => {
+    await this.page.evaluate((place) => {
       for (const type of ["keydown", "keyup"]) {
         const press = new KeyboardEvent(type, {
-          code: key,
-          key,
+          code: place,
+          key: place,
           bubbles: true,
         });
         document.activeElement.dispatchEvent(press);
@@ -129,7 +130,11 @@ export class Operator {
       await this.page.check(`input[name=procedure][value=${procedure}]`);
     await this.page.fill("#trainee-name", trainee);
     await this.page.click("dialog.start button[type=submit]");
-    await this.until((s) => s.tick > 0, "the first ticks");
+    // Where another operation waits, the page asks; until this one begins, that is what is seen.
+    const anew = this.page.getByRole("button", { name: "Start anew" });
+    await this.until((s) => s.tick > 0 && !s.paused, "the first ticks", async () => {
+      if (await anew.isVisible()) await anew.click();
+    });
   }
 
   /** Turns the shaft by Shift + drag, then by Shift + arrows, until it lies along `toHand`. */
@@ -193,10 +198,10 @@ export class Operator {
   }
 
   /** Holds a key until the snapshot satisfies `holds`. */
-  async holdKey(key, holds, what, timeout = PATIENCE_MS) {
+  async holdKey(key, holds, what) {
     await this.page.keyboard.down(key);
     try {
-      await this.until(holds, what, timeout);
+      await this.until(holds, what);
     } finally {
       await this.page.keyboard.up(key);
     }
@@ -210,10 +215,9 @@ export class Operator {
     await this.settle(1);
   }
 
-  /** Short pushes, strong through the near cortex, then light, with more where the wire stops. */
+  /** Short pushes, as strong as the hand begins through the near cortex, then light, with more where the wire stops. */
   async driveWireTo(depthMm) {
     const { page } = this;
-    for (let i = 0; i < 4; ++i) await page.keyboard.press("BracketRight");
     let isLight = false;
     let last = -1;
     for (let push = 0; push < 250; ++push) {
@@ -222,7 +226,7 @@ export class Operator {
       if (isEngaged && depth >= depthMm) return;
       if (!isLight && isEngaged && depth >= 0.5) {
         isLight = true;
-        for (let i = 0; i < 6; ++i) await page.keyboard.press("BracketLeft");
+        for (let i = 0; i < 5; ++i) await page.keyboard.press("BracketLeft");
       } else if (isLight && depth - last < 0.05) {
         await page.keyboard.press("BracketRight");
       }

@@ -8,6 +8,9 @@
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
 import { accessibilityFaults, focusFaults } from "./accessibility.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
+import { check, counted, expect } from "./checks.mjs";
+import { withPictures } from "./c_arm.mjs";
+import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { followFromElsewhere, printedLink } from "./link.mjs";
 import { startStation } from "./station.mjs";
@@ -15,54 +18,6 @@ import { startStation } from "./station.mjs";
 const TRAINEE = "Browser test";
 /** Of grey levels: a blank picture with noise stays under this. */
 const LEAST_DEVIATION = 12;
-
-let passed = 0;
-let failed = 0;
-
-/** What a person would see and try next, for whoever reads of a failure. */
-async function situation(page) {
-  return page.evaluate(() => {
-    const text = (selector) =>
-      [...document.querySelectorAll(selector)]
-        .map((e) => e.textContent.trim())
-        .filter((t) => t !== "")
-        .join(" | ");
-    const focus = document.activeElement;
-    return JSON.stringify({
-      address: location.hash,
-      notice: text(".notice"),
-      frozen: text(".frozen:not([hidden])"),
-      dialog: text("dialog[open] h2"),
-      focus:
-        focus &&
-        `${focus.tagName} ${focus.className} ${focus.textContent.slice(0, 40)}`,
-      snapshot: window.carpus?.snapshot(),
-    });
-  });
-}
-
-async function check(page, name, run) {
-  const start = Date.now();
-  try {
-    await run();
-    ++passed;
-    console.log(
-      `ok      ${name}  (${((Date.now() - start) / 1000).toFixed(1)} s)`,
-    );
-    return true;
-  } catch (error) {
-    ++failed;
-    console.log(
-      `FAILED  ${name}\n        ${error instanceof Error ? error.message : error}`,
-    );
-    console.log(`        ${await situation(page).catch(String)}`);
-    return false;
-  }
-}
-
-function expect(holds, what) {
-  if (!holds) throw new Error(what);
-}
 
 /** What a page may not do: errors in the console, exceptions. */
 function watch(page, problems) {
@@ -157,13 +112,13 @@ async function operate(page, station, problems) {
     "the wrist moves by key, and its bones with it",
     async () => {
       const before = await operator.snapshot();
-      for (let tap = 0; tap < 5; ++tap) await operator.tap("j");
+      for (let tap = 0; tap < 5; ++tap) await operator.tap("KeyJ");
       const flexion = before.wrist.flexion_deg;
       await operator.until(
         (s) => s.wrist.flexion_deg > flexion + 4,
         "five degrees of flexion",
       );
-      for (let tap = 0; tap < 5; ++tap) await operator.tap("u");
+      for (let tap = 0; tap < 5; ++tap) await operator.tap("KeyU");
       await operator.until(
         (s) => Math.abs(s.wrist.flexion_deg - flexion) < 0.2,
         "the way back",
@@ -182,7 +137,7 @@ async function operate(page, station, problems) {
           pictures.add(`${mean} ${deviation}`);
         };
         await look();
-        for (let tap = 0; tap < 8; ++tap) await operator.tap("n");
+        for (let tap = 0; tap < 8; ++tap) await operator.tap("KeyN");
         // A busy machine draws seldom.
         const until = Date.now() + 30_000;
         while (pictures.size < 2 && Date.now() < until) {
@@ -200,7 +155,7 @@ async function operate(page, station, problems) {
         turned > 5 && Math.abs(turned - seen) < 1,
         `the forearm turned by ${turned}, what is seen by ${seen} degrees`,
       );
-      for (let tap = 0; tap < 8; ++tap) await operator.tap("b");
+      for (let tap = 0; tap < 8; ++tap) await operator.tap("KeyB");
       const pronation = before.wrist.pronation_deg;
       await operator.until(
         (s) => Math.abs(s.wrist.pronation_deg - pronation) < 0.2,
@@ -647,6 +602,9 @@ try {
     expect(problems.length === 0, problems.slice(0, 5).join(" | "));
   });
   await page.close();
+  await byKeysAlone(browser, station);
+  await byFinger(browser, station);
+  await withPictures(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);
@@ -654,5 +612,5 @@ try {
   await browser.close();
   await station.stop();
 }
-console.log(`${passed} passed, ${failed} failed`);
-process.exit(failed === 0 ? 0 : 1);
+console.log(`${counted.passed} passed, ${counted.failed} failed`);
+process.exit(counted.failed === 0 ? 0 : 1);

@@ -1,18 +1,27 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The C-arm's side of the screen: last picture, views, free angles, dose, the last pictures.
+// The C-arm's side of the screen: the live monitor and, of a picture that was kept, a second one; views,
+// free angles, dose, the last pictures; enlarged, it takes the theatre's place.
 import { button, make, setText } from "../dom";
+import { withKeys } from "../key_caps";
 import type { CArmPicture, CArmStand, NamedView } from "../protocol";
 import "./c_arm.css";
+import { Monitor } from "./monitor";
 import { drawPicture } from "./picture_canvas";
 import { Pedal, type PedalHandlers } from "./pedal";
+import { rulerMm, rulerText, withPoint, type Ruler } from "./ruler_model";
+import { savePicture } from "./save_picture";
 import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
 export interface CArmHandlers extends PedalHandlers {
   takeShot(rotationDeg: number, tiltDeg: number): void;
   /** The C-arm was moved there, without a picture. */
   stand(rotationDeg: number, tiltDeg: number): void;
+  /** The pictures and the theatre change places. */
+  enlarge(on: boolean): void;
+  /** The beam is to be drawn in the theatre, or not, while the C-arm rests. */
+  beam(on: boolean): void;
 }
 
 const HISTORY = 6;
@@ -24,10 +33,9 @@ const OWN_WORD_MS = 300;
 
 export class CArmPanel {
   readonly element: HTMLElement;
-  private readonly canvas = make("canvas.c-arm-picture", { role: "img" });
-  private readonly empty = make("p.c-arm-empty");
   private readonly name = make("span.secondary");
   private readonly count = make("p.c-arm-count");
+  private readonly ruled = make("p.c-arm-ruled", { role: "status" });
   private readonly stand = make("span.c-arm-stand");
   private readonly strip = make("div.c-arm-strip", {
     role: "group",
@@ -48,31 +56,97 @@ export class CArmPanel {
   private movedAtMs = -Infinity;
   /** Newest of the live look that goes on. */
   private live: CArmPicture | undefined;
+  private kept: CArmPicture | undefined;
+  private ruler: Ruler = [];
+  private rules = false;
+  private isEnlarged = false;
+  private beamIsShown = false;
   private readonly liveSign = make("span.c-arm-live", { role: "status" });
+  private readonly monitor = new Monitor("Fluoroscopy", "c-arm-picture", this.liveSign);
+  private readonly reference = new Monitor("Reference", "c-arm-reference-picture");
+  private readonly referenceName = make("span.secondary");
+  private readonly referenceBox: HTMLElement;
+  private readonly enlargeButton: HTMLButtonElement;
+  private readonly rulerButton: HTMLButtonElement;
+  private readonly beamButton: HTMLButtonElement;
   readonly pedal: Pedal;
 
-  constructor(private readonly handlers: CArmHandlers) {
+  /** @param patient  written on a picture that is saved */
+  constructor(
+    private readonly patient: string,
+    private readonly handlers: CArmHandlers,
+  ) {
     this.pedal = new Pedal(handlers);
-    this.invertButton = button("Invert", "I", () => {
+    const toggle = (label: string, keys: string, onClick: () => void): HTMLButtonElement => {
+      const b = button(label, keys, onClick);
+      b.setAttribute("aria-pressed", "false");
+      return b;
+    };
+    this.invertButton = toggle("Invert", "{KeyI}", () => {
       this.invert();
     });
-    this.invertButton.setAttribute("aria-pressed", "false");
-    setText(this.empty, "No picture yet.");
+    this.enlargeButton = toggle("Enlarge", "7", () => {
+      this.enlarge(!this.isEnlarged);
+    });
+    this.enlargeButton.title = "The pictures and the theatre change places";
+    this.rulerButton = toggle("Ruler", "{Quote}", () => {
+      this.toggleRuler();
+    });
+    this.rulerButton.title = "Two clicks on the picture: millimetres at the isocentre";
+    this.beamButton = toggle("Beam", "{Semicolon}", () => {
+      this.toggleBeam();
+    });
+    this.beamButton.title = "Draws the beam in the theatre, also while the C-arm rests";
+    this.referenceBox = make(
+      "section.c-arm-reference",
+      { "aria-label": "Reference" },
+      make("header.panel-title", {}, make("h3", {}, "Reference"), this.referenceName),
+      this.reference.element,
+    );
+    this.referenceBox.hidden = true;
+    this.monitor.sayWhileEmpty("No picture yet.");
+    this.monitor.onPoint = (point) => {
+      if (!this.rules) return;
+      this.ruler = withPoint(this.ruler, point);
+      this.redraw();
+    };
     this.element = make(
       "section.c-arm",
       { "aria-label": "C-arm" },
       make("header.panel-title", {}, make("h2", {}, "C-arm"), this.name),
-      make("div.c-arm-frame", {}, this.canvas, this.empty, this.liveSign),
+      this.monitor.element,
       this.viewGroup,
       this.standRow(),
+      this.pictureRow(),
+      this.ruled,
       this.count,
-      this.strip,
+      make("div.c-arm-earlier", {}, this.referenceBox, this.strip),
     );
     this.showStand();
     this.showCount(0, 0);
-    new ResizeObserver(() => {
-      this.redraw();
-    }).observe(this.canvas);
+    this.redraw();
+  }
+
+  /** What is done with the picture that is shown. */
+  private pictureRow(): HTMLElement {
+    const save = button("Save", "{Backslash}", () => {
+      this.save();
+    });
+    save.title = "As a PNG file with its text";
+    const keep = button("Keep as reference", "8", () => {
+      this.keepAsReference();
+    });
+    keep.title = "Puts the picture onto the second monitor";
+    return make(
+      "div.c-arm-turn.c-arm-uses",
+      { role: "group", "aria-label": "Picture" },
+      this.enlargeButton,
+      keep,
+      this.invertButton,
+      this.rulerButton,
+      this.beamButton,
+      save,
+    );
   }
 
   private standRow(): HTMLElement {
@@ -85,23 +159,22 @@ export class CArmPanel {
       const b = button(label, "", () => {
         this.turn(rotation, tilt);
       });
-      b.setAttribute("aria-label", says);
-      b.title = says;
+      b.setAttribute("aria-label", withKeys(says));
+      b.title = withKeys(says);
       return b;
     };
     return make(
       "div.c-arm-turn",
       {},
       this.stand,
-      turn("↶", "Turn the C-arm by −5° (comma)", -5, 0),
-      turn("↷", "Turn the C-arm by +5° (full stop)", 5, 0),
-      turn("↓", "Tilt the C-arm towards distal by 5° (Shift + comma)", 0, -5),
-      turn("↑", "Tilt the C-arm towards proximal by 5° (Shift + full stop)", 0, 5),
-      button("Shoot", "X", () => {
+      turn("↶", "Turn the C-arm by −5° ({Comma})", -5, 0),
+      turn("↷", "Turn the C-arm by +5° ({Period})", 5, 0),
+      turn("↓", "Tilt the C-arm towards distal by 5° (Shift + {Comma})", 0, -5),
+      turn("↑", "Tilt the C-arm towards proximal by 5° (Shift + {Period})", 0, 5),
+      button("Shoot", "{KeyX}", () => {
         this.shootFree();
       }),
       this.pedal.button,
-      this.invertButton,
     );
   }
 
@@ -115,8 +188,7 @@ export class CArmPanel {
     );
     this.viewGroup.replaceChildren(...this.viewButtons);
     const first = views[0];
-    setText(
-      this.empty,
+    this.monitor.sayWhileEmpty(
       first === undefined ? "No picture yet." : `No picture yet. Press 1 for ${first.label}.`,
     );
     this.rotationDeg = first?.rotation_deg ?? 0;
@@ -156,6 +228,59 @@ export class CArmPanel {
     this.redrawStrip();
   }
 
+  enlarge(on: boolean): void {
+    if (this.isEnlarged === on) return;
+    this.isEnlarged = on;
+    this.enlargeButton.setAttribute("aria-pressed", String(on));
+    this.element.classList.toggle("enlarged", on);
+    this.handlers.enlarge(on);
+  }
+
+  get enlarged(): boolean {
+    return this.isEnlarged;
+  }
+
+  /** The picture that is shown stays on the second monitor, whatever comes. */
+  keepAsReference(): void {
+    if (this.picture === undefined) {
+      this.handlers.say("There is no picture to keep yet.");
+      return;
+    }
+    this.kept = this.picture;
+    this.redraw();
+  }
+
+  save(): void {
+    const { picture } = this;
+    if (picture === undefined) {
+      this.handlers.say("There is no picture to save yet.");
+      return;
+    }
+    const overlay = { view: this.nameOf(picture), kv: KV_TEXT };
+    savePicture(picture, this.inverted, overlay, this.ruler, this.patient);
+    this.handlers.say("The picture is saved among the downloads.");
+  }
+
+  toggleRuler(): void {
+    this.rules = !this.rules;
+    this.ruler = [];
+    this.rulerButton.setAttribute("aria-pressed", String(this.rules));
+    this.element.classList.toggle("ruling", this.rules);
+    if (this.rules) this.handlers.say("Ruler: click two points of the picture.");
+    this.redraw();
+  }
+
+  toggleBeam(): void {
+    this.beamIsShown = !this.beamIsShown;
+    this.beamButton.setAttribute("aria-pressed", String(this.beamIsShown));
+    this.handlers.beam(this.beamIsShown);
+  }
+
+  /** The one that is shown. */
+  private get picture(): CArmPicture | undefined {
+    return this.live ?? this.pictures[this.shown];
+  }
+
   /** Where it stands over the forearm: that turns under it, too. */
   takeStand(stand: CArmStand): void {
     this.showLive(stand.live);
@@ -186,13 +311,14 @@ export class CArmPanel {
     this.pictures.push(picture);
     if (this.pictures.length > HISTORY) this.pictures.shift();
     this.shown = this.pictures.length - 1;
+    this.ruler = [];
     this.redraw();
     this.redrawStrip();
   }
 
   clear(): void {
     this.pictures.length = 0;
-    this.live = undefined;
+    this.live = this.kept = undefined;
     this.shown = -1;
     this.redraw();
     this.redrawStrip();
@@ -223,17 +349,18 @@ export class CArmPanel {
   }
 
   private redraw(): void {
-    const picture = this.live ?? this.pictures[this.shown];
-    const side = Math.round(this.canvas.clientWidth * Math.min(2, window.devicePixelRatio));
-    // Setting the size also clears the canvas.
-    if (side > 1) this.canvas.width = this.canvas.height = side;
+    const { inverted, kept, picture, ruler } = this;
     const view = picture === undefined ? "" : this.nameOf(picture);
-    drawPicture(this.canvas, picture, this.inverted, { view, kv: KV_TEXT });
-    this.empty.hidden = picture !== undefined;
+    this.monitor.show({ picture, inverted, overlay: { view, kv: KV_TEXT }, ruler });
+    const mm = picture === undefined ? undefined : rulerMm(ruler, picture);
+    setText(this.ruled, mm === undefined ? "" : rulerText(mm));
     setText(this.name, picture === undefined ? "" : `${view}, ${this.whenTaken(picture)}`);
-    const says =
-      picture === undefined ? "No fluoroscopy picture yet" : `Fluoroscopy picture ${view}`;
-    this.canvas.setAttribute("aria-label", says);
+    this.referenceBox.hidden = kept === undefined;
+    if (kept === undefined) return;
+    const keptView = this.nameOf(kept);
+    setText(this.referenceName, kept.shot > 0 ? `${keptView}, shot ${kept.shot}` : keptView);
+    const overlay = { view: keptView, kv: KV_TEXT };
+    this.reference.show({ picture: kept, inverted, overlay });
   }
 
   private whenTaken(picture: CArmPicture): string {
@@ -256,6 +383,7 @@ export class CArmPanel {
         b.setAttribute("aria-pressed", String(index === this.shown));
         b.addEventListener("click", () => {
           this.shown = index;
+          this.ruler = [];
           this.redraw();
           this.redrawStrip();
         });

@@ -3,7 +3,8 @@
 //
 // The C-arm's foot pedal: down while its key or its button is held, by whichever; said again and again,
 // since the host lets go of what it does not hear of.
-import { make } from "../dom";
+import { make, whileHeld } from "../dom";
+import { keyCap, nameShortcut } from "../key_caps";
 
 /** The host lets go after 2 s. */
 const REPEAT_MS = 100;
@@ -17,39 +18,27 @@ export interface PedalHandlers {
 
 export class Pedal {
   readonly button: HTMLButtonElement;
-  /** What holds it down: codes of keys, "pointer". */
+  /** What holds it down: codes of keys, holders of its button. */
   private readonly holders = new Set<string>();
   private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly handlers: PedalHandlers) {
     this.button = make(
       "button.c-arm-pedal",
-      { type: "button", "aria-pressed": "false", title: "Hold for live pictures (E)" },
+      { type: "button", "aria-pressed": "false", title: "Hold for live pictures" },
       "Live",
-      make("kbd", {}, "hold E"),
+      keyCap("hold {KeyE}"),
     );
-    this.button.setAttribute("aria-keyshortcuts", "E");
-    this.button.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      this.button.setPointerCapture(event.pointerId);
-      this.press("pointer");
-    });
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const) {
-      this.button.addEventListener(end, () => {
-        this.release("pointer");
-      });
-    }
-    this.button.addEventListener("keydown", (event) => {
-      if (event.code !== "Space" && event.code !== "Enter") return;
-      event.preventDefault();
-      if (!event.repeat) this.press(`button ${event.code}`);
-    });
-    this.button.addEventListener("keyup", (event) => {
-      this.release(`button ${event.code}`);
-    });
-    this.button.addEventListener("blur", () => {
-      this.releaseAll();
-    });
+    nameShortcut(this.button, "{KeyE}");
+    whileHeld(
+      this.button,
+      (holder) => {
+        this.press(holder);
+      },
+      (holder) => {
+        this.release(holder);
+      },
+    );
     window.addEventListener("blur", () => {
       this.releaseAll();
     });

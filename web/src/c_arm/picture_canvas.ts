@@ -4,16 +4,21 @@
 // One fluoroscopy picture on a canvas: round field, soft edge, text in the corners as a mini C-arm
 // writes it. The grey is the host's; here it is only turned over on request.
 import type { CArmPicture } from "../protocol";
+import { rulerMm, rulerText, type Ruler } from "./ruler_model";
 
 export interface Overlay {
   readonly view: string;
   readonly kv: string;
+  /** Below the view: whose picture, when; of one that leaves the page. */
+  readonly lines?: readonly string[];
 }
 
 /** Free corners for the text: the field does not reach the border. */
 const FIELD_RADIUS = 0.492;
 /** Where the soft edge of the field begins, as a share of its radius. */
 const SOFT_EDGE = 0.965;
+
+const RULER_COLOR = "#5cc8ff";
 
 const plate = document.createElement("canvas");
 
@@ -93,7 +98,51 @@ function write(
   context.font = `400 ${Math.round(size * 0.86)}px 'Inter Variable', sans-serif`;
   context.fillStyle = "#9fb0b7";
   context.textAlign = "left";
+  context.textBaseline = "top";
+  (overlay.lines ?? []).forEach((line, index) => {
+    context.fillText(line, margin, margin + (index + 1.3) * size);
+  });
+  context.textBaseline = "bottom";
   context.fillText(overlay.kv, margin, side - margin);
   context.textAlign = "right";
   context.fillText(`${picture.doseCgyCm2.toFixed(2)} cGy cm²`, side - margin, side - margin);
+}
+
+/** Draws what is measured over the picture. */
+export function drawRuler(canvas: HTMLCanvasElement, picture: CArmPicture, ruler: Ruler): void {
+  const context = canvas.getContext("2d");
+  const [from, to] = ruler;
+  if (context === null || from === undefined) return;
+  const side = canvas.width;
+  const thin = Math.max(1.5, side / 400);
+  const arm = side / 60;
+  context.strokeStyle = context.fillStyle = RULER_COLOR;
+  context.lineWidth = thin;
+  context.beginPath();
+  for (const { x, y } of ruler) {
+    context.moveTo(x * side - arm, y * side);
+    context.lineTo(x * side + arm, y * side);
+    context.moveTo(x * side, y * side - arm);
+    context.lineTo(x * side, y * side + arm);
+  }
+  if (to !== undefined) {
+    context.moveTo(from.x * side, from.y * side);
+    context.lineTo(to.x * side, to.y * side);
+  }
+  context.stroke();
+  const mm = rulerMm(ruler, picture);
+  if (mm === undefined || to === undefined) return;
+  const size = Math.max(12, Math.round(side / 28));
+  const text = rulerText(mm);
+  context.font = `600 ${size}px 'Inter Variable', sans-serif`;
+  const wide = context.measureText(text).width + size;
+  // Beside the second point, wholly on the picture.
+  const x = Math.min(side - wide - arm, Math.max(arm, to.x * side - wide / 2));
+  const y = Math.min(side - 4 * size, to.y * side + 1.5 * arm);
+  context.fillStyle = "rgba(5, 8, 10, 0.78)";
+  context.fillRect(x, y, wide, 1.5 * size);
+  context.fillStyle = RULER_COLOR;
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  context.fillText(text, x + size / 2, y + 0.78 * size);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Elements without a framework.
+import { keyCap, nameShortcut } from "../key_caps";
 
 type Child = Node | string;
 type Attributes = Readonly<Record<string, string>>;
@@ -20,7 +21,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** A button that says what it does and, where there is one, its key. */
+/** A button that says what it does and, where there is one, its key (as {KeyA}). */
 export function button(
   label: string,
   key: string,
@@ -29,8 +30,8 @@ export function button(
 ): HTMLButtonElement {
   const element = make(`button${more}` as "button", { type: "button" }, label);
   if (key !== "") {
-    element.append(make("kbd", {}, key));
-    element.setAttribute("aria-keyshortcuts", key);
+    element.append(keyCap(key));
+    nameShortcut(element, key);
   }
   element.addEventListener("click", onClick);
   return element;

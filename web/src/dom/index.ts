@@ -3,3 +3,4 @@
 //
 // Building elements.
 export * from "./element";
+export { whileHeld } from "./while_held";

@@ -3,6 +3,7 @@
 //
 // The help: the table of keys, as a dialog over the theatre.
 import { button, make } from "../dom";
+import { keyCap } from "../key_caps";
 import { HELP } from "../operation";
 import "./help_overlay.css";
 
@@ -38,7 +39,7 @@ export class HelpOverlay {
                 "dl",
                 {},
                 ...group.lines.flatMap((line) => [
-                  make("dt", {}, make("kbd", {}, line.keys)),
+                  make("dt", {}, keyCap(line.keys)),
                   make("dd", {}, line.text),
                 ]),
               ),

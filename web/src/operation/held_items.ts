@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the hands hold, of a snapshot; and why the page's own ways of moving it do nothing now.
+// What the hands hold, of a snapshot; and why the page's own ways of moving it do nothing now. Keys are
+// named as {KeyA}: key_caps/ says what is printed there.
 import type { Item, SnapshotMessage } from "../protocol";
 
 /** A hand of the protocol. */
@@ -21,24 +22,26 @@ export function whyItKeepsStill(
   item: Item | undefined,
   label: (body: string) => string,
 ): string | undefined {
-  if (item === undefined) return "This hand is empty: C opens the tray, H moves the other hand.";
+  if (item === undefined)
+    return "This hand is empty: {KeyC} opens the tray, {KeyH} moves the other hand.";
   if (item.body === "") return undefined;
   const where = `the ${label(item.body)}`;
   return item.wire >= 0
-    ? `It runs on its wire in ${where}: hold Space to drive it, R to bring it back.`
-    : `It is held by ${where}: hold R to bring it out, then place it anew.`;
+    ? `It runs on its wire in ${where}: hold Space to drive it, {KeyR} to bring it back.`
+    : `It is held by ${where}: hold {KeyR} to bring it out, then place it anew.`;
 }
 
 /** Said while the driver runs and nothing moves. */
 export function whyStuck(s: SnapshotMessage, hand: HandIndex, thrustN: number): string | undefined {
   const item = heldItem(s, hand);
-  if (item === undefined) return "This hand is empty: C opens the tray, H moves the other hand.";
+  if (item === undefined)
+    return "This hand is empty: {KeyC} opens the tray, {KeyH} moves the other hand.";
   const { resistance_n, touching } = s.hands[hand];
   if (item.body !== "" && resistance_n > 0 && resistance_n >= thrustN) {
-    return `The bone resists ${Math.round(resistance_n)} N, you push ${thrustN} N: push more with ].`;
+    return `The bone resists ${Math.round(resistance_n)} N, you push ${thrustN} N: push more, {BracketRight}.`;
   }
   if (item.body === "" && !touching) {
-    return "The tip touches no bone: A brings it nearer, or drag it onto the bone.";
+    return "The tip touches no bone: {KeyA} brings it nearer, or drag it onto the bone.";
   }
   return undefined;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the trainee can do and what comes next.
+export * from "./key_help";
 export * from "./key_map";
 export * from "./offered_actions";
 export * from "./held_items";

@@ -55,8 +55,7 @@ export class Sight {
     private readonly facing: FaceNames,
   ) {
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.mouseButtons = { LEFT: null, MIDDLE: THREE.MOUSE.PAN, RIGHT: THREE.MOUSE.ROTATE };
-    this.controls.touches = { ONE: null, TWO: THREE.TOUCH.DOLLY_ROTATE };
+    this.setDragLooks(false);
     this.controls.minDistance = NEAREST_M;
     this.controls.maxDistance = FARTHEST_M;
     this.controls.zoomSpeed = 0.8;
@@ -64,6 +63,17 @@ export class Sight {
       this.onChange?.();
     });
     this.lookFrom("dorsal", undefined);
+  }
+
+  /** Whether the main button or one finger turns the view: two fingers shift it then, else they turn it. */
+  setDragLooks(on: boolean): void {
+    const { DOLLY_PAN, DOLLY_ROTATE, ROTATE } = THREE.TOUCH;
+    this.controls.mouseButtons = {
+      LEFT: on ? THREE.MOUSE.ROTATE : null,
+      MIDDLE: THREE.MOUSE.PAN,
+      RIGHT: THREE.MOUSE.ROTATE,
+    };
+    this.controls.touches = on ? { ONE: ROTATE, TWO: DOLLY_PAN } : { ONE: null, TWO: DOLLY_ROTATE };
   }
 
   get target(): THREE.Vector3 {

@@ -8,6 +8,8 @@ import * as THREE from "three";
 import type { FaceNames, FrameMap } from "../frames";
 import type { BodyPose, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
 import { backdrop } from "./backdrop";
+import { Beam } from "./beam";
+import { BeamShown, roomAngles, towardsSource } from "./beam_model";
 import { BoneNames } from "./bone_names";
 import { BoneRays } from "./bone_rays";
 import type { CaseScene } from "./case_scene";
@@ -29,6 +31,10 @@ export class Theatre {
   private readonly patient = new THREE.Group();
   private readonly bones: MovingBones;
   private readonly instruments = new ShownInstruments();
+  private readonly beam = new Beam();
+  private readonly beamShown = new BeamShown();
+  private target: readonly string[] = [];
+  private readonly radialIsRight: boolean;
   private readonly cube: OrientationCube;
   private readonly names: BoneNames;
   private readonly sight: Sight;
@@ -36,6 +42,8 @@ export class Theatre {
   private readonly home: THREE.Vector3;
   private stale = true;
   private activeHand: 0 | 1 = 0;
+  /** The beam as it was drawn; empty for none. */
+  private beamDrawn = "";
   private shown: SnapshotMessage | undefined;
   private drawn: SnapshotMessage | undefined;
   private readonly towardsViewer = (direction: Vec3): number => this.sight.towardsViewer(direction);
@@ -55,7 +63,8 @@ export class Theatre {
     this.patient.matrixAutoUpdate = false;
     this.patient.matrix.fromArray([...frames.matrix]);
     this.patient.add(caseScene.root, this.instruments.group);
-    this.scene.add(backdrop(), this.patient);
+    this.scene.add(backdrop(), this.patient, this.beam.group);
+    this.radialIsRight = facing.right === "Radial";
     this.scene.updateMatrixWorld(true);
     this.home = middleOf(caseScene, []);
     const { matrix } = this.patient;
@@ -105,6 +114,31 @@ export class Theatre {
     if (this.drawn === undefined || looksDifferent(this.drawn, snapshot)) this.stale = true;
   }
 
+  /** Whether the C-arm's beam is drawn while it rests, too. */
+  wishBeam(on: boolean): void {
+    this.beamShown.isWished = on;
+  }
+
+  get beamIsDrawn(): boolean {
+    return this.beamDrawn !== "";
+  }
+
+  /** Draws the beam where it is now, or none. */
+  private showBeam(nowMs: number): void {
+    if (this.shown === undefined) return;
+    const angles = roomAngles(this.shown.c_arm, this.shown.wrist.pronation_deg);
+    const wanted = this.beamShown.update(angles, nowMs);
+    const key = wanted ? `${angles.rotationDeg} ${angles.tiltDeg}` : "";
+    if (key === this.beamDrawn) return;
+    this.beamDrawn = key;
+    this.stale = true;
+    if (!wanted) this.beam.hide();
+    else {
+      const source = towardsSource(angles, this.radialIsRight);
+      this.beam.show(middleOf(this.caseScene, this.target), source);
+    }
+  }
+
   /** What the snapshots' items are drawn from. */
   setInstruments(instruments: readonly Instrument[]): void {
     this.instruments.setInstruments(instruments);
@@ -113,6 +147,8 @@ export class Theatre {
 
   /** The views look at the middle of these bones, where they are now. */
   setTarget(names: readonly string[]): void {
+    this.target = names;
+    this.beamShown.forget();
     this.home.copy(middleOf(this.caseScene, names));
     this.sight.lookAgain(this.tool);
     this.stale = true;
@@ -147,6 +183,11 @@ export class Theatre {
   showNames(on: boolean): void {
     this.names.canvas.hidden = !on;
     this.stale = true;
+  }
+
+  /** Whether the pointer's main button, or one finger, turns the view. */
+  setDragLooks(on: boolean): void {
+    this.sight.setDragLooks(on);
   }
 
   lookFrom(view: ViewId): void {
@@ -190,6 +231,7 @@ export class Theatre {
   /** Draws if anything changed since the last time. */
   draw(): void {
     const { renderer } = this.surface;
+    this.showBeam(performance.now());
     if (!this.surface.wantsDrawing(this.stale)) return;
     this.stale = false;
     this.drawn = this.shown;

@@ -5,3 +5,4 @@
 export * from "./vectors";
 export * from "./tool_pose";
 export * from "./held_key_speed";
+export * from "./key_steps";

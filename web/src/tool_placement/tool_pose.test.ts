@@ -4,6 +4,7 @@
 // The hand's arithmetic: fine steps add up exactly, turning keeps the tip and the length.
 import { describe, expect, it } from "vitest";
 import { stepsAfter } from "./held_key_speed";
+import { keySteps } from "./key_steps";
 import {
   approachedBy,
   MAX_APPROACH_MM,
@@ -62,16 +63,25 @@ describe("vectors", () => {
 });
 
 describe("stepsAfter", () => {
-  it("is one step for a tap and grows while held, without a jump", () => {
-    expect(stepsAfter(0)).toBe(1);
-    expect(stepsAfter(0.25)).toBe(1);
+  it("is one step for a tap and grows while held, never faster than the fastest", () => {
+    expect(stepsAfter(0, 80)).toBe(1);
+    expect(stepsAfter(0.25, 80)).toBe(1);
     let last = 1;
+    let gain = 0;
     for (let s = 0; s < 3; s += 0.01) {
-      const now = stepsAfter(s);
-      expect(now).toBeGreaterThanOrEqual(last);
-      expect(now - last).toBeLessThan(1);
+      const now = stepsAfter(s, 80);
+      expect(now - last).toBeGreaterThanOrEqual(gain - 1e-9);
+      expect(now - last).toBeLessThan(0.8 + 1e-9);
+      gain = now - last;
       last = now;
     }
-    expect(last).toBeGreaterThan(100);
+    expect(gain).toBeCloseTo(0.8, 6);
+  });
+
+  it("crosses a hand's breadth in three seconds by coarse steps, and not a millimetre by a fine tap", () => {
+    const { move } = keySteps(true);
+    expect(stepsAfter(3, move.fastest) * move.size).toBeGreaterThan(70);
+    const fine = keySteps(false).move;
+    expect(stepsAfter(0.2, fine.fastest) * fine.size).toBeCloseTo(0.1, 9);
   });
 });

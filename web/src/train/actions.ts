@@ -57,8 +57,32 @@ export class Actions {
       case "turn_c_arm":
         arm.turn(action.rotationDeg, action.tiltDeg);
         break;
+      case "enlarge":
+        arm.enlarge(!arm.enlarged);
+        break;
+      case "shrink":
+        arm.enlarge(false);
+        break;
+      case "keep_reference":
+        arm.keepAsReference();
+        break;
+      case "save_picture":
+        arm.save();
+        break;
+      case "ruler":
+        arm.toggleRuler();
+        break;
+      case "beam":
+        arm.toggleBeam();
+        break;
       case "invert":
         arm.invert();
+        break;
+      case "aim_along_sight":
+        hand.aimAlongSight();
+        break;
+      case "coarse":
+        hand.toggleCoarse();
         break;
       case "change_thrust":
         hand.changeThrust(action.byN);

@@ -3,6 +3,7 @@
 //
 // What the hands hold and feel, and the ways on, back and out. A way that is not open now says why.
 import { button, make, setText } from "../dom";
+import { keyCap } from "../key_caps";
 import { heldItem, type HandIndex } from "../operation";
 import type { Driver, ExerciseMessage, Item, SnapshotMessage } from "../protocol";
 import { Sparkline } from "./sparkline";
@@ -65,11 +66,11 @@ export class BottomBar {
     };
     this.hands = [hand(0), hand(1)];
     this.ways = {
-      measure: button("Measure", "M", handlers.measure, ".quiet"),
-      putDown: button("Put down", "Q", handlers.putDown, ".quiet"),
-      pickUp: button("Take hold", "G", handlers.pickUp, ".quiet"),
-      undo: button("Undo", "Z", handlers.undo, ".quiet"),
-      finish: button("Finish", "F", handlers.finish),
+      measure: button("Measure", "{KeyM}", handlers.measure, ".quiet"),
+      putDown: button("Put down", "{KeyQ}", handlers.putDown, ".quiet"),
+      pickUp: button("Take hold", "{KeyG}", handlers.pickUp, ".quiet"),
+      undo: button("Undo", "{KeyZ}", handlers.undo, ".quiet"),
+      finish: button("Finish", "{KeyF}", handlers.finish),
     };
     this.element = make(
       "footer.bottom-bar",
@@ -81,7 +82,7 @@ export class BottomBar {
           "div.hands",
           { role: "group", "aria-label": "Hands" },
           ...this.hands,
-          make("kbd", {}, "H"),
+          keyCap("{KeyH}"),
         ),
         this.driver,
         this.depth,
@@ -94,7 +95,7 @@ export class BottomBar {
       make(
         "div.ways",
         {},
-        button("Tray", "C", handlers.tray, ".quiet"),
+        button("Tray", "{KeyC}", handlers.tray, ".quiet"),
         this.ways.measure,
         this.ways.pickUp,
         this.ways.putDown,

@@ -1,9 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mouse and keys become one of the two hands: where it holds its instrument, how it pushes, the driver;
-// the other hand stays where it is. It asks; which way the hand goes and where the instrument really is,
-// the host says.
+// What is asked for by keys, pointer or gamepad becomes one of the two hands: where it holds its
+// instrument, how it pushes, the driver; the other hand stays where it is. It asks; which way the hand
+// goes and where the instrument really is, the host says.
 import {
   heldAction,
   heldItem,
@@ -23,6 +23,7 @@ import {
   approachedBy,
   cross,
   dot,
+  keySteps,
   length,
   MAX_APPROACH_MM,
   movedBy,
@@ -32,23 +33,28 @@ import {
   subtract,
   tipTarget,
   turnedBy,
+  type KeyStep,
   type ToolPose,
 } from "../tool_placement";
 
-const MOVE_STEP_MM = 0.1;
-const TURN_STEP_RAD = (0.5 * Math.PI) / 180;
 const ORBIT_STEP_RAD = (2 * Math.PI) / 180;
+const ORBIT_STEPS_PER_S = 45;
 const TURN_RAD_PER_PX = (0.25 * Math.PI) / 180;
 /** A fine step never jumps to another bone that happens to lie on the line of sight. */
 const FOLLOW_SURFACE_MM = 3;
 const WRIST_STEP = 1;
+const WRIST_STEPS_PER_S = 60;
 /** An empty hand begins so far beside the middle, to the right of the screen. */
 const BESIDE_MM = 30;
 /** A still hand is sent again after this long: the host pauses when it hears nothing [ms]. */
 const REPEAT_MS = 250;
 /** While the driver is held: the host stops it 150 ms after it last heard of it. */
 const DRIVE_REPEAT_MS = 40;
-const START_THRUST_N = 25;
+/**
+ * Enters the cortex of most bones: 40 N is what bone of 1500 HU resists, subchondral bone has 600 to
+ * 1200 (src/instruments/drilling_resistance.hpp).
+ */
+const START_THRUST_N = 40;
 /** Nearer to the screen's plane than this a direction cannot turn the shaft (sine). */
 const SMALLEST_TURN = 0.2;
 
@@ -80,10 +86,10 @@ export class Hand {
   private thrustN = START_THRUST_N;
   private readonly held = new Map<string, Held>();
   private changed = true;
-  private drag: "move" | "turn" | undefined;
-  private pointerX = 0;
-  private pointerY = 0;
-  private pointerMoved = false;
+  /** Push of a trigger that is pressed by degrees; else the hand's own. */
+  private squeezedN: number | undefined;
+  private pointer: { readonly x: number; readonly y: number } | undefined;
+  private isCoarse = false;
   private enabled = false;
   private lastSentMs = -Infinity;
   private readonly abort = new AbortController();
@@ -93,35 +99,6 @@ export class Hand {
     private readonly handlers: HandHandlers,
   ) {
     const { signal } = this.abort;
-    const { canvas } = theatre;
-    canvas.addEventListener(
-      "pointerdown",
-      (e) => {
-        this.pointerDown(e);
-      },
-      { signal },
-    );
-    canvas.addEventListener(
-      "pointermove",
-      (e) => {
-        this.pointerMove(e);
-      },
-      { signal },
-    );
-    canvas.addEventListener(
-      "pointerup",
-      (e) => {
-        this.pointerUp(e);
-      },
-      { signal },
-    );
-    canvas.addEventListener(
-      "pointercancel",
-      (e) => {
-        this.pointerUp(e);
-      },
-      { signal },
-    );
     window.addEventListener(
       "blur",
       () => {
@@ -210,8 +187,18 @@ export class Hand {
     else this.changed = true;
   }
 
+  /** As it was set [N]. */
   get thrust(): number {
     return this.thrustN;
+  }
+
+  get coarse(): boolean {
+    return this.isCoarse;
+  }
+
+  toggleCoarse(): void {
+    this.isCoarse = !this.isCoarse;
+    this.handlers.say(this.isCoarse ? "Coarse steps: 1 mm, 5°." : "Fine steps: 0.1 mm, 0.5°.");
   }
 
   get driver(): HandMessage["driver"] {
@@ -222,9 +209,20 @@ export class Hand {
   }
 
   changeThrust(byN: number): void {
-    this.thrustN = Math.min(MAX_THRUST_N, Math.max(0, this.thrustN + byN));
-    this.changed = true;
+    this.setThrust(this.thrustN + byN);
     this.handlers.say(`Push of the hand: ${this.thrustN} N`);
+  }
+
+  setThrust(n: number): void {
+    this.thrustN = Math.min(MAX_THRUST_N, Math.max(0, n));
+    this.changed = true;
+  }
+
+  /** @param n  push of a trigger; undefined once it is let go */
+  squeeze(n: number | undefined): void {
+    if (this.squeezedN === n) return;
+    this.squeezedN = n;
+    this.changed = true;
   }
 
   /**
@@ -234,23 +232,33 @@ export class Hand {
   keyDown(press: KeyPress, nowMs: number, repeats: boolean): boolean {
     const action = heldAction(press);
     if (action === undefined) return false;
-    if (!this.enabled || repeats || this.held.has(press.code)) return true;
+    if (!repeats) this.hold(press.code, action, nowMs);
+    return true;
+  }
+
+  /**
+   * Something is held down: a key, a button of the page or of a gamepad.
+   * @param holder  by which it is let go
+   * @return whether the hand does it
+   */
+  hold(holder: string, action: HeldAction, nowMs: number): boolean {
+    if (!this.enabled || this.held.has(holder)) return false;
     const hint = this.hint(action.kind);
     if (hint !== undefined) {
       this.handlers.say(hint);
-      return true;
+      return false;
     }
-    this.held.set(press.code, { action, sinceMs: nowMs, done: 0 });
+    this.held.set(holder, { action, sinceMs: nowMs, done: 0 });
     if (action.kind === "drive") this.driveNow(nowMs);
     return true;
   }
 
-  keyUp(code: string, nowMs: number): void {
-    const key = this.held.get(code);
+  letGo(holder: string, nowMs: number): void {
+    const key = this.held.get(holder);
     if (key === undefined) return;
     // A tap between two frames still counts.
     this.walk(key, nowMs);
-    this.held.delete(code);
+    this.held.delete(holder);
     if (key.action.kind === "drive") this.driveNow(nowMs);
   }
 
@@ -262,7 +270,8 @@ export class Hand {
 
   releaseAll(): void {
     this.held.clear();
-    this.drag = undefined;
+    this.pointer = undefined;
+    this.squeezedN = undefined;
     this.changed = true;
   }
 
@@ -270,10 +279,7 @@ export class Hand {
   frame(nowMs: number): void {
     if (!this.enabled || !this.isPlaced) return;
     for (const key of this.held.values()) this.walk(key, nowMs);
-    if (this.pointerMoved) {
-      this.pointerMoved = false;
-      if (this.drag === "move") this.follow();
-    }
+    this.follow();
     const driver = this.driver;
     const repeatMs = driver === "off" ? REPEAT_MS : DRIVE_REPEAT_MS;
     if (!this.changed && nowMs - this.lastSentMs < repeatMs) return;
@@ -283,7 +289,7 @@ export class Hand {
       hand: this.moved,
       tip_mm: tipTarget(this.pose),
       shaft: this.pose.shaft,
-      thrust_n: driver === "forward" ? this.thrustN : 0,
+      thrust_n: driver === "forward" ? (this.squeezedN ?? this.thrustN) : 0,
       driver,
       guidance: "planned",
     });
@@ -304,32 +310,46 @@ export class Hand {
   private walk(key: Held, nowMs: number): void {
     const { action } = key;
     if (action.kind === "drive") return;
-    const due = stepsAfter((nowMs - key.sinceMs) / 1000);
-    const steps = due - key.done;
-    if (steps <= 0) return;
+    const { size, fastest } = this.stepOf(action.kind);
+    const due = stepsAfter((nowMs - key.sinceMs) / 1000, fastest);
+    const by = (due - key.done) * size;
+    if (by <= 0) return;
     key.done = due;
     switch (action.kind) {
       case "move_tip":
-        this.slide(action.to, steps * MOVE_STEP_MM);
+        this.slide(scaled(this.onScreen(action.to), by));
         break;
       case "turn_shaft":
-        this.turn(this.onScreen(action.to), steps * TURN_STEP_RAD);
+        this.turn(this.onScreen(action.to), by);
         break;
       case "approach":
-        this.pose = approachedBy(this.pose, (action.closer ? -1 : 1) * steps * MOVE_STEP_MM);
+        this.pose = approachedBy(this.pose, action.closer ? -by : by);
         break;
       case "move_wrist":
-        this.handlers.moveWrist(action.axis, action.sign * steps * WRIST_STEP);
+        this.handlers.moveWrist(action.axis, action.sign * by);
         return;
       case "orbit": {
-        const angle = steps * ORBIT_STEP_RAD;
-        const right = action.to === "right" ? angle : action.to === "left" ? -angle : 0;
-        const up = action.to === "up" ? angle : action.to === "down" ? -angle : 0;
+        const right = action.to === "right" ? by : action.to === "left" ? -by : 0;
+        const up = action.to === "up" ? by : action.to === "down" ? -by : 0;
         this.theatre.orbit(right, -up);
         return;
       }
     }
     this.changed = true;
+  }
+
+  private stepOf(kind: Exclude<HeldAction["kind"], "drive">): KeyStep {
+    const { move, turn } = keySteps(this.isCoarse);
+    switch (kind) {
+      case "turn_shaft":
+        return turn;
+      case "move_wrist":
+        return { size: WRIST_STEP, fastest: WRIST_STEPS_PER_S };
+      case "orbit":
+        return { size: ORBIT_STEP_RAD, fastest: ORBIT_STEPS_PER_S };
+      default:
+        return move;
+    }
   }
 
   private onScreen(to: Direction): Vec3 {
@@ -347,13 +367,13 @@ export class Hand {
   }
 
   /** Moves the tip in the screen's plane; while it touches, along the bone's surface. */
-  private slide(to: Direction, mm: number): void {
-    const moved = movedBy(this.pose, scaled(this.onScreen(to), mm));
+  private slide(delta: Vec3): void {
+    const moved = movedBy(this.pose, delta);
     this.pose = moved;
     if (moved.approachMm > 0) return;
     const onBone = this.theatre.bonePointBehind(moved.anchorMm);
     if (onBone === undefined) return;
-    if (length(subtract(onBone, moved.anchorMm)) > FOLLOW_SURFACE_MM + mm) return;
+    if (length(subtract(onBone, moved.anchorMm)) > FOLLOW_SURFACE_MM + length(delta)) return;
     this.pose = { ...moved, anchorMm: onBone };
   }
 
@@ -365,48 +385,67 @@ export class Hand {
   }
 
   private follow(): void {
-    const bone = this.theatre.bonePointAt(this.pointerX, this.pointerY);
-    const anchorMm =
-      bone ?? this.theatre.planePointAt(this.pointerX, this.pointerY, this.pose.anchorMm);
+    if (this.pointer === undefined) return;
+    const { x, y } = this.pointer;
+    this.pointer = undefined;
+    const bone = this.theatre.bonePointAt(x, y);
+    const anchorMm = bone ?? this.theatre.planePointAt(x, y, this.pose.anchorMm);
     this.pose = { ...this.pose, anchorMm, approachMm: 0 };
     this.changed = true;
   }
 
-  private pointerDown(event: PointerEvent): void {
-    if (event.button !== 0 || !this.enabled) return;
-    this.theatre.canvas.focus({ preventScroll: true });
-    const hint = this.hint(event.shiftKey ? "turn_shaft" : "move_tip");
-    if (hint !== undefined) {
-      this.handlers.say(hint);
+  /** Whether it can be placed freely now; says why not. */
+  isFree(): boolean {
+    if (!this.enabled || !this.isPlaced) return false;
+    const hint = this.hint("move_tip");
+    if (hint !== undefined) this.handlers.say(hint);
+    return hint === undefined;
+  }
+
+  /** Lays the tip onto the bone under this point of the page, with the next frame. */
+  moveTipTo(x: number, y: number): void {
+    this.pointer = { x, y };
+  }
+
+  /** Where its tip is asked to be, on the page. */
+  tipOnPage(): { readonly x: number; readonly y: number } {
+    return this.theatre.pagePoint(this.pose.anchorMm);
+  }
+
+  /** Moves the tip on the screen [mm]. */
+  moveTipBy(right: number, up: number): void {
+    const axes = this.theatre.screenAxes();
+    this.slide(add(scaled(axes.right, right), scaled(axes.up, up)));
+    this.changed = true;
+  }
+
+  /** Turns the shaft's tail on the screen [rad]. */
+  turnShaftBy(right: number, up: number): void {
+    const axes = this.theatre.screenAxes();
+    const towards = add(scaled(axes.right, right), scaled(axes.up, up));
+    const angle = length(towards);
+    if (angle > 0) this.turn(scaled(towards, 1 / angle), angle);
+    this.changed = true;
+  }
+
+  /** The same, by a way of the pointer [CSS px], down positive. */
+  turnShaftByPixels(dx: number, dy: number): void {
+    this.turnShaftBy(dx * TURN_RAD_PER_PX, -dy * TURN_RAD_PER_PX);
+  }
+
+  /** Lays the tip onto the bone in the middle of the picture and the shaft along the sight. */
+  aimAlongSight(): void {
+    if (!this.isFree()) return;
+    const { canvas } = this.theatre;
+    const box = canvas.getBoundingClientRect();
+    const [x, y] = [box.left + box.width / 2, box.top + box.height / 2];
+    const anchorMm = this.theatre.bonePointAt(x, y);
+    if (anchorMm === undefined) {
+      this.handlers.say("No bone lies in the middle of the picture: turn it, Ctrl + arrows.");
       return;
     }
-    this.theatre.canvas.setPointerCapture(event.pointerId);
-    this.drag = event.shiftKey ? "turn" : "move";
-    this.pointerX = event.clientX;
-    this.pointerY = event.clientY;
-    this.pointerMoved = true;
-  }
-
-  private pointerMove(event: PointerEvent): void {
-    if (this.drag === undefined) return;
-    if (this.drag === "turn") {
-      const { right, up } = this.theatre.screenAxes();
-      const dx = event.clientX - this.pointerX;
-      const dy = event.clientY - this.pointerY;
-      const towards = add(scaled(right, dx), scaled(up, -dy));
-      const pixels = length(towards);
-      if (pixels > 0) this.turn(scaled(towards, 1 / pixels), pixels * TURN_RAD_PER_PX);
-      this.changed = true;
-    }
-    this.pointerX = event.clientX;
-    this.pointerY = event.clientY;
-    this.pointerMoved = true;
-  }
-
-  private pointerUp(event: PointerEvent): void {
-    if (event.button !== 0 || this.drag === undefined) return;
-    if (this.pointerMoved && this.drag === "move") this.follow();
-    this.pointerMoved = false;
-    this.drag = undefined;
+    const { right, up } = this.theatre.screenAxes();
+    this.pose = { anchorMm, approachMm: 0, shaft: normalized(cross(right, up)) };
+    this.changed = true;
   }
 }

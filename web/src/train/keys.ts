@@ -29,7 +29,7 @@ export function listenToKeys(handlers: KeyHandlers, signal: AbortSignal): void {
     "keyup",
     (event) => {
       handlers.pedal.release(event.code);
-      handlers.hand.keyUp(event.code, performance.now());
+      handlers.hand.letGo(event.code, performance.now());
     },
     { signal },
   );

@@ -20,6 +20,7 @@ export function layOut(app: HTMLElement, panels: Panels): HTMLElement {
         stage,
         panels.frozen,
         panels.pausedSign,
+        panels.drive.element,
         panels.views.element,
         panels.notice.element,
       ),

@@ -3,6 +3,7 @@
 //
 // One line for what just happened; it goes by itself.
 import { make, setText } from "../dom";
+import { withKeys } from "../key_caps";
 
 const SHOWN_MS = 9000;
 
@@ -11,7 +12,7 @@ export class Notice {
   private timer = 0;
 
   say(text: string): void {
-    setText(this.element, text);
+    setText(this.element, withKeys(text));
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => {
       setText(this.element, "");

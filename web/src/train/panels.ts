@@ -5,12 +5,14 @@
 import { CArmPanel, type CArmHandlers } from "../c_arm";
 import { make } from "../dom";
 import { HelpOverlay } from "../help_overlay";
+import { keyCap } from "../key_caps";
 import type { HandIndex, OnceAction } from "../operation";
 import type { CaseDescription, Instrument, ProcedureSummary, WristPose } from "../protocol";
 import { StartDialog, type StartChoice } from "../start_dialog";
 import type { ViewId } from "../theatre";
 import { BottomBar } from "./bottom_bar";
 import { ConfirmDialog } from "./confirm_dialog";
+import { DriveControls, type DriveHandlers } from "./drive_controls";
 import { Notice } from "./notice";
 import { StepPanel } from "./step_panel";
 import { TopBar } from "./top_bar";
@@ -26,6 +28,8 @@ export interface Wishes {
   skin(opacity: number): void;
   /** Pictures, where the C-arm stands, its pedal. */
   readonly cArm: CArmHandlers;
+  /** The hand, by what stands under the theatre. */
+  readonly drive: DriveHandlers;
   useHand(hand: HandIndex): void;
   take(instrument: Instrument, hand: HandIndex): void;
   moveWrist(wish: WristPose): void;
@@ -46,6 +50,7 @@ export interface Panels {
   readonly views: ViewBar;
   readonly arm: CArmPanel;
   readonly bottom: BottomBar;
+  readonly drive: DriveControls;
   readonly notice: Notice;
   readonly start: StartDialog;
   readonly help: HelpOverlay;
@@ -103,7 +108,7 @@ export function makePanels(
         wishes.act({ kind: "labels" });
       },
     }),
-    arm: new CArmPanel(wishes.cArm),
+    arm: new CArmPanel(patientText(description), wishes.cArm),
     bottom: new BottomBar({
       hand: (hand) => {
         wishes.useHand(hand);
@@ -118,6 +123,7 @@ export function makePanels(
       },
       finish: act("finish"),
     }),
+    drive: new DriveControls(wishes.drive),
     notice: new Notice(),
     start: new StartDialog(
       description,
@@ -167,10 +173,15 @@ export function makePanels(
       { role: "status" },
       make("strong", {}, "Paused"),
       "time stands still; ",
-      make("kbd", {}, "P"),
+      keyCap("{KeyP}"),
       " goes on",
     ),
   };
   panels.frozen.hidden = panels.pausedSign.hidden = true;
   return panels;
+}
+
+/** As pictures that leave the page name the patient. */
+function patientText({ pseudonym, simulated }: CaseDescription): string {
+  return simulated ? `${pseudonym} (simulated)` : pseudonym;
 }

@@ -14,6 +14,7 @@ declare global {
       /** By the body's name, as the host told them last. */
       bodyPoses(): Readonly<Record<string, BodyPose>>;
       pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
+      beamIsDrawn(): boolean;
       screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
     };
   }
@@ -26,6 +27,7 @@ export function showToTests(theatre: Theatre, seen: WhatIsSeen): () => void {
     exercise: () => seen.doing,
     bodyPoses: () => seen.bodyPoses(),
     pagePoint: (mm) => theatre.pagePoint(mm),
+    beamIsDrawn: () => theatre.beamIsDrawn,
     screenAxes: () => theatre.screenAxes(),
   };
   return () => {

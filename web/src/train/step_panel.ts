@@ -3,6 +3,7 @@
 //
 // The steps: the current one in a sentence with its key, the rest by name.
 import { make, setText } from "../dom";
+import { keyCap } from "../key_caps";
 import { keysOf, tickText } from "../operation";
 import type { ExerciseMessage, SnapshotMessage, Step } from "../protocol";
 
@@ -43,7 +44,7 @@ export class StepPanel {
     this.shown = "";
     this.items = steps.map((step, index) => {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
-      const keys = keysOf(step.actions).map((key) => make("kbd", {}, key));
+      const keys = keysOf(step.actions).map((key) => keyCap(key));
       const tool = instruments.find((one) => one.id === step.instrument);
       const item = make(
         "li",

@@ -29,7 +29,7 @@ export class TopBar {
     handlers: TopBarHandlers,
   ) {
     setText(this.procedure, `${description.side} wrist`);
-    this.pauseButton = button("Pause", "P", handlers.pause, ".quiet");
+    this.pauseButton = button("Pause", "{KeyP}", handlers.pause, ".quiet");
     const patient = make("span.patient", {}, description.pseudonym);
     if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
     const timing = make(

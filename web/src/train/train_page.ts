@@ -3,12 +3,14 @@
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
 import { faceNames, makeFrameMap } from "../frames";
+import { followLayout } from "../key_caps";
 import type { CaseDescription, HostMessage, ProcedureSummary } from "../protocol";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
 import { Connection } from "./connection";
 import { startFrameLoop } from "./frame_loop";
 import { Hand } from "./hand";
+import { HandPointer } from "./hand_pointer";
 import { listenToKeys } from "./keys";
 import { layOut } from "./layout";
 import { makePanels, type Panels } from "./panels";
@@ -22,6 +24,7 @@ export class TrainPage {
   private readonly theatre: Theatre;
   private readonly seen: WhatIsSeen;
   private readonly hand: Hand;
+  private readonly pointer: HandPointer;
   private readonly part: TakingPart;
   private readonly actions: Actions;
   private readonly connection: Connection;
@@ -34,7 +37,7 @@ export class TrainPage {
     procedures: readonly ProcedureSummary[],
     scene: CaseScene,
   ) {
-    this.panels = this.makePanels(description, procedures);
+    this.panels = this.makePanels(app, description, procedures);
     const frames = makeFrameMap(description.wrist_from_patient);
     const stage = layOut(app, this.panels);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
@@ -44,6 +47,7 @@ export class TrainPage {
     };
     this.seen = new WhatIsSeen(this.panels, this.theatre);
     this.hand = this.makeHand();
+    this.pointer = new HandPointer(this.theatre, this.hand, this.abort.signal);
     this.part = new TakingPart({
       panels: this.panels,
       hand: this.hand,
@@ -53,6 +57,7 @@ export class TrainPage {
     });
     this.actions = this.makeActions();
     this.listenToKeys();
+    followLayout(this.abort.signal);
     this.panels.start.setReady(false, "Connecting to the host…");
     this.panels.start.open();
     this.connection = this.connect();
@@ -70,6 +75,7 @@ export class TrainPage {
   }
 
   private makePanels(
+    app: HTMLElement,
     description: CaseDescription,
     procedures: readonly ProcedureSummary[],
   ): Panels {
@@ -92,12 +98,38 @@ export class TrainPage {
         stand: (rotationDeg, tiltDeg) => {
           if (this.part.operates) this.moveCArm("c_arm", rotationDeg, tiltDeg);
         },
+        enlarge: (on) => {
+          app.firstElementChild?.classList.toggle("enlarged", on);
+        },
+        beam: (on) => {
+          this.theatre.wishBeam(on);
+        },
         whyNot: () => this.seen.offered.whyNot({ id: "take_shot" }),
         send: (down) => {
           if (this.part.operates) this.connection.tell({ type: "pedal", down });
         },
         say: (text) => {
           this.panels.notice.say(text);
+        },
+      },
+      drive: {
+        hold: (holder, action) => {
+          this.hand.hold(holder, action, performance.now());
+        },
+        letGo: (holder) => {
+          this.hand.letGo(holder, performance.now());
+        },
+        push: (n) => {
+          this.hand.setThrust(n);
+        },
+        drags: (mode) => {
+          this.pointer.setMode(mode);
+        },
+        aimAlongSight: () => {
+          this.hand.aimAlongSight();
+        },
+        coarse: () => {
+          this.hand.toggleCoarse();
         },
       },
       useHand: (hand) => {

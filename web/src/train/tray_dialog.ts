@@ -4,6 +4,7 @@
 // The tray: instruments and, by family, screws. Choosing is the trainee's: nothing here says which screw
 // is right. What cannot be taken now stands there with the host's reason.
 import { button, make, setText } from "../dom";
+import { withKeys } from "../key_caps";
 import type { HandIndex, OfferedActions } from "../operation";
 import type { ExerciseMessage, Instrument } from "../protocol";
 import { commonBeginning } from "./family_name_model";
@@ -81,7 +82,7 @@ export class TrayDialog {
     setText(
       this.reading,
       gaugeReadingMm === null
-        ? "The gauge was not read yet (M)."
+        ? withKeys("The gauge was not read yet ({KeyM}).")
         : `The gauge reads ${gaugeReadingMm.toFixed(1)} mm.`,
     );
     this.fill(state);

@@ -3,6 +3,7 @@
 //
 // Under the theatre: from where to look, how much skin, names.
 import { button, make } from "../dom";
+import { keyCap } from "../key_caps";
 import { VIEWS, type ViewId } from "../theatre";
 
 export interface ViewBarHandlers {
@@ -56,16 +57,16 @@ export class ViewBar {
     this.slider.addEventListener("input", () => {
       handlers.skin(this.skinOpacity);
     });
-    this.namesButton = button("Names", "L", handlers.names, ".quiet");
+    this.namesButton = button("Names", "{KeyL}", handlers.names, ".quiet");
     this.namesButton.setAttribute("aria-pressed", "false");
     this.element = make(
       "div.view-bar",
       { role: "group", "aria-label": "View" },
-      make("span.secondary", {}, "View ", make("kbd", {}, "V")),
+      make("span.secondary", {}, "View ", keyCap("{KeyV}")),
       ...VIEWS.map((view) => this.looks[view]),
       make("span.gap"),
       this.namesButton,
-      make("label.secondary", { for: "skin-opacity" }, "Skin ", make("kbd", {}, "T")),
+      make("label.secondary", { for: "skin-opacity" }, "Skin ", keyCap("{KeyT}")),
       this.slider,
     );
     this.showView("dorsal");

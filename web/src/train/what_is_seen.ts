@@ -111,11 +111,12 @@ export class WhatIsSeen {
   showReadings(hand: Hand, ways: ClosedWays, operates: boolean): void {
     const s = this.snapshot;
     if (s === undefined) return;
-    const { arm, bottom, frozen, notice, pausedSign, top, wrist } = this.panels;
+    const { arm, bottom, drive, frozen, notice, pausedSign, top, wrist } = this.panels;
     top.showTiming(s);
     pausedSign.hidden = !s.paused || !operates || !frozen.hidden;
     bottom.show(s, hand.active, hand.driver, hand.thrust);
     bottom.showWays(ways);
+    drive.show(hand.driver, hand.thrust, hand.coarse);
     wrist.show(s.wrist);
     arm.takeStand(s.c_arm);
     arm.showCount(s.shots, s.dose_cgy_cm2);

@@ -4,6 +4,7 @@
 // How hand and forearm are held: a small slider for each way, with its keys. The thumb of the slider is
 // what is wished, the figure what the wrist has come to; how far it goes, the host says.
 import { make, setText } from "../dom";
+import { keyCap, withKeys } from "../key_caps";
 import { WRIST_KEYS, type WristAxis } from "../operation";
 import type { WristLimits, WristPose } from "../protocol";
 import { nudged, readingText, REST } from "./wrist_model";
@@ -36,7 +37,7 @@ export class WristPanel {
       make("h3", {}, "Wrist"),
       ...this.rows.map(({ axis, slider, reading }) => {
         const [name] = NAMES[axis];
-        const [more, less] = WRIST_KEYS[axis].map((key) => make("kbd", {}, key.toUpperCase()));
+        const [more, less] = WRIST_KEYS[axis].map((key) => keyCap(`{${key}}`));
         const label = make("label", { for: slider.id }, name);
         return make("div.wrist-row", {}, label, less ?? "", slider, more ?? "", reading);
       }),
@@ -46,7 +47,8 @@ export class WristPanel {
   private makeRow(axis: WristAxis): Row {
     const [, more, less] = NAMES[axis];
     const slider = make("input", { type: "range", id: `wrist-${axis}`, step: "1" });
-    slider.title = `${WRIST_KEYS[axis][0].toUpperCase()}: ${more}; ${WRIST_KEYS[axis][1].toUpperCase()}: ${less}`;
+    const [moreKey, lessKey] = WRIST_KEYS[axis];
+    slider.title = withKeys(`{${moreKey}}: ${more}; {${lessKey}}: ${less}`);
     slider.addEventListener("input", () => {
       if (this.limits !== undefined) this.wish({ ...this.wished, [axis]: Number(slider.value) });
     });

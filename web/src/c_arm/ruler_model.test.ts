@@ -1,0 +1,27 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lengths at the isocentre: the 80 mm field of the receptor is 64 mm there, whatever its pixels.
+import { describe, expect, it } from "vitest";
+import { rulerMm, withPoint, type Ruler } from "./ruler_model";
+
+const left = { x: 0, y: 0.5 };
+const right = { x: 1, y: 0.5 };
+const whole: Ruler = withPoint(withPoint([], left), right);
+
+describe("rulerMm", () => {
+  it.each([512, 256])("takes the magnification out, of %d pixels", (width) => {
+    expect(rulerMm(whole, { width, mmPerPixel: 80 / width })).toBeCloseTo(64, 9);
+  });
+
+  it("measures along the slope", () => {
+    const ruler = [left, { x: 0.3, y: 0.9 }];
+    expect(rulerMm(ruler, { width: 512, mmPerPixel: 80 / 512 })).toBeCloseTo(32, 9);
+  });
+
+  it("needs both points, and a third begins anew", () => {
+    const picture = { width: 512, mmPerPixel: 80 / 512 };
+    expect(rulerMm(withPoint([], left), picture)).toBeUndefined();
+    expect(withPoint(whole, left)).toEqual([left]);
+  });
+});

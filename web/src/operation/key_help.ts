@@ -1,0 +1,119 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the help and the steps say of the keys (key_map.ts), each named as {KeyA}.
+
+export interface HelpLine {
+  readonly keys: string;
+  readonly text: string;
+}
+export interface HelpGroup {
+  readonly title: string;
+  readonly lines: readonly HelpLine[];
+}
+
+/** What the help overlay shows. */
+export const HELP: readonly HelpGroup[] = [
+  {
+    title: "Hands",
+    lines: [
+      { keys: "Left drag", text: "tip follows the pointer over the bone" },
+      { keys: "Shift + left drag", text: "turn the shaft about its tip" },
+      { keys: "Arrows", text: "tip by 0.1 mm; hold to go on, faster and faster" },
+      { keys: "Shift + arrows", text: "shaft by 0.5°; hold to go on, faster and faster" },
+      { keys: "{KeyY}", text: "coarse steps, 1 mm and 5°, or fine again" },
+      {
+        keys: "Enter",
+        text: "aim as you look: tip onto the bone in the middle, shaft along your sight",
+      },
+      { keys: "{KeyA} / {KeyD}", text: "advance to the bone / draw back, 0.1 mm" },
+      { keys: "{KeyH}", text: "move the other hand; this one stays where it is" },
+    ],
+  },
+  {
+    title: "Drive",
+    lines: [
+      { keys: "Space", text: "hold: drive forward" },
+      { keys: "{KeyR}", text: "hold: reverse" },
+      { keys: "{BracketLeft} / {BracketRight}, 9 / 0", text: "push less / more, 5 N" },
+    ],
+  },
+  {
+    title: "Instruments",
+    lines: [
+      { keys: "{KeyC}", text: "tray: arrows and Enter take" },
+      { keys: "{KeyQ}", text: "put down what the hand holds" },
+      { keys: "{KeyG}", text: "take hold of what lies in bone" },
+      { keys: "{KeyM}", text: "other hand: gauge over the wire, read, put down" },
+      { keys: "Page up / down", text: "next shorter / longer screw" },
+    ],
+  },
+  {
+    title: "Wrist",
+    lines: [
+      { keys: "{KeyJ} / {KeyU}", text: "flex / extend, 1°; hold to go on" },
+      { keys: "{KeyK} / {KeyO}", text: "bend to the thumb / to the little finger" },
+      { keys: "{KeyN} / {KeyB}", text: "pronate / supinate" },
+      { keys: "{KeyW} / {KeyS}", text: "pull more / less at the fingers" },
+    ],
+  },
+  {
+    title: "C-arm",
+    lines: [
+      { keys: "1 … 6", text: "picture of the view on that button" },
+      { keys: "{Comma} / {Period}", text: "turn the C-arm by 5°; with Shift: tilt" },
+      { keys: "{KeyX}", text: "picture from where the C-arm stands" },
+      { keys: "{KeyE}", text: "hold: live pictures, 10 a second" },
+      { keys: "7", text: "enlarge: pictures and theatre change places" },
+      { keys: "8", text: "keep the picture as reference, on the second monitor" },
+      { keys: "{KeyI}", text: "invert black and white" },
+      { keys: "{Quote}", text: "ruler: two clicks on the picture, mm at the isocentre" },
+      { keys: "{Semicolon}", text: "draw the beam in the theatre" },
+      { keys: "{Backslash}", text: "save the picture" },
+    ],
+  },
+  {
+    title: "Look",
+    lines: [
+      { keys: "Right drag, Ctrl + arrows", text: "turn the view" },
+      { keys: "Wheel, {Equal} / {Minus}", text: "nearer / farther" },
+      { keys: "Middle drag", text: "shift the view" },
+      { keys: "{KeyV}", text: "next view: four sides, along the shaft" },
+      { keys: "{KeyT} / {KeyL}", text: "skin / names of the bones" },
+    ],
+  },
+  {
+    title: "Exercise",
+    lines: [
+      { keys: "{KeyZ}", text: "undo: back to the last checkpoint" },
+      { keys: "{KeyF}", text: "finish (asks first)" },
+      { keys: "{KeyP}", text: "pause" },
+      { keys: "?, F1", text: "this help" },
+      { keys: "Esc", text: "close what is open; theatre large again" },
+    ],
+  },
+];
+
+/** Keys of what a step's `actions` name: of the protocol's action_id, or what the page does itself. */
+const KEYS_OF: Readonly<Record<string, string>> = {
+  move_tip: "Left drag, arrows",
+  turn_shaft: "Shift + drag, Shift + arrows, Enter",
+  approach: "{KeyA} / {KeyD}",
+  drive: "Hold Space",
+  reverse: "{KeyR} reverses",
+  move_wrist: "{KeyJ} {KeyU}, {KeyK} {KeyO}, {KeyN} {KeyB}, {KeyW} {KeyS}",
+  switch_hand: "{KeyH}",
+  shot: "1 … 6, {KeyX}, hold {KeyE}",
+  take_shot: "1 … 6, {KeyX}, hold {KeyE}",
+  take: "{KeyC}",
+  pick_up: "{KeyG}",
+  put_down: "{KeyQ}",
+  read_gauge: "{KeyM}",
+  undo: "{KeyZ}",
+  finish: "{KeyF}",
+};
+
+/** Each action's keys; one that the page has no key for is passed over. */
+export function keysOf(actions: readonly string[]): readonly string[] {
+  return [...new Set(actions.flatMap((action) => KEYS_OF[action] ?? []))];
+}
