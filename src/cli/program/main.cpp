@@ -23,6 +23,7 @@
 #include "cli/score_command.hpp"
 #include "cli/serve_command.hpp"
 #include "cli/simulate_command.hpp"
+#include "cli/stock_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 
@@ -34,6 +35,7 @@ constexpr int kUsage = 2;
 void add_commands(CLI::App& app) {
   using namespace carpus::cli;
   add_phantom_command(app);
+  add_stock_command(app);
   add_reconstruct_command(app);
   add_kinematics_command(app);
   add_hull_command(app);
