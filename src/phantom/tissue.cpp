@@ -24,7 +24,7 @@ constexpr double kThicknessVariation = 0.25;
 /// From cortex to core over this much [mm].
 constexpr double kCortexEdgeMm = 0.3;
 /// The cortices of a fracture in place still touch: of what the line takes out of the core.
-constexpr double kCortexLost = 0.6;
+constexpr double kCortexLost = 0.3;
 constexpr double kSclerosisHu = 620;
 constexpr double kSclerosisDecayMm = 1.7;
 constexpr double kCystHu = 70;
