@@ -24,6 +24,7 @@
 #include "cli/serve_command.hpp"
 #include "cli/simulate_command.hpp"
 #include "cli/stock_command.hpp"
+#include "cli/study_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 
@@ -46,6 +47,7 @@ void add_commands(CLI::App& app) {
   add_replay_command(app);
   add_score_command(app);
   add_attempts_command(app);
+  add_study_command(app);
   CLI::App* bench = app.add_subcommand("bench", "Measure how fast things are on this machine");
   bench->require_subcommand(1);
   add_bench_tick_command(*bench);
