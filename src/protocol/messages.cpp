@@ -132,6 +132,35 @@ void write(FieldWriter& out, const Pedal& in) {
   out.value("down", in.down);
 }
 
+void read(FieldReader& in, QuizBegin& out) { out.seed = in.integer("seed", 0, 4294967295); }
+
+void write(FieldWriter& out, const QuizBegin& in) {
+  out.name("type", "quiz_begin");
+  out.value("seed", in.seed);
+}
+
+void read(FieldReader& /*in*/, QuizNext& /*out*/) {}
+
+void write(FieldWriter& out, const QuizNext& /*in*/) { out.name("type", "quiz_next"); }
+
+void read(FieldReader& in, QuizLook& out) { out.view = in.string("view", 32); }
+
+void write(FieldWriter& out, const QuizLook& in) {
+  out.name("type", "quiz_look");
+  out.text("view", in.view, 32);
+}
+
+void read(FieldReader& in, QuizAnswer& out) {
+  out.place = static_cast<ScrewPlace>(in.choice("place", kScrewPlaceNames));
+  out.next_view = in.string("next_view", 32);
+}
+
+void write(FieldWriter& out, const QuizAnswer& in) {
+  out.name("type", "quiz_answer");
+  out.name("place", name_of(in.place));
+  out.text("next_view", in.next_view, 32);
+}
+
 void read(FieldReader& in, Pause& out) { out.on = in.boolean("on"); }
 
 void write(FieldWriter& out, const Pause& in) {
@@ -274,6 +303,56 @@ void write(FieldWriter& out, const Score& in) {
   out.record("report", in.report);
 }
 
+void read(FieldReader& in, QuizQuestion& out) {
+  out.number = in.integer("number", 1, 4294967295);
+  in.records("views", 0, 16, out.views);
+  out.first_view = in.string("first_view", 32);
+  out.screw = in.string("screw", 128);
+  in.record("tally", out.tally);
+}
+
+void write(FieldWriter& out, const QuizQuestion& in) {
+  out.name("type", "quiz_question");
+  out.value("number", in.number);
+  out.records("views", in.views);
+  out.text("first_view", in.first_view, 32);
+  out.text("screw", in.screw, 128);
+  out.record("tally", in.tally);
+}
+
+void read(FieldReader& in, QuizTruth& out) {
+  out.number = in.integer("number", 1, 4294967295);
+  out.place = static_cast<ScrewPlace>(in.choice("place", kScrewPlaceNames));
+  out.depth_mm = in.number("depth_mm", -100.0, 100.0);
+  out.towards = in.string("towards", 64);
+  out.answered = static_cast<ScrewPlace>(in.choice("answered", kScrewPlaceNames));
+  out.next_view = in.string("next_view", 32);
+  out.is_place_right = in.boolean("is_place_right");
+  out.is_view_right = in.boolean("is_view_right");
+  out.is_false_safety = in.boolean("is_false_safety");
+  out.best_view = in.string("best_view", 32);
+  out.revealed_mm = in.number("revealed_mm", 0.0, 10.0);
+  in.records("views", 0, 16, out.views);
+  in.record("tally", out.tally);
+}
+
+void write(FieldWriter& out, const QuizTruth& in) {
+  out.name("type", "quiz_truth");
+  out.value("number", in.number);
+  out.name("place", name_of(in.place));
+  out.value("depth_mm", in.depth_mm);
+  out.text("towards", in.towards, 64);
+  out.name("answered", name_of(in.answered));
+  out.text("next_view", in.next_view, 32);
+  out.value("is_place_right", in.is_place_right);
+  out.value("is_view_right", in.is_view_right);
+  out.value("is_false_safety", in.is_false_safety);
+  out.text("best_view", in.best_view, 32);
+  out.value("revealed_mm", in.revealed_mm);
+  out.records("views", in.views);
+  out.record("tally", in.tally);
+}
+
 void read(FieldReader& in, Error& out) {
   out.reason = in.string("reason", 1024);
   out.what_to_do = in.string("what_to_do", 1024);
@@ -327,7 +406,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 10> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 14> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -337,9 +416,13 @@ constexpr std::array<MessageKind<PageMessage>, 10> kPageMessageKinds{
      {"take_shot", &read_as<PageMessage, TakeShot>},
      {"c_arm", &read_as<PageMessage, CArm>},
      {"pedal", &read_as<PageMessage, Pedal>},
+     {"quiz_begin", &read_as<PageMessage, QuizBegin>},
+     {"quiz_next", &read_as<PageMessage, QuizNext>},
+     {"quiz_look", &read_as<PageMessage, QuizLook>},
+     {"quiz_answer", &read_as<PageMessage, QuizAnswer>},
      {"pause", &read_as<PageMessage, Pause>}}};
 
-constexpr std::array<MessageKind<HostMessage>, 9> kHostMessageKinds{
+constexpr std::array<MessageKind<HostMessage>, 11> kHostMessageKinds{
     {{"welcome", &read_as<HostMessage, Welcome>},
      {"exercise", &read_as<HostMessage, Exercise>},
      {"snapshot", &read_as<HostMessage, Snapshot>},
@@ -347,6 +430,8 @@ constexpr std::array<MessageKind<HostMessage>, 9> kHostMessageKinds{
      {"actions", &read_as<HostMessage, Actions>},
      {"event", &read_as<HostMessage, Event>},
      {"score", &read_as<HostMessage, Score>},
+     {"quiz_question", &read_as<HostMessage, QuizQuestion>},
+     {"quiz_truth", &read_as<HostMessage, QuizTruth>},
      {"error", &read_as<HostMessage, Error>},
      {"busy", &read_as<HostMessage, Busy>}}};
 

@@ -115,13 +115,52 @@ struct Pedal {
   bool operator==(const Pedal&) const = default;
 };
 
+/// Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid
+/// of the case. It touches no exercise.
+struct QuizBegin {
+  /// 0 to 4294967295
+  std::int64_t seed = 0;
+  bool operator==(const QuizBegin&) const = default;
+};
+
+/// The next question, once the one before is answered.
+struct QuizNext {
+  bool operator==(const QuizNext&) const = default;
+};
+
+/// Another picture of the screw; counted before the answer and not after it.
+struct QuizLook {
+  std::string view;
+  bool operator==(const QuizLook&) const = default;
+};
+
+/// Where the screw is out, and which view, of those not taken, would tell. The first counts.
+struct QuizAnswer {
+  ScrewPlace place = ScrewPlace::Inside;
+  std::string next_view;
+  bool operator==(const QuizAnswer&) const = default;
+};
+
 /// Stops or resumes time.
 struct Pause {
   bool on = false;
   bool operator==(const Pause&) const = default;
 };
 
-using PageMessage = std::variant<Hello, End, Start, Hand, Wrist, Act, TakeShot, CArm, Pedal, Pause>;
+using PageMessage = std::variant<Hello,
+                                 End,
+                                 Start,
+                                 Hand,
+                                 Wrist,
+                                 Act,
+                                 TakeShot,
+                                 CArm,
+                                 Pedal,
+                                 QuizBegin,
+                                 QuizNext,
+                                 QuizLook,
+                                 QuizAnswer,
+                                 Pause>;
 
 /// Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does;
 /// none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since
@@ -227,6 +266,43 @@ struct Score {
   bool operator==(const Score&) const = default;
 };
 
+/// A screw lies in the scaphoid: where is it out, and which view would tell? Its first picture
+/// follows. Nothing of the truth is sent before the answer.
+struct QuizQuestion {
+  /// 1 to 4294967295
+  std::int64_t number = 0;
+  std::vector<QuizView> views;
+  std::string first_view;
+  /// its name
+  std::string screw;
+  QuizTally tally;
+  bool operator==(const QuizQuestion&) const = default;
+};
+
+/// The truth about a question that was answered.
+struct QuizTruth {
+  /// 1 to 4294967295
+  std::int64_t number = 0;
+  ScrewPlace place = ScrewPlace::Inside;
+  /// how far its metal is out of the bone; negative: the least bone that covers it [mm] -100 to 100
+  double depth_mm = 0.0;
+  /// the bone beside that place; empty where none is near
+  std::string towards;
+  ScrewPlace answered = ScrewPlace::Inside;
+  std::string next_view;
+  bool is_place_right = false;
+  bool is_view_right = false;
+  bool is_false_safety = false;
+  /// that shows it best; of a screw that is inside: that would show it best were it so far out of
+  /// its nearest end
+  std::string best_view;
+  /// [mm] 0 to 10
+  double revealed_mm = 0.0;
+  std::vector<QuizViewTruth> views;
+  QuizTally tally;
+  bool operator==(const QuizTruth&) const = default;
+};
+
 /// Something was refused or failed; `what_to_do` is for the user.
 struct Error {
   std::string reason;
@@ -242,8 +318,17 @@ struct Busy {
   bool operator==(const Busy&) const = default;
 };
 
-using HostMessage =
-    std::variant<Welcome, Exercise, Snapshot, Tissue, Actions, Event, Score, Error, Busy>;
+using HostMessage = std::variant<Welcome,
+                                 Exercise,
+                                 Snapshot,
+                                 Tissue,
+                                 Actions,
+                                 Event,
+                                 Score,
+                                 QuizQuestion,
+                                 QuizTruth,
+                                 Error,
+                                 Busy>;
 
 /// Reads one text frame; the refusal says what is wrong with which field.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

@@ -10,6 +10,60 @@
 
 namespace carpus::protocol {
 
+void read(FieldReader& in, QuizView& out) {
+  out.id = in.string("id", 32);
+  out.label = in.string("label", 64);
+  out.name = in.string("name", 64);
+  out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
+  out.tilt_deg = in.number("tilt_deg", -90.0, 90.0);
+}
+
+void write(FieldWriter& out, const QuizView& in) {
+  out.text("id", in.id, 32);
+  out.text("label", in.label, 64);
+  out.text("name", in.name, 64);
+  out.value("rotation_deg", in.rotation_deg);
+  out.value("tilt_deg", in.tilt_deg);
+}
+
+void read(FieldReader& in, PictureOutline& out) {
+  in.list("pixels", 0, 1024, -4096.0, 4096.0, out.pixels);
+}
+
+void write(FieldWriter& out, const PictureOutline& in) { out.list("pixels", in.pixels); }
+
+void read(FieldReader& in, QuizViewTruth& out) {
+  out.view = in.string("view", 32);
+  out.overhang_mm = in.number("overhang_mm", -100.0, 100.0);
+  out.reveals = in.boolean("reveals");
+  in.records("bone", 0, 4, out.bone);
+  in.record("screw", out.screw);
+}
+
+void write(FieldWriter& out, const QuizViewTruth& in) {
+  out.text("view", in.view, 32);
+  out.value("overhang_mm", in.overhang_mm);
+  out.value("reveals", in.reveals);
+  out.records("bone", in.bone);
+  out.record("screw", in.screw);
+}
+
+void read(FieldReader& in, QuizTally& out) {
+  out.answers = in.integer("answers", 0, 4294967295);
+  out.right_places = in.integer("right_places", 0, 4294967295);
+  out.right_views = in.integer("right_views", 0, 4294967295);
+  out.false_safety = in.integer("false_safety", 0, 4294967295);
+  out.views_taken = in.integer("views_taken", 0, 4294967295);
+}
+
+void write(FieldWriter& out, const QuizTally& in) {
+  out.value("answers", in.answers);
+  out.value("right_places", in.right_places);
+  out.value("right_views", in.right_views);
+  out.value("false_safety", in.false_safety);
+  out.value("views_taken", in.views_taken);
+}
+
 void read(FieldReader& in, LoggedEvent& out) {
   out.tick = in.integer("tick", 0, 9007199254740991);
   out.kind = in.string("kind", 32);

@@ -84,6 +84,14 @@ inline constexpr std::array<std::string_view, 3> kDriveNames{"none", "powered", 
   return kDriveNames[static_cast<std::size_t>(value)];
 }
 
+/// Where a screw is out of the scaphoid, farthest; or that it is inside.
+enum class ScrewPlace : std::uint8_t { Inside, Distal, Proximal, Side };
+inline constexpr std::array<std::string_view, 4> kScrewPlaceNames{"inside", "distal", "proximal",
+                                                                  "side"};
+[[nodiscard]] constexpr std::string_view name_of(ScrewPlace value) noexcept {
+  return kScrewPlaceNames[static_cast<std::size_t>(value)];
+}
+
 /// Of the body.
 enum class Side : std::uint8_t { Left, Right };
 inline constexpr std::array<std::string_view, 2> kSideNames{"left", "right"};
@@ -105,6 +113,55 @@ inline constexpr std::array<std::string_view, 2> kOutcomeNames{"unfinished", "fi
 [[nodiscard]] constexpr std::string_view name_of(Outcome value) noexcept {
   return kOutcomeNames[static_cast<std::size_t>(value)];
 }
+
+/// A view that the quiz can take; its angles are those of the pictures.
+struct QuizView {
+  std::string id;
+  /// as on the C-arm's buttons
+  std::string label;
+  /// for people
+  std::string name;
+  /// [deg] -180 to 180
+  double rotation_deg = 0.0;
+  /// [deg] -90 to 90
+  double tilt_deg = 0.0;
+  bool operator==(const QuizView&) const = default;
+};
+
+/// A closed line on a picture.
+struct PictureOutline {
+  /// x, y, x, y, …; the centre of the top left pixel is 0, 0
+  std::vector<double> pixels;
+  bool operator==(const PictureOutline&) const = default;
+};
+
+/// What one view shows of the screw.
+struct QuizViewTruth {
+  std::string view;
+  /// of metal beyond the bone's true outline, in the plane of the bone; negative: so far inside it
+  /// [mm] -100 to 100
+  double overhang_mm = 0.0;
+  /// that is at least revealed_mm
+  bool reveals = false;
+  std::vector<PictureOutline> bone;
+  PictureOutline screw;
+  bool operator==(const QuizViewTruth&) const = default;
+};
+
+/// Answers since the quiz began.
+struct QuizTally {
+  /// 0 to 4294967295
+  std::int64_t answers = 0;
+  /// 0 to 4294967295
+  std::int64_t right_places = 0;
+  /// 0 to 4294967295
+  std::int64_t right_views = 0;
+  /// called inside when the screw was out 0 to 4294967295
+  std::int64_t false_safety = 0;
+  /// before the answers, the first of each question too 0 to 4294967295
+  std::int64_t views_taken = 0;
+  bool operator==(const QuizTally&) const = default;
+};
 
 /// Something worth a line in the log.
 struct LoggedEvent {

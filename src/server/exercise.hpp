@@ -62,7 +62,7 @@ struct ExerciseStart {
                                        simulation::World shadow);
 
 /// How a picture came about; the numbers of protocol/README.md.
-enum class PictureKind : std::uint32_t { Shot = 0, Live = 1, Held = 2 };
+enum class PictureKind : std::uint32_t { Shot = 0, Live = 1, Held = 2, Quiz = 3 };
 
 /// A picture that was taken: where the C-arm stood in the room, and the state at that tick.
 struct TakenShot {

@@ -23,6 +23,7 @@ void append(std::string& bytes, double value) {
 }  // namespace
 
 std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image) {
+  const bool is_single = shot.kind == PictureKind::Shot || shot.kind == PictureKind::Quiz;
   std::string bytes = "CARM";
   append(bytes, 2, 4);
   append(bytes, static_cast<std::uint32_t>(shot.kind), 4);
@@ -33,8 +34,7 @@ std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& imag
   append(bytes,
          simulation::held_rotation_deg(shot.rotation_deg, shot.snapshot.wrist.pronation_rad));
   append(bytes, shot.tilt_deg);
-  append(bytes,
-         procedure::dose_cgy_cm2(shot.kind == PictureKind::Shot ? procedure::kPulsesPerShot : 1U));
+  append(bytes, procedure::dose_cgy_cm2(is_single ? procedure::kPulsesPerShot : 1U));
   bytes.append(image.grey.begin(), image.grey.end());
   return bytes;
 }
@@ -94,6 +94,8 @@ std::string PictureWorker::frame_of(const TakenShot& shot) {
         return encode_picture(shot, pictures_.take_held(view, shot.snapshot));
       case PictureKind::Shot:
         return encode_picture(shot, pictures_.take(view, shot.snapshot));
+      case PictureKind::Quiz:
+        break;  // the quiz makes its own
     }
     return {};
   } catch (const std::exception&) {

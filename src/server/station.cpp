@@ -125,7 +125,8 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
 }
 
 void Station::obey(const protocol::PageMessage& message) {
-  if (exercise_ && !operator_owns_ && !std::holds_alternative<protocol::Start>(message)) {
+  const bool is_free = std::holds_alternative<protocol::Start>(message) || is_quiz(message);
+  if (exercise_ && !operator_owns_ && !is_free) {
     return refuse("This operation is another page's", "Start anew, which stores it as unfinished.");
   }
   operator_acts_ = true;

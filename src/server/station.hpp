@@ -24,6 +24,7 @@
 #include "server/journal_watch.hpp"
 #include "server/network_server.hpp"
 #include "server/picture_worker.hpp"
+#include "server/quiz_desk.hpp"
 #include "server/rate_limit.hpp"
 #include "server/recovery.hpp"
 #include "server/work_thread.hpp"
@@ -113,6 +114,14 @@ class Station : public PageHandler {
   void on_message(const protocol::Pedal& pedal);
   void on_message(const protocol::Pause& pause);
 
+  // In station_quiz.cpp.
+  void on_message(const protocol::QuizBegin& wish);
+  void on_message(const protocol::QuizNext& wish);
+  void on_message(const protocol::QuizLook& wish);
+  void on_message(const protocol::QuizAnswer& wish);
+  void ask_quiz(QuizWish wish);
+  [[nodiscard]] static bool is_quiz(const protocol::PageMessage& message);
+
   void obey(const protocol::PageMessage& message);
 
   // In station_begin.cpp: how an exercise begins.
@@ -186,6 +195,7 @@ class Station : public PageHandler {
   NetworkServer* network_ = nullptr;
   AttemptOwners owners_;
   std::unique_ptr<PictureWorker> pictures_;
+  std::unique_ptr<QuizDesk> quiz_;  ///< none before it is asked for
   std::mutex stored_mutex_;
   std::vector<ConcludedExercise> stored_;  ///< comes from the records' thread
   std::mutex begun_mutex_;

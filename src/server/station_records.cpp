@@ -36,6 +36,7 @@ void Station::detach() {
   take_begun();
   store_running();
   pictures_.reset();  // waits for the picture that is being made
+  quiz_.reset();
   network_ = nullptr;
   (void)records_.settle();
   take_stored();

@@ -278,6 +278,41 @@ TEST_F(StationTest, FloodOfMessagesIsThinnedWithoutHarm) {
   EXPECT_TRUE(is_scored);
 }
 
+TEST_F(StationTest, QuizAsksShowsAndTellsTheTruthOnlyAfterTheAnswer) {
+  PageClient page(port());
+  page.send(kHello);
+  (void)page.wait_for_type("welcome");
+  page.send(R"({"type":"quiz_next"})");
+  EXPECT_THAT(page.wait_for_type("error", 20s), HasSubstr("Another page's quiz"));
+  page.send(R"({"type":"quiz_begin","seed":7})");
+  const std::string question = page.wait_for_type("quiz_question", 20s);
+  for (const char* secret : {"depth", "overhang", "best", "towards", "pixels", "is_"}) {
+    EXPECT_THAT(question, Not(HasSubstr(secret)));
+  }
+  const auto picture = page.wait_for([](const auto& f) { return f.is_binary; }, 20s);
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->content.size(), 36U + 512U * 512U);
+  EXPECT_EQ(picture->content[8], 3) << "a picture of the quiz";
+  page.send(R"({"type":"quiz_look","view":"skyline"})");
+  ASSERT_TRUE(page.wait_for([](const auto& f) { return f.is_binary; }, 20s).has_value());
+  page.send(R"({"type":"quiz_answer","place":"inside","next_view":"oblique_45_pronated"})");
+  const Json truth = Json::parse(page.wait_for_type("quiz_truth", 20s));
+  EXPECT_EQ(truth["is_place_right"], truth["place"] == "inside");
+  EXPECT_EQ(truth["views"].size(), Json::parse(question)["views"].size());
+  EXPECT_EQ(truth["tally"]["views_taken"], 2);
+  page.send(R"({"type":"quiz_answer","place":"side","next_view":"pa"})");
+  EXPECT_THAT(page.wait_for_type("error", 20s), HasSubstr("answered already"));
+}
+
+TEST_F(StationTest, QuizLeavesTheExerciseAlone) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->send(R"({"type":"quiz_begin","seed":7})");
+  EXPECT_THAT(page->wait_for_type("quiz_question", 20s), HasSubstr("\"number\":1,"));
+  page->send(R"({"type":"act","id":"finish"})");
+  EXPECT_EQ(Json::parse(page->wait_for_type("score"))["attempt_id"], 1);
+}
+
 TEST_F(StationTest, CommandsWithoutAnExerciseAndTalkWithoutHelloAreRefused) {
   PageClient page(port());
   page.send(kStart);

@@ -11,6 +11,18 @@
 
 namespace carpus::protocol {
 
+void read(FieldReader& in, QuizView& out);
+void write(FieldWriter& out, const QuizView& in);
+
+void read(FieldReader& in, PictureOutline& out);
+void write(FieldWriter& out, const PictureOutline& in);
+
+void read(FieldReader& in, QuizViewTruth& out);
+void write(FieldWriter& out, const QuizViewTruth& in);
+
+void read(FieldReader& in, QuizTally& out);
+void write(FieldWriter& out, const QuizTally& in);
+
 void read(FieldReader& in, LoggedEvent& out);
 void write(FieldWriter& out, const LoggedEvent& in);
 

@@ -35,6 +35,9 @@ export type Work = "none" | "drill" | "ream" | "thread";
 /** Who turns it. */
 export type Drive = "none" | "powered" | "by_hand";
 
+/** Where a screw is out of the scaphoid, farthest; or that it is inside. */
+export type ScrewPlace = "inside" | "distal" | "proximal" | "side";
+
 /** Of the body. */
 export type Side = "left" | "right";
 
@@ -43,6 +46,50 @@ export type Grade = "good" | "acceptable" | "fail" | "not_measured";
 
 /** How an attempt ended; only a finished one has a score. */
 export type Outcome = "unfinished" | "finished";
+
+/** A view that the quiz can take; its angles are those of the pictures. */
+export interface QuizView {
+  readonly id: string;
+  /** as on the C-arm's buttons */
+  readonly label: string;
+  /** for people */
+  readonly name: string;
+  /** [deg] -180 to 180 */
+  readonly rotation_deg: number;
+  /** [deg] -90 to 90 */
+  readonly tilt_deg: number;
+}
+
+/** A closed line on a picture. */
+export interface PictureOutline {
+  /** x, y, x, y, …; the centre of the top left pixel is 0, 0 */
+  readonly pixels: readonly number[];
+}
+
+/** What one view shows of the screw. */
+export interface QuizViewTruth {
+  readonly view: string;
+  /** of metal beyond the bone's true outline, in the plane of the bone; negative: so far inside it [mm] -100 to 100 */
+  readonly overhang_mm: number;
+  /** that is at least revealed_mm */
+  readonly reveals: boolean;
+  readonly bone: readonly PictureOutline[];
+  readonly screw: PictureOutline;
+}
+
+/** Answers since the quiz began. */
+export interface QuizTally {
+  /** 0 to 4294967295 */
+  readonly answers: number;
+  /** 0 to 4294967295 */
+  readonly right_places: number;
+  /** 0 to 4294967295 */
+  readonly right_views: number;
+  /** called inside when the screw was out 0 to 4294967295 */
+  readonly false_safety: number;
+  /** before the answers, the first of each question too 0 to 4294967295 */
+  readonly views_taken: number;
+}
 
 /** Something worth a line in the log. */
 export interface LoggedEvent {
@@ -491,6 +538,31 @@ export interface PedalMessage {
   readonly down: boolean;
 }
 
+/** Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid of the case. It touches no exercise. */
+export interface QuizBeginMessage {
+  readonly type: "quiz_begin";
+  /** 0 to 4294967295 */
+  readonly seed: number;
+}
+
+/** The next question, once the one before is answered. */
+export interface QuizNextMessage {
+  readonly type: "quiz_next";
+}
+
+/** Another picture of the screw; counted before the answer and not after it. */
+export interface QuizLookMessage {
+  readonly type: "quiz_look";
+  readonly view: string;
+}
+
+/** Where the screw is out, and which view, of those not taken, would tell. The first counts. */
+export interface QuizAnswerMessage {
+  readonly type: "quiz_answer";
+  readonly place: ScrewPlace;
+  readonly next_view: string;
+}
+
 /** Stops or resumes time. */
 export interface PauseMessage {
   readonly type: "pause";
@@ -507,6 +579,10 @@ export type PageMessage =
   | TakeShotMessage
   | CArmMessage
   | PedalMessage
+  | QuizBeginMessage
+  | QuizNextMessage
+  | QuizLookMessage
+  | QuizAnswerMessage
   | PauseMessage;
 
 /** Answer to hello and to start. `exercise` is the number of the one that runs, 0 when none does; none has a number twice. `trainee` and `started_at` (UTC, ISO 8601) say whose it is and since when, both empty when none runs. Where it is the page's own (`is_own`), it is paused until the page goes on with it, and what is being done (exercise), its last events, its pictures and its state follow. Where it is another's, start stores it as unfinished, and nothing else is done with it; an instructor is told its name and shown how it stands. */
@@ -607,6 +683,41 @@ export interface ScoreMessage {
   readonly report: ScoreReport;
 }
 
+/** A screw lies in the scaphoid: where is it out, and which view would tell? Its first picture follows. Nothing of the truth is sent before the answer. */
+export interface QuizQuestionMessage {
+  readonly type: "quiz_question";
+  /** 1 to 4294967295 */
+  readonly number: number;
+  readonly views: readonly QuizView[];
+  readonly first_view: string;
+  /** its name */
+  readonly screw: string;
+  readonly tally: QuizTally;
+}
+
+/** The truth about a question that was answered. */
+export interface QuizTruthMessage {
+  readonly type: "quiz_truth";
+  /** 1 to 4294967295 */
+  readonly number: number;
+  readonly place: ScrewPlace;
+  /** how far its metal is out of the bone; negative: the least bone that covers it [mm] -100 to 100 */
+  readonly depth_mm: number;
+  /** the bone beside that place; empty where none is near */
+  readonly towards: string;
+  readonly answered: ScrewPlace;
+  readonly next_view: string;
+  readonly is_place_right: boolean;
+  readonly is_view_right: boolean;
+  readonly is_false_safety: boolean;
+  /** that shows it best; of a screw that is inside: that would show it best were it so far out of its nearest end */
+  readonly best_view: string;
+  /** [mm] 0 to 10 */
+  readonly revealed_mm: number;
+  readonly views: readonly QuizViewTruth[];
+  readonly tally: QuizTally;
+}
+
 /** Something was refused or failed; `what_to_do` is for the user. */
 export interface ErrorMessage {
   readonly type: "error";
@@ -630,6 +741,8 @@ export type HostMessage =
   | ActionsMessage
   | EventMessage
   | ScoreMessage
+  | QuizQuestionMessage
+  | QuizTruthMessage
   | ErrorMessage
   | BusyMessage;
 

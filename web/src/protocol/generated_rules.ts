@@ -16,9 +16,34 @@ export const SCHEMA: Schema = {
     material: { values: ["steel", "titanium", "handle", "black"] },
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
+    screw_place: { values: ["inside", "distal", "proximal", "side"] },
     side: { values: ["left", "right"] },
     grade: { values: ["good", "acceptable", "fail", "not_measured"] },
     outcome: { values: ["unfinished", "finished"] },
+    quiz_view: { fields: {
+      id: {"type": "string", "max_length": 32},
+      label: {"type": "string", "max_length": 64},
+      name: {"type": "string", "max_length": 64},
+      rotation_deg: {"type": "number", "min": -180, "max": 180},
+      tilt_deg: {"type": "number", "min": -90, "max": 90},
+    } },
+    picture_outline: { fields: {
+      pixels: {"type": "array", "of": {"type": "number", "min": -4096, "max": 4096}, "max_items": 1024},
+    } },
+    quiz_view_truth: { fields: {
+      view: {"type": "string", "max_length": 32},
+      overhang_mm: {"type": "number", "min": -100, "max": 100},
+      reveals: {"type": "boolean"},
+      bone: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 4},
+      screw: {"type": "picture_outline"},
+    } },
+    quiz_tally: { fields: {
+      answers: {"type": "integer", "min": 0, "max": 4294967295},
+      right_places: {"type": "integer", "min": 0, "max": 4294967295},
+      right_views: {"type": "integer", "min": 0, "max": 4294967295},
+      false_safety: {"type": "integer", "min": 0, "max": 4294967295},
+      views_taken: {"type": "integer", "min": 0, "max": 4294967295},
+    } },
     logged_event: { fields: {
       tick: {"type": "integer", "min": 0, "max": 9007199254740991},
       kind: {"type": "string", "max_length": 32},
@@ -272,6 +297,17 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
   pedal: {
     down: {"type": "boolean"},
   },
+  quiz_begin: {
+    seed: {"type": "integer", "min": 0, "max": 4294967295},
+  },
+  quiz_next: {},
+  quiz_look: {
+    view: {"type": "string", "max_length": 32},
+  },
+  quiz_answer: {
+    place: {"type": "screw_place"},
+    next_view: {"type": "string", "max_length": 32},
+  },
   pause: {
     on: {"type": "boolean"},
   },
@@ -334,6 +370,28 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     attempt_id: {"type": "integer", "min": 0, "max": 9007199254740991},
     overall: {"type": "number", "min": 0, "max": 100},
     report: {"type": "score_report"},
+  },
+  quiz_question: {
+    number: {"type": "integer", "min": 1, "max": 4294967295},
+    views: {"type": "array", "of": {"type": "quiz_view"}, "max_items": 16},
+    first_view: {"type": "string", "max_length": 32},
+    screw: {"type": "string", "max_length": 128},
+    tally: {"type": "quiz_tally"},
+  },
+  quiz_truth: {
+    number: {"type": "integer", "min": 1, "max": 4294967295},
+    place: {"type": "screw_place"},
+    depth_mm: {"type": "number", "min": -100, "max": 100},
+    towards: {"type": "string", "max_length": 64},
+    answered: {"type": "screw_place"},
+    next_view: {"type": "string", "max_length": 32},
+    is_place_right: {"type": "boolean"},
+    is_view_right: {"type": "boolean"},
+    is_false_safety: {"type": "boolean"},
+    best_view: {"type": "string", "max_length": 32},
+    revealed_mm: {"type": "number", "min": 0, "max": 10},
+    views: {"type": "array", "of": {"type": "quiz_view_truth"}, "max_items": 16},
+    tally: {"type": "quiz_tally"},
   },
   error: {
     reason: {"type": "string", "max_length": 1024},
