@@ -14,6 +14,7 @@ import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { followFromElsewhere, printedLink } from "./link.mjs";
 import { startStation } from "./station.mjs";
+import { playQuiz } from "./view_quiz.mjs";
 
 const TRAINEE = "Browser test";
 /** Of grey levels: a blank picture with noise stays under this. */
@@ -598,6 +599,7 @@ try {
   watch(page, problems);
   await operate(page, station, problems);
   await operateFromVolar(page, station);
+  await playQuiz(page, station, check, expectAccessible);
   await check(page, "no errors in the browser's console", () => {
     expect(problems.length === 0, problems.slice(0, 5).join(" | "));
   });

@@ -5,10 +5,12 @@
 //   #/               operate
 //   #/attempts       past attempts
 //   #/attempts/12    the score of one
+//   #/views          the view quiz
 import "./look";
 import { mountAttempts } from "./attempts_list";
 import { mountScore } from "./score_report";
 import { mountTrain } from "./train";
+import { mountViewQuiz } from "./view_quiz";
 
 const app = document.getElementById("app");
 let leave: () => void = () => undefined;
@@ -20,6 +22,7 @@ function route(): void {
   const attempt = /^#\/attempts\/(\d+)$/.exec(location.hash)?.[1];
   if (attempt !== undefined) leave = mountScore(app, Number(attempt));
   else if (location.hash === "#/attempts") leave = mountAttempts(app);
+  else if (/^#\/views(\?|$)/.test(location.hash)) leave = mountViewQuiz(app);
   else leave = mountTrain(app);
 }
 

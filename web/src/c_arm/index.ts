@@ -5,3 +5,4 @@
 export { CArmPanel, type CArmHandlers } from "./c_arm_panel";
 export type { Pedal } from "./pedal";
 export { viewName } from "./view_name_model";
+export { drawPicture } from "./picture_canvas";

@@ -46,7 +46,7 @@ describe("parseCArmPicture", () => {
     ["no pixels", () => frame(0, 2)],
     ["another kind", () => frameWith((v) => v.setUint8(0, 0x42))],
     ["another version", () => frameWith((v) => v.setUint32(4, 1, true))],
-    ["an unknown kind", () => frameWith((v) => v.setUint32(8, 3, true))],
+    ["an unknown kind", () => frameWith((v) => v.setUint32(8, 4, true))],
     ["a figure that is no number", () => frameWith((v) => v.setFloat32(24, NaN, true))],
   ])("refuses %s", (_name, make) => {
     const parsed = parseCArmPicture(make().buffer as ArrayBuffer);

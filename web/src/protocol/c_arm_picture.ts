@@ -4,13 +4,13 @@
 // The binary frame of one C-arm picture (protocol/README.md).
 import type { Parsed } from "./validator";
 
-/** A single shot; one pulse of a live look; the last pulse of one, held. */
-export type PictureKind = "shot" | "live" | "held";
-const KINDS: readonly PictureKind[] = ["shot", "live", "held"];
+/** A single shot; one pulse of a live look; the last pulse of one, held; of the view quiz. */
+export type PictureKind = "shot" | "live" | "held" | "quiz";
+const KINDS: readonly PictureKind[] = ["shot", "live", "held", "quiz"];
 
 export interface CArmPicture {
   readonly kind: PictureKind;
-  /** Its number; 0 while live. */
+  /** Its number; 0 while live; of the quiz the question's. */
   readonly shot: number;
   readonly width: number;
   readonly height: number;

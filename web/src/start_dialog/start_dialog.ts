@@ -95,7 +95,13 @@ export class StartDialog {
       make(
         "div.actions",
         {},
-        make("a.start-link", { href: "#/attempts" }, "Past attempts"),
+        make(
+          "span.start-link",
+          {},
+          make("a", { href: "#/attempts" }, "Past attempts"),
+          " · ",
+          make("a", { href: "#/views" }, "View quiz"),
+        ),
         this.end,
         this.resume,
         this.start,
