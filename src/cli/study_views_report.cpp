@@ -103,17 +103,18 @@ std::string reading_text(const ViewsStudy& study) {
       mean += each.reading_errors[i].mean_mm / static_cast<double>(study.cases.size());
       deviation += each.reading_errors[i].deviation_mm / static_cast<double>(study.cases.size());
     }
-    text +=
-        format("  %-24s %+5.2f +- %4.2f\n", std::string(standard[i].name).c_str(), mean, deviation);
+    text += "  " + padded(std::string(standard[i].name), 25) +
+            format("%+5.2f +- %4.2f\n", mean, deviation);
   }
   return text;
 }
 
-double missed(const std::vector<StudiedScrew>& screws,
-              const std::vector<std::size_t>& views,
-              Region region) {
+/// Of those out there, in percent; "-" where there are none.
+std::string missed(const std::vector<StudiedScrew>& screws,
+                   const std::vector<std::size_t>& views,
+                   Region region) {
   const auto found = row_of(screws, views, Reading::OnThePicture, region).sensitivity;
-  return found ? 100 * (1 - *found) : 0;
+  return found ? format("%.0f %%", 100 * (1 - *found)) : "-";
 }
 
 std::string published_text(const ViewsStudy& study, const std::vector<StudiedScrew>& screws) {
@@ -126,7 +127,7 @@ std::string published_text(const ViewsStudy& study, const std::vector<StudiedScr
   };
   std::string text = "\nPublished, on cadavers, beside ours:\n";
   text += "  distal penetrations that PA and lateral miss: about 50 % [S40]; ours " +
-          format("%.0f %%", missed(screws, {pa, lateral}, Region::Distal)) + "\n";
+          missed(screws, {pa, lateral}, Region::Distal) + "\n";
   if (const auto limit =
           limit_that_misses_half(screws, {pa, lateral}, Reading::OnThePicture, Region::Distal)) {
     text +=
@@ -134,9 +135,9 @@ std::string published_text(const ViewsStudy& study, const std::vector<StudiedScr
                *limit);
   }
   text += "  the most sensitive single view for those: 45 degrees pronated [S40]; ours misses " +
-          format("%.0f %% by it, %.0f %% by lateral, %.0f %% by PA\n",
-                 missed(screws, {oblique}, Region::Distal),
-                 missed(screws, {lateral}, Region::Distal), missed(screws, {pa}, Region::Distal));
+          missed(screws, {oblique}, Region::Distal) + " by it, " +
+          missed(screws, {lateral}, Region::Distal) + " by lateral, " +
+          missed(screws, {pa}, Region::Distal) + " by PA\n";
   text +=
       "  proximal pole, first seen: skyline 0.8 mm, PA in ulnar deviation and extension 1.3 mm "
       "[S39]; ours" +
