@@ -115,13 +115,16 @@ std::optional<GeneratedScrew> attempt(const ScaphoidSurface& scaphoid,
 
 GeneratedScrew generate_screw(const ScaphoidSurface& scaphoid, std::uint64_t seed) {
   Rng rng(seed);
-  constexpr int kDraws = 40;
+  constexpr int kDraws = 12;
   constexpr int kAttempts = 20;
   const bool is_out = rng.below(2) == 0;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    const Wanted wanted = draw_wanted(rng, is_out);
-    for (int i = 0; i < kAttempts; ++i) {
-      if (const auto made = attempt(scaphoid, wanted, rng)) return *made;
+  // In an angulated bone there may be no line on which a screw is in.
+  for (const bool side : {is_out, !is_out}) {
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const Wanted wanted = draw_wanted(rng, side);
+      for (int i = 0; i < kAttempts; ++i) {
+        if (const auto made = attempt(scaphoid, wanted, rng)) return *made;
+      }
     }
   }
   throw InvalidInput("view trainer: no screw of the catalogue fits this scaphoid");

@@ -25,7 +25,8 @@ inline constexpr double kBestCoveredMm = 2.5;
 /// within 2 mm of those of an axis between the central one and the longest line. Every other seed's
 /// is out, at its distal end, its proximal end or its side, each as often, by kOutMm to
 /// kFarthestOutMm, evenly, and nowhere farther; the others are in, with 0 to kBestCoveredMm of bone
-/// before one end. The same seed gives the same screw.
+/// before one end. Where no line of many allows that, as in an angulated bone, the screw is on the
+/// other side. The same seed gives the same screw.
 /// @throws InvalidInput where no screw fits this scaphoid.
 [[nodiscard]] GeneratedScrew generate_screw(const ScaphoidSurface& scaphoid, std::uint64_t seed);
 
