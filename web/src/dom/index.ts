@@ -3,4 +3,5 @@
 //
 // Building elements.
 export * from "./element";
+export { remember, remembered } from "./remembered";
 export { whileHeld } from "./while_held";
