@@ -1,0 +1,82 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The first gamepad of the standard mapping, asked once a frame, moves the hand.
+import type { HeldAction, OnceAction } from "../operation";
+import { padWish, type PadState, type PadWish } from "./pad_model";
+
+/** After a pause nothing jumps [s]. */
+const LONGEST_FRAME_S = 0.1;
+
+export interface PadRoom {
+  /** Whether the hand may be moved now: no dialog is open. */
+  isFree(): boolean;
+  moveTipBy(right: number, up: number): void;
+  turnShaftBy(right: number, up: number): void;
+  hold(holder: string, action: HeldAction): void;
+  letGo(holder: string): void;
+  /** @param share  of the push that is set; undefined once the trigger is let go */
+  squeeze(share: number | undefined): void;
+  pedal(down: boolean): void;
+  act(action: OnceAction): void;
+  /** Takes the picture of the next named view. */
+  nextShot(): void;
+}
+
+export class GamepadHand {
+  private before: PadState | undefined;
+  private lastMs = 0;
+  private held: ReadonlySet<string> = new Set();
+  private pedalIsDown = false;
+
+  constructor(private readonly room: PadRoom) {}
+
+  frame(nowMs: number): void {
+    const pad = standardPad();
+    const seconds = Math.min(LONGEST_FRAME_S, (nowMs - this.lastMs) / 1000);
+    this.lastMs = nowMs;
+    if (pad === undefined || !this.room.isFree()) {
+      this.rest();
+      this.before = pad;
+      return;
+    }
+    const wish = padWish(pad, this.before);
+    this.before = pad;
+    const { tip, shaft } = wish;
+    if (tip.right !== 0 || tip.up !== 0) this.room.moveTipBy(tip.right * seconds, tip.up * seconds);
+    if (shaft.right !== 0 || shaft.up !== 0)
+      this.room.turnShaftBy(shaft.right * seconds, shaft.up * seconds);
+    this.room.squeeze(wish.held.has("pad drive") ? wish.squeeze : undefined);
+    this.hold(wish);
+    for (const action of wish.once) {
+      if (action.kind === "next_shot") this.room.nextShot();
+      else this.room.act(action);
+    }
+  }
+
+  private hold({ held, pedal }: PadWish): void {
+    for (const holder of this.held) if (!held.has(holder)) this.room.letGo(holder);
+    for (const [holder, action] of held) if (!this.held.has(holder)) this.room.hold(holder, action);
+    this.held = new Set(held.keys());
+    if (pedal !== this.pedalIsDown) this.room.pedal(pedal);
+    this.pedalIsDown = pedal;
+  }
+
+  private rest(): void {
+    if (this.held.size > 0) this.room.squeeze(undefined);
+    for (const holder of this.held) this.room.letGo(holder);
+    this.held = new Set();
+    if (this.pedalIsDown) this.room.pedal(false);
+    this.pedalIsDown = false;
+  }
+}
+
+/** A copy: the browser's own object may change under the reader. */
+function standardPad(): PadState | undefined {
+  for (const pad of navigator.getGamepads()) {
+    if (pad?.connected !== true || pad.mapping !== "standard") continue;
+    const buttons = pad.buttons.map(({ value, pressed }) => ({ value, pressed }));
+    return { axes: [...pad.axes], buttons };
+  }
+  return undefined;
+}
