@@ -4,6 +4,7 @@
 // What of the page as it stands keeps someone out: names, roles, contrast, order of headings, by axe-core.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { expect } from "./checks.mjs";
 import { root } from "./station.mjs";
 
 const axe = readFileSync(
@@ -50,4 +51,11 @@ export async function focusFaults(page, steps) {
     if (fault !== undefined) faults.push(fault);
   }
   return faults;
+}
+
+/** @param tabs  so many times Tab shows where the focus is */
+export async function expectAccessible(page, tabs = 0) {
+  const faults = await accessibilityFaults(page);
+  if (tabs > 0) faults.push(...(await focusFaults(page, tabs)));
+  expect(faults.length === 0, faults.join("; "));
 }

@@ -131,7 +131,7 @@ export class Operator {
     await this.page.fill("#trainee-name", trainee);
     await this.page.click("dialog.start button[type=submit]");
     // Where another operation waits, the page asks; until this one begins, that is what is seen.
-    const anew = this.page.getByRole("button", { name: "Start anew" });
+    const anew = this.page.locator("dialog.confirm[open] button.primary");
     await this.until((s) => s.tick > 0 && !s.paused, "the first ticks", async () => {
       if (await anew.isVisible()) await anew.click();
     });

@@ -6,10 +6,11 @@
 // the list. Then what goes wrong: a second page, broken messages, a lost connection. Last the way in by
 // a link.
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
-import { accessibilityFaults, focusFaults } from "./accessibility.mjs";
+import { expectAccessible } from "./accessibility.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
 import { check, counted, expect } from "./checks.mjs";
 import { withPictures } from "./c_arm.mjs";
+import { firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { followFromElsewhere, printedLink } from "./link.mjs";
@@ -26,13 +27,6 @@ function watch(page, problems) {
     if (message.type() === "error") problems.push(message.text());
   });
   page.on("pageerror", (error) => problems.push(String(error)));
-}
-
-/** @param tabs  so many times Tab shows where the focus is */
-async function expectAccessible(page, tabs = 0) {
-  const faults = await accessibilityFaults(page);
-  if (tabs > 0) faults.push(...(await focusFaults(page, tabs)));
-  expect(faults.length === 0, faults.join("; "));
 }
 
 async function operate(page, station, problems) {
@@ -607,6 +601,7 @@ try {
   await byKeysAlone(browser, station);
   await byFinger(browser, station);
   await withPictures(browser, station);
+  await firstMinutes(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);

@@ -207,6 +207,14 @@ export class CArmPanel {
     this.shootFree();
   }
 
+  /** The named view after the one where the C-arm stands; the first where it stands in none. */
+  shootNext(): void {
+    const here = this.views.findIndex(
+      (view) => view.rotation_deg === this.rotationDeg && view.tilt_deg === this.tiltDeg,
+    );
+    if (this.views.length > 0) this.shoot((here + 1) % this.views.length);
+  }
+
   shootFree(): void {
     this.movedAtMs = performance.now();
     this.showStand();

@@ -4,15 +4,21 @@
 // The help: the table of keys, as a dialog over the theatre.
 import { button, make } from "../dom";
 import { keyCap } from "../key_caps";
-import { HELP } from "../operation";
+import { GAMEPAD_HELP, HELP, TOUCH_HELP } from "../operation";
 import "./help_overlay.css";
 
 export class HelpOverlay {
   readonly element: HTMLDialogElement;
 
-  constructor() {
+  /** @param firstTouch  begins it */
+  constructor(firstTouch: () => void) {
     const close = button("Close", "Esc", () => {
       this.element.close();
+    });
+    close.autofocus = true;
+    const again = button("First touch, 90 seconds", "", () => {
+      this.element.close();
+      firstTouch();
     });
     this.element = make(
       "dialog.help",
@@ -20,17 +26,22 @@ export class HelpOverlay {
       make(
         "div",
         {},
-        make("header", {}, make("h2", { id: "help-title" }, "Mouse and keys"), close),
+        make(
+          "header",
+          {},
+          make("h2", { id: "help-title" }, "Mouse, keys, touch, gamepad"),
+          make("span.help-ways", {}, again, close),
+        ),
         make(
           "p.secondary",
           {},
-          "Shift turns what plain keys move. A tap is one fine step, holding goes on and gets faster. ",
-          "Coarse by mouse, fine by keys.",
+          "Shift turns what plain keys move. A tap is one step, holding goes on and gets faster. ",
+          "Keys are named as your keyboard prints them.",
         ),
         make(
           "div.help-groups",
           {},
-          ...HELP.map((group) =>
+          ...[...HELP, TOUCH_HELP, GAMEPAD_HELP].map((group) =>
             make(
               "section",
               {},

@@ -88,11 +88,43 @@ export const HELP: readonly HelpGroup[] = [
       { keys: "{KeyZ}", text: "undo: back to the last checkpoint" },
       { keys: "{KeyF}", text: "finish (asks first)" },
       { keys: "{KeyP}", text: "pause" },
+      { keys: "{Backquote}", text: "sound on or off" },
       { keys: "?, F1", text: "this help" },
       { keys: "Esc", text: "close what is open; theatre large again" },
     ],
   },
 ];
+
+/** What the help says of a gamepad. */
+export const GAMEPAD_HELP: HelpGroup = {
+  title: "Gamepad",
+  lines: [
+    { keys: "Left stick", text: "move the tip; fine near the middle" },
+    { keys: "Right stick", text: "turn the shaft" },
+    { keys: "Right trigger", text: "drive: as deep as it is pressed, up to the push that is set" },
+    { keys: "Left trigger", text: "reverse" },
+    { keys: "LB / RB", text: "back / nearer" },
+    { keys: "A / Y / X", text: "picture / of the next view / hold: live" },
+    { keys: "B", text: "aim as you look" },
+    { keys: "Cross", text: "turn the view; right stick pressed: next view" },
+    { keys: "Left stick pressed", text: "the other hand" },
+    { keys: "Back / Start", text: "undo / pause" },
+  ],
+};
+
+/** And of fingers. */
+export const TOUCH_HELP: HelpGroup = {
+  title: "Touch",
+  lines: [
+    {
+      keys: "One finger",
+      text: "pushes the tip along, or turns the shaft: chosen under the theatre",
+    },
+    { keys: "Two fingers", text: "turn the view and bring it nearer" },
+    { keys: "View chosen", text: "one finger turns it, two shift it" },
+    { keys: "Drive, Reverse", text: "for as long as they are held" },
+  ],
+};
 
 /** Keys of what a step's `actions` name: of the protocol's action_id, or what the page does itself. */
 const KEYS_OF: Readonly<Record<string, string>> = {

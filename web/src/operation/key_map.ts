@@ -52,7 +52,8 @@ export type OnceAction =
         | "keep_reference"
         | "save_picture"
         | "ruler"
-        | "beam";
+        | "beam"
+        | "sound";
     };
 
 export interface KeyPress {
@@ -88,6 +89,7 @@ const PLACES: Readonly<Record<string, OnceAction>> = {
   Digit8: { kind: "keep_reference" },
   Escape: { kind: "shrink" },
   Quote: { kind: "ruler" },
+  Backquote: { kind: "sound" },
   Semicolon: { kind: "beam" },
   Backslash: { kind: "save_picture" },
   Enter: { kind: "aim_along_sight" },

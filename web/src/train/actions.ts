@@ -15,6 +15,7 @@ import {
   type OnceAction,
 } from "../operation";
 import type { PageMessage, SnapshotMessage } from "../protocol";
+import type { Sound } from "../sound";
 import { VIEWS, type Theatre, type ViewId } from "../theatre";
 import type { ClosedWays } from "./bottom_bar";
 import type { Hand } from "./hand";
@@ -29,6 +30,7 @@ export interface ActionRoom {
   readonly views: ViewBar;
   readonly tray: TrayDialog;
   readonly help: HelpOverlay;
+  readonly sound: Sound;
   latest(): SnapshotMessage | undefined;
   offered(): OfferedActions;
   /** Id of what the current step is done with, or empty. */
@@ -71,6 +73,9 @@ export class Actions {
         break;
       case "ruler":
         arm.toggleRuler();
+        break;
+      case "sound":
+        this.room.sound.toggle();
         break;
       case "beam":
         arm.toggleBeam();

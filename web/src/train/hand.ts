@@ -48,6 +48,8 @@ const WRIST_STEPS_PER_S = 60;
 const BESIDE_MM = 30;
 /** A still hand is sent again after this long: the host pauses when it hears nothing [ms]. */
 const REPEAT_MS = 250;
+/** An operation's first instants swing the instrument about before it rests where it begins. */
+const SETTLED_TICKS = 150;
 /** While the driver is held: the host stops it 150 ms after it last heard of it. */
 const DRIVE_REPEAT_MS = 40;
 /**
@@ -121,6 +123,11 @@ export class Hand {
     this.poses[this.moved] = pose;
   }
 
+  /** Whether it has taken over where this exercise begins. */
+  get placed(): boolean {
+    return this.isPlaced;
+  }
+
   /** Another exercise: where its hands are, its first snapshot will say. */
   reset(): void {
     this.releaseAll();
@@ -146,7 +153,8 @@ export class Hand {
   see(s: SnapshotMessage): void {
     const before = this.last;
     this.last = s;
-    const anew = before === undefined || !this.isPlaced || s.undos !== before.undos;
+    if (!this.isPlaced && s.tick < SETTLED_TICKS) return;
+    const anew = !this.isPlaced || before === undefined || s.undos !== before.undos;
     // What is driven came off or was put down: the held key was not meant for what is in the hand now.
     if (before !== undefined && s.hands[this.moved].item !== before.hands[this.moved].item)
       this.stopDriving();

@@ -4,6 +4,7 @@
 // All bars, lists and dialogs of the room. They show, and pass on what was asked for; they decide nothing.
 import { CArmPanel, type CArmHandlers } from "../c_arm";
 import { make } from "../dom";
+import { FirstTouchCard } from "../first_touch";
 import { HelpOverlay } from "../help_overlay";
 import { keyCap } from "../key_caps";
 import type { HandIndex, OnceAction } from "../operation";
@@ -54,6 +55,7 @@ export interface Panels {
   readonly notice: Notice;
   readonly start: StartDialog;
   readonly help: HelpOverlay;
+  readonly firstTouch: FirstTouchCard;
   readonly tray: TrayDialog;
   readonly wrist: WristPanel;
   readonly finishQuestion: ConfirmDialog;
@@ -80,7 +82,8 @@ export function makePanels(
       | "pick_up"
       | "put_down"
       | "undo"
-      | "finish",
+      | "finish"
+      | "sound",
   ) => {
     return (): void => {
       wishes.act({ kind });
@@ -89,13 +92,17 @@ export function makePanels(
   const wrist = new WristPanel((wish) => {
     wishes.moveWrist(wish);
   });
+  const firstTouch = new FirstTouchCard(() => {
+    wishes.restart();
+  });
   const panels: Panels = {
     top: new TopBar(description, {
       pause: act("pause"),
+      sound: act("sound"),
       help: act("help"),
       fullScreen: act("full_screen"),
     }),
-    steps: new StepPanel(wrist.element),
+    steps: new StepPanel(firstTouch.element, wrist.element),
     wrist,
     views: new ViewBar({
       look: (view) => {
@@ -138,7 +145,10 @@ export function makePanels(
         panels.endQuestion.ask();
       },
     ),
-    help: new HelpOverlay(),
+    help: new HelpOverlay(() => {
+      firstTouch.begin();
+    }),
+    firstTouch,
     tray: new TrayDialog((instrument, hand) => {
       wishes.take(instrument, hand);
     }),

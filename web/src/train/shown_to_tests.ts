@@ -3,6 +3,7 @@
 //
 // `window.carpus`: for tests and screenshots, what is shown; never a way to act.
 import type { BodyPose, ExerciseMessage, SnapshotMessage, Vec3 } from "../protocol";
+import type { Sound, SoundState } from "../sound";
 import type { Theatre } from "../theatre";
 import type { WhatIsSeen } from "./what_is_seen";
 
@@ -15,19 +16,21 @@ declare global {
       bodyPoses(): Readonly<Record<string, BodyPose>>;
       pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
       beamIsDrawn(): boolean;
+      sound(): SoundState;
       screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
     };
   }
 }
 
 /** @return takes it away */
-export function showToTests(theatre: Theatre, seen: WhatIsSeen): () => void {
+export function showToTests(theatre: Theatre, seen: WhatIsSeen, sound: Sound): () => void {
   window.carpus = {
     snapshot: () => seen.latest,
     exercise: () => seen.doing,
     bodyPoses: () => seen.bodyPoses(),
     pagePoint: (mm) => theatre.pagePoint(mm),
     beamIsDrawn: () => theatre.beamIsDrawn,
+    sound: () => sound.state,
     screenAxes: () => theatre.screenAxes(),
   };
   return () => {

@@ -26,10 +26,11 @@ export class StepPanel {
   private readonly log = make("ol.log", { "aria-label": "What happened", tabindex: "0" });
   private shown = "";
 
-  constructor(wrist: HTMLElement) {
+  constructor(firstTouch: HTMLElement, wrist: HTMLElement) {
     this.element = make(
       "nav.steps",
       { "aria-label": "Steps" },
+      firstTouch,
       make("header.panel-title", {}, make("h2", {}, "Steps")),
       this.list,
       this.announcer,

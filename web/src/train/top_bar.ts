@@ -7,6 +7,7 @@ import type { CaseDescription, SnapshotMessage } from "../protocol";
 
 export interface TopBarHandlers {
   pause(): void;
+  sound(): void;
   help(): void;
   fullScreen(): void;
 }
@@ -23,6 +24,7 @@ export class TopBar {
   private readonly link = make("span.link-state", { role: "status" });
   private readonly procedure = make("span.secondary.procedure");
   private readonly pauseButton: HTMLButtonElement;
+  private readonly soundButton: HTMLButtonElement;
 
   constructor(
     private readonly description: CaseDescription,
@@ -30,6 +32,7 @@ export class TopBar {
   ) {
     setText(this.procedure, `${description.side} wrist`);
     this.pauseButton = button("Pause", "{KeyP}", handlers.pause, ".quiet");
+    this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet");
     const patient = make("span.patient", {}, description.pseudonym);
     if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
     const timing = make(
@@ -51,6 +54,7 @@ export class TopBar {
       this.link,
       timing,
       this.pauseButton,
+      this.soundButton,
       button("Help", "?", handlers.help, ".quiet"),
       button("Full screen", "", handlers.fullScreen, ".quiet"),
     );
@@ -65,6 +69,12 @@ export class TopBar {
     const wanted = s.paused ? "Resume" : "Pause";
     if (label !== null && label.textContent !== wanted) label.textContent = wanted;
     this.pauseButton.setAttribute("aria-pressed", String(s.paused));
+  }
+
+  /** Whether it is wished; a first gesture wakes it. */
+  showSound(on: boolean): void {
+    this.soundButton.setAttribute("aria-pressed", String(on));
+    this.soundButton.title = on ? "Motor, screw and C-arm are heard" : "Nothing is heard";
   }
 
   /** @param title  of the procedure that is done */

@@ -3,8 +3,10 @@
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
 import { faceNames, makeFrameMap } from "../frames";
+import { GamepadHand } from "../gamepad";
 import { followLayout } from "../key_caps";
 import type { CaseDescription, HostMessage, ProcedureSummary } from "../protocol";
+import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
 import { Connection } from "./connection";
@@ -14,9 +16,12 @@ import { HandPointer } from "./hand_pointer";
 import { listenToKeys } from "./keys";
 import { layOut } from "./layout";
 import { makePanels, type Panels } from "./panels";
+import { padRoom } from "./pad_room";
 import { showToTests } from "./shown_to_tests";
 import { TakingPart } from "./taking_part";
 import "./train.css";
+import { whatIsDone } from "./what_is_done";
+import { whatIsHeard } from "./what_is_heard";
 import { WhatIsSeen } from "./what_is_seen";
 
 export class TrainPage {
@@ -25,6 +30,8 @@ export class TrainPage {
   private readonly seen: WhatIsSeen;
   private readonly hand: Hand;
   private readonly pointer: HandPointer;
+  private readonly sound: Sound;
+  private readonly gamepad: GamepadHand;
   private readonly part: TakingPart;
   private readonly actions: Actions;
   private readonly connection: Connection;
@@ -55,18 +62,21 @@ export class TrainPage {
       canvas: this.theatre.canvas,
       tell: (message) => this.connection.tell(message),
     });
+    this.sound = this.makeSound();
     this.actions = this.makeActions();
+    this.gamepad = new GamepadHand(padRoom(this.panels, this.hand, this.actions, this.part));
     this.listenToKeys();
     followLayout(this.abort.signal);
     this.panels.start.setReady(false, "Connecting to the host…");
     this.panels.start.open();
     this.connection = this.connect();
-    this.stops = [showToTests(this.theatre, this.seen), this.startLoop()];
+    this.stops = [showToTests(this.theatre, this.seen, this.sound), this.startLoop()];
   }
 
   dispose(): void {
     for (const stop of this.stops) stop();
     this.panels.notice.dispose();
+    this.sound.dispose();
     this.panels.arm.pedal.releaseAll();
     this.abort.abort();
     this.connection.dispose();
@@ -188,6 +198,15 @@ export class TrainPage {
     });
   }
 
+  private makeSound(): Sound {
+    const sound = new Sound(this.abort.signal);
+    sound.onWish = (on) => {
+      this.panels.top.showSound(on);
+    };
+    this.panels.top.showSound(sound.isWished);
+    return sound;
+  }
+
   private makeActions(): Actions {
     const { arm, help, notice, tray, views } = this.panels;
     return new Actions({
@@ -196,6 +215,7 @@ export class TrainPage {
       tray,
       views,
       hand: this.hand,
+      sound: this.sound,
       theatre: this.theatre,
       latest: () => this.seen.latest,
       offered: () => this.seen.offered,
@@ -255,12 +275,14 @@ export class TrainPage {
   private startLoop(): () => void {
     return startFrameLoop({
       hand: (nowMs) => {
+        this.gamepad.frame(nowMs);
         this.hand.frame(nowMs);
       },
       draw: () => {
         this.theatre.draw();
       },
       readings: () => {
+        this.sound.watch(performance.now());
         this.seen.showReadings(this.hand, this.actions.closedWays(), this.part.operates);
       },
     });
@@ -271,10 +293,17 @@ export class TrainPage {
     switch (message.type) {
       case "snapshot":
         this.seen.take(message, this.hand);
+        if (this.part.operates) {
+          const now = performance.now();
+          this.sound.hear(whatIsHeard(message, this.seen.doing, this.hand, now));
+          if (this.hand.placed)
+            this.panels.firstTouch.observe(whatIsDone(message, this.hand, this.theatre));
+        }
         this.part.showWaiting();
         break;
       case "exercise":
         this.seen.begin(message);
+        if (this.part.operates) this.panels.firstTouch.offer();
         break;
       case "tissue":
         this.seen.takeTissue(message);

@@ -1,0 +1,98 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a newcomer meets: the first touch, ticked by what really happens, sound, and a gamepad.
+import { expectAccessible } from "./accessibility.mjs";
+import { newPage } from "./browser.mjs";
+import { check, expect } from "./checks.mjs";
+import { atRest } from "./hands.mjs";
+import { Operator } from "./operator.mjs";
+
+/** A gamepad of the standard mapping that the test holds. */
+const PAD = () => {
+  const pad = {
+    connected: true,
+    mapping: "standard",
+    axes: [0, 0, 0, 0],
+    buttons: Array.from({ length: 17 }, () => ({ value: 0, pressed: false })),
+  };
+  window.pressPad = (button, value) => {
+    pad.buttons[button] = { value, pressed: value > 0.5 };
+  };
+  window.tiltPad = (...axes) => {
+    pad.axes = axes;
+  };
+  navigator.getGamepads = () => [pad];
+};
+
+export async function firstMinutes(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  await page.addInitScript(PAD);
+  const card = page.locator(".first-touch");
+  const done = card.locator("li.done");
+  const sound = () => page.evaluate(() => window.carpus.sound());
+  const press = (button, value) =>
+    page.evaluate(([b, v]) => window.pressPad(b, v), [button, value]);
+  const tilt = (...axes) => page.evaluate((a) => window.tiltPad(...a), axes);
+
+  await check(page, "sound waits for a gesture, and stays as it was left", async () => {
+    await page.goto(station.url);
+    await page.locator("dialog.start[open]").waitFor();
+    expect((await sound()) === "waiting", `before a gesture it is ${await sound()}`);
+    await operator.start(station.url, "Browser test, newcomer");
+    const mute = page.getByRole("button", { name: "Sound" });
+    expect((await sound()) === "on", `after a gesture it is ${await sound()}`);
+    await page.keyboard.press("Backquote");
+    expect((await sound()) === "muted", `muted it is ${await sound()}`);
+    expect((await mute.getAttribute("aria-pressed")) === "false", "the bar says on");
+    await page.reload();
+    await page.locator("dialog.start[open]").waitFor();
+    await page.keyboard.press("Shift");
+    expect((await sound()) === "muted", `after a reload it is ${await sound()}`);
+  });
+  await check(page, "the first operation comes with a first touch", async () => {
+    await operator.start(station.url, "Browser test, newcomer");
+    await atRest(operator);
+    await card.waitFor();
+    expect((await done.count()) === 0, "something is ticked already");
+    await expectAccessible(page);
+  });
+  await check(page, "it is ticked by what a gamepad really does", async () => {
+    await press(15, 1); // the cross turns the view
+    await done.filter({ hasText: "Turn the view" }).waitFor();
+    await press(15, 0);
+    await tilt(0.8, 0, 0, 0);
+    await done.filter({ hasText: "Move the tip" }).waitFor();
+    await tilt(0, 0, 0.8, 0);
+    await done.filter({ hasText: "Aim" }).waitFor();
+    await tilt(0, 0, 0, 0);
+    await press(1, 1); // along the sight
+    await operator.until((s) => s.hands[0].touching, "the tip on the bone");
+    await press(1, 0);
+    await press(7, 1);
+    await done.filter({ hasText: "Push and drive" }).waitFor();
+    await press(7, 0);
+    const { depth_mm: depth } = Operator.held(await operator.snapshot());
+    expect(depth > 1, `the wire is ${depth} mm deep`);
+    await press(0, 1);
+    await done.filter({ hasText: "Take a picture" }).waitFor();
+    await press(0, 0);
+    await press(8, 1);
+    await done.filter({ hasText: "Undo" }).waitFor();
+    await press(8, 0);
+    await card.getByText("All of it in").waitFor();
+  });
+  await check(page, "it does not come again, but begins from the help", async () => {
+    await card.getByRole("button", { name: "Start anew" }).click();
+    await page.locator("dialog.confirm[open]").waitFor();
+    await page.keyboard.press("Enter");
+    await operator.until((s) => s.tick < 2000 && s.undos === 0, "a new operation");
+    expect(!(await card.isVisible()), "it comes again");
+    await page.keyboard.press("F1");
+    await page.getByRole("button", { name: "First touch" }).click();
+    await card.getByRole("button", { name: "Skip" }).click();
+    expect(!(await card.isVisible()), "it cannot be left");
+  });
+  await page.close();
+}

@@ -1,0 +1,28 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a snapshot sounds like, with what the hand does now.
+import { heldItem } from "../operation";
+import type { ExerciseMessage, SnapshotMessage } from "../protocol";
+import type { Heard } from "../sound";
+import type { Hand } from "./hand";
+
+export function whatIsHeard(
+  s: SnapshotMessage,
+  exercise: ExerciseMessage | undefined,
+  hand: Hand,
+  nowMs: number,
+): Heard {
+  const item = heldItem(s, hand.active);
+  const kind = exercise?.instruments.find((one) => one.id === item?.instrument);
+  return {
+    nowMs,
+    driver: s.paused || s.finished ? "off" : hand.driver,
+    drive: kind?.drive ?? "none",
+    resistanceN: s.hands[hand.active].resistance_n,
+    depthMm: item?.depth_mm ?? 0,
+    pitchMm: kind?.parts.find((part) => part.is_threaded)?.pitch_mm ?? 0,
+    live: s.c_arm.live,
+    shots: s.shots,
+  };
+}
