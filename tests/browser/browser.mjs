@@ -14,21 +14,29 @@ const { chromium } = createRequire(join(root, "web/package.json"))(
 export const PATIENCE_MS = 180_000;
 const VIEWPORT = { width: 1120, height: 680 };
 
-/** A page with cookies and storage of its own, closed with its browser at the latest. */
-export async function newPage(browser) {
-  const context = await browser.newContext({ viewport: VIEWPORT });
+/** A page with storage of its own that nobody has seen yet, closed with its browser at the latest. */
+export async function newcomersPage(browser, more = {}) {
+  const context = await browser.newContext({ viewport: VIEWPORT, ...more });
   context.setDefaultTimeout(PATIENCE_MS);
   return context.newPage();
 }
 
-/** The same on a screen that is touched. */
-export async function newTouchPage(browser) {
-  const context = await browser.newContext({
-    viewport: VIEWPORT,
-    hasTouch: true,
+/** The same of someone who knows the first touch. */
+export async function newPage(browser, more = {}) {
+  const page = await newcomersPage(browser, more);
+  await page.context().addInitScript(() => {
+    try {
+      localStorage.setItem("carpus.first_touch", "seen");
+    } catch {
+      // The browser's own pages have no storage.
+    }
   });
-  context.setDefaultTimeout(PATIENCE_MS);
-  return context.newPage();
+  return page;
+}
+
+/** And on a screen that is touched. */
+export function newTouchPage(browser) {
+  return newPage(browser, { hasTouch: true });
 }
 
 export function startBrowser() {

@@ -3,7 +3,7 @@
 //
 // What a newcomer meets: the first touch, ticked by what really happens, sound, and a gamepad.
 import { expectAccessible } from "./accessibility.mjs";
-import { newPage } from "./browser.mjs";
+import { newcomersPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
@@ -26,7 +26,7 @@ const PAD = () => {
 };
 
 export async function firstMinutes(browser, station) {
-  const page = await newPage(browser);
+  const page = await newcomersPage(browser);
   const operator = new Operator(page);
   await page.addInitScript(PAD);
   const card = page.locator(".first-touch");

@@ -61,14 +61,16 @@ async function operate(page, station, problems) {
     await expectAccessible(page, 20);
     await page.locator(".stage canvas").first().focus();
   });
-  await check(page, "the help opens by ? and closes", async () => {
+  await check(page, "the help opens by ?, stops time, and closes", async () => {
     await page.keyboard.press("?");
     await page.locator("dialog.help[open]").waitFor();
+    await operator.until((s) => s.paused, "time that stands still");
     await expectAccessible(page);
     await page.keyboard.press("Escape");
     await page
       .locator("dialog.help:not([open])")
       .waitFor({ state: "attached" });
+    await operator.until((s) => !s.paused, "time that goes on");
   });
   await check(
     page,

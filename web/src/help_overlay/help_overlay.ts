@@ -59,10 +59,19 @@ export class HelpOverlay {
         ),
       ),
     );
+    this.element.addEventListener("close", () => {
+      this.onOpen?.(false);
+    });
   }
+
+  /** Whether it is read from now on. */
+  onOpen: ((isOpen: boolean) => void) | undefined;
 
   toggle(): void {
     if (this.element.open) this.element.close();
-    else this.element.showModal();
+    else {
+      this.element.showModal();
+      this.onOpen?.(true);
+    }
   }
 }

@@ -20,6 +20,7 @@ import { OrientationCube } from "./orientation_cube";
 import { PointedAt, type PagePoint } from "./pointed_at";
 import { ShownInstruments } from "./shown_instruments";
 import { Sight, type ToolLine, type ViewId } from "./sight";
+import { SightMark } from "./sight_mark";
 import { looksDifferent } from "./snapshot_look_model";
 
 const CUBE_PX = 88;
@@ -37,6 +38,7 @@ export class Theatre {
   private readonly radialIsRight: boolean;
   private readonly cube: OrientationCube;
   private readonly names: BoneNames;
+  private readonly sightMark = new SightMark();
   private readonly sight: Sight;
   private readonly pointed: PointedAt;
   private readonly home: THREE.Vector3;
@@ -87,7 +89,7 @@ export class Theatre {
         this.light.setShadowPixels(side);
       },
     });
-    host.append(this.names.canvas);
+    host.append(this.names.canvas, this.sightMark.element);
   }
 
   get canvas(): HTMLCanvasElement {
@@ -194,8 +196,9 @@ export class Theatre {
     this.sight.lookFrom(view, this.tool);
   }
 
-  /** Turns the view about what it looks at [rad]. */
+  /** Turns the view about what it looks at [rad], and marks the middle for a moment. */
   orbit(rightRad: number, upRad: number): void {
+    this.sightMark.show();
     this.sight.orbit(rightRad, upRad);
   }
 
@@ -255,6 +258,7 @@ export class Theatre {
     });
     this.surface.dispose();
     this.names.canvas.remove();
+    this.sightMark.dispose();
   }
 }
 

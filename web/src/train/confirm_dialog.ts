@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A question with two answers, before what cannot be taken back.
-import { button, make } from "../dom";
+import { button, make, setText } from "../dom";
 
 export class ConfirmDialog {
   readonly element: HTMLDialogElement;
   private readonly yes: HTMLButtonElement;
+  private readonly note = make("p.confirm-note");
 
   constructor(title: string, text: string, yes: string, onYes: () => void, no = "Go on operating") {
     this.yes = button(
@@ -26,6 +27,7 @@ export class ConfirmDialog {
         "div",
         {},
         make("h2", { id }, title),
+        this.note,
         make("p", {}, text),
         make(
           "div.actions",
@@ -39,8 +41,10 @@ export class ConfirmDialog {
     );
   }
 
-  ask(): void {
+  /** @param note  what speaks against it now */
+  ask(note = ""): void {
     if (this.element.open) return;
+    setText(this.note, note);
     this.element.showModal();
     this.yes.focus();
   }

@@ -74,8 +74,7 @@ export class DriveControls {
       this.coarse,
       make("span.gap"),
       make("label.push", { for: "push" }, make("span", {}, "Push"), this.slider, this.reading),
-      this.reverse,
-      this.forward,
+      make("div.drive-ways", {}, this.reverse, this.forward),
     );
     this.showMode("tip");
   }

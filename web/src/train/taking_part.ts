@@ -8,6 +8,7 @@ import type { PageMessage } from "../protocol";
 import type { StartChoice } from "../start_dialog";
 import type { Hand } from "./hand";
 import type { Panels } from "./panels";
+import { openStepsText } from "./open_steps_model";
 import { Participation } from "./participation_model";
 import { lostText, waitingText, type WaitingOperation } from "./waiting_model";
 import type { WhatIsSeen } from "./what_is_seen";
@@ -26,6 +27,8 @@ export interface ExerciseRoom {
 export class TakingPart {
   private readonly part = new Participation();
   private pausedByHand = false;
+  /** Reading how to operate is no operating. */
+  private helpIsOpen = false;
   private waiting: WaitingOperation = { trainee: "", startedAt: "", isOwn: false };
   /** How far the operation had come when the connection was lost; until the host has told again. */
   private seenTick: number | undefined;
@@ -121,7 +124,7 @@ export class TakingPart {
 
   /** The host lets time pass again, unless the trainee had stopped it. */
   private goOn(): void {
-    this.room.tell({ type: "pause", on: this.pausedByHand });
+    this.room.tell({ type: "pause", on: this.pausedByHand || this.helpIsOpen });
   }
 
   togglePause(): void {
@@ -131,9 +134,19 @@ export class TakingPart {
     this.goOn();
   }
 
+  /** Time stands still while the help is read. */
+  showHelp(isOpen: boolean): void {
+    if (this.helpIsOpen === isOpen) return;
+    this.helpIsOpen = isOpen;
+    if (this.operates) this.goOn();
+  }
+
   /** Asks before the operation ends. */
   askToFinish(): void {
-    if (this.operates) this.room.panels.finishQuestion.ask();
+    if (!this.operates) return;
+    const { doing, latest } = this.room.seen;
+    const open = openStepsText(doing?.steps ?? [], latest?.completed_steps ?? []);
+    this.room.panels.finishQuestion.ask(open);
   }
 
   /** The operation was scored. */

@@ -32,7 +32,7 @@ export class TopBar {
   ) {
     setText(this.procedure, `${description.side} wrist`);
     this.pauseButton = button("Pause", "{KeyP}", handlers.pause, ".quiet");
-    this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet");
+    this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet.sound");
     const patient = make("span.patient", {}, description.pseudonym);
     if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
     const timing = make(
@@ -74,6 +74,8 @@ export class TopBar {
   /** Whether it is wished; a first gesture wakes it. */
   showSound(on: boolean): void {
     this.soundButton.setAttribute("aria-pressed", String(on));
+    const label = this.soundButton.firstChild;
+    if (label !== null) label.textContent = on ? "Sound" : "Sound off";
     this.soundButton.title = on ? "Motor, screw and C-arm are heard" : "Nothing is heard";
   }
 

@@ -65,6 +65,9 @@ export class TrainPage {
     this.sound = this.makeSound();
     this.actions = this.makeActions();
     this.gamepad = new GamepadHand(padRoom(this.panels, this.hand, this.actions, this.part));
+    this.panels.help.onOpen = (isOpen) => {
+      this.part.showHelp(isOpen);
+    };
     this.listenToKeys();
     followLayout(this.abort.signal);
     this.panels.start.setReady(false, "Connecting to the host…");
