@@ -72,8 +72,10 @@ export class TakingPart {
     this.part.ask();
     this.pausedByHand = false;
     this.room.seen.clearRecord();
-    this.room.panels.notice.say("Press ? for mouse and keys.");
+    this.room.panels.notice.say("Help (?) shows mouse, keys, touch and gamepad.");
     this.enter();
+    // Until the host has begun it, where the hand is belongs to the operation before.
+    this.room.hand.setEnabled(false);
   }
 
   resume(choice: StartChoice): void {
@@ -199,6 +201,7 @@ export class TakingPart {
         // Pictures of the exercise before may have come after the request.
         seen.forget();
         hand.reset();
+        hand.setEnabled(true);
         break;
       case "goes_on":
         this.seenTick = seen.latest?.tick;
