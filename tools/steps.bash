@@ -28,13 +28,13 @@ require_debian_12() {
     say "note: Carpus is built and tested on Debian 12; this is '${id:-unknown} ${version:-}'. Going on."
 }
 
-# build_targets PRESET TARGET...: configures the preset if that was never done or packages came since
-# (a library that was missing may be there now), then builds.
+# build_targets PRESET TARGET...: configures the preset if that was never done, or packages came since
+# (a library that was missing may be there now), or the presets changed; then builds.
 build_targets() {
   local preset=$1
   shift
   local configured=build/$preset/.configured
-  if [ ! -f "$configured" ] || [ /var/lib/dpkg/status -nt "$configured" ]; then
+  if [ ! -f "$configured" ] || [ /var/lib/dpkg/status -nt "$configured" ] || [ CMakePresets.json -nt "$configured" ]; then
     mkdir -p build
     cmake --preset "$preset" >"build/configure-$preset.log" 2>&1 || {
       tail -n 30 "build/configure-$preset.log" >&2
