@@ -104,6 +104,8 @@ class CutTissue {
   /// keeps distances from one tick to the next must look anew: bone has come back.
   bool undo() noexcept;
   [[nodiscard]] std::size_t checkpoint_count() const noexcept { return checkpoint_count_; }
+  /// There is nothing left to come back to.
+  void forget_checkpoints() noexcept { checkpoint_count_ = 0; }
 
   /// Adds the fingerprint of what is cut now: the same for the same bricks, however they came.
   void add_to(StateHash& hash) const noexcept { hash.add(fingerprint_); }

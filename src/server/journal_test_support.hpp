@@ -58,9 +58,10 @@ class ScriptedExercise {
     start_.journal->note_owner("first");
   }
 
-  /// One tick of an exercise of so many.
-  void step(Tick last) {
-    const simulation::Input input = scripted_input(start_.world.now(), last);
+  /// One tick of an exercise of so many. @param command  instead of the script's.
+  void step(Tick last, const simulation::Command& command = {}) {
+    simulation::Input input = scripted_input(start_.world.now(), last);
+    if (command.kind != simulation::CommandKind::None) input.command = command;
     start_.recorder.append(input);
     const simulation::Snapshot& now = start_.world.step(input);
     std::vector<protocol::LoggedEvent> events;

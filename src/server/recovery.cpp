@@ -34,18 +34,41 @@ std::string name_of(const JournaledExercise& exercise) {
          duration(exercise.recording.tick_count()) + " long";
 }
 
-/// A world where the journal ends, proved by its hash; or why there is none.
-Result<World> world_at_end(const cases::CaseData& data,
-                           const procedure::Procedure& procedure,
-                           const simulation::Recording& recording) {
-  World world(data, procedure, recording.seed);
-  const auto reached = simulation::seek(world, recording, recording.tick_count());
-  if (!reached) return Refusal{reached.error()};
-  if (world.now().state_hash != recording.end_hash) {
-    return Refusal{"its inputs do not lead to its state; it was recorded by " +
-                   recording.program_version};
+/// A world where a journal ends.
+struct WorldAtEnd {
+  World world;
+  std::size_t keyframes = 0;  ///< as many of the recording's first ones lead there
+};
+
+bool is_undone_after(const simulation::Recording& recording, Tick tick) {
+  Tick end = 0;
+  for (const simulation::InputRun& run : recording.runs) {
+    end += run.ticks;
+    if (end > tick && run.input.command.kind == simulation::CommandKind::Undo) return true;
   }
-  return world;
+  return false;
+}
+
+/// Proved by its hash; or why there is none. Where a keyframe is refused, or undo went back beyond
+/// it, an earlier one leads there, or the beginning: each try goes twice as far back.
+Result<WorldAtEnd> world_at_end(const cases::CaseData& data,
+                                const procedure::Procedure& procedure,
+                                const simulation::Recording& recording) {
+  WorldAtEnd end{World(data, procedure, recording.seed), recording.keyframes.size()};
+  for (std::size_t back = 1;; back *= 2) {
+    const auto reached =
+        simulation::seek(end.world, recording, recording.tick_count(), end.keyframes);
+    if (reached && end.world.now().state_hash == recording.end_hash) return end;
+    const bool can_try_again =
+        end.keyframes > 0 &&
+        (!reached || is_undone_after(recording, recording.keyframes[end.keyframes - 1].tick));
+    if (!can_try_again) {
+      return Refusal{reached ? "its inputs do not lead to its state; it was recorded by " +
+                                   recording.program_version
+                             : reached.error()};
+    }
+    end.keyframes -= std::min(end.keyframes, back);
+  }
 }
 
 simulation::Input last_input(const simulation::Recording& recording) {
@@ -65,6 +88,7 @@ simulation::Input input_after(const simulation::Recording& recording, Tick tick)
 /// The last pictures that were taken, oldest first: their ticks are stepped again.
 std::vector<TakenShot> last_pictures(World& world,
                                      const JournaledExercise& exercise,
+                                     std::size_t keyframes,
                                      std::size_t most) {
   std::vector<TakenShot> pictures;
   Tick before = 0;
@@ -73,7 +97,7 @@ std::vector<TakenShot> last_pictures(World& world,
     const auto tick = static_cast<Tick>(event->tick);
     if ((event->kind != "shot_taken" && event->kind != "live_ended") || tick == 0) continue;
     if (std::exchange(before, tick) == tick) continue;
-    if (!simulation::seek(world, exercise.recording, tick - 1)) break;
+    if (!simulation::seek(world, exercise.recording, tick - 1, keyframes)) break;
     const simulation::Input input = input_after(exercise.recording, tick - 1);
     const auto taken =
         pictures_of(world.procedure(), EventfulTick{input.command, world.step(input)});
@@ -105,6 +129,22 @@ AttemptLeftBehind stored_as_it_is(Readable&& readable,
   return left;
 }
 
+/// One tick in which nobody does anything and both worlds forget what undo would go back to: a
+/// keyframe did not bring that, so whoever replays from the beginning must not have it either.
+/// @return the hash after it.
+std::uint64_t forget_checkpoints(simulation::Input input,
+                                 World& world,
+                                 World& shadow,
+                                 simulation::Recording& recording) {
+  for (simulation::HandInput& hand : input.hands) hand.driver = simulation::Driver::Off;
+  input.c_arm.pedal_is_down = false;
+  input.command = {simulation::CommandKind::ForgetCheckpoints};
+  world.step(input);
+  shadow.step(input);
+  recording.runs.push_back({input, 1});
+  return shadow.now().state_hash;
+}
+
 ResumedExercise gone_on_with(Readable&& readable,
                              const procedure::Procedure& procedure,
                              World&& world,
@@ -113,6 +153,7 @@ ResumedExercise gone_on_with(Readable&& readable,
   JournaledExercise& exercise = readable.exercise;
   const Tick tick = exercise.recording.tick_count();
   const simulation::Input last = last_input(exercise.recording);
+  const std::uint64_t hash = forget_checkpoints(last, world, shadow, exercise.recording);
   ExerciseSetup setup;
   setup.trainee = exercise.head.trainee;
   setup.input_device = exercise.head.input_device;
@@ -124,9 +165,12 @@ ResumedExercise gone_on_with(Readable&& readable,
   // In the log, so that it is shown, and stored with the attempt.
   const std::vector<protocol::LoggedEvent> event{
       {static_cast<std::int64_t>(tick), "station_restarted",
-       "The station was started again; at most the second before this is lost."}};
+       "The station was started again; at most the second before this is lost, and undo does not "
+       "reach back before it."}};
   exercise.log.push_back(event.front());
   journal->append(event);
+  journal->append(last_input(exercise.recording));
+  journal->hand_over_now(hash);
   return {std::move(setup),
           {exercise.head.origin, exercise.head.started_at, std::move(world), std::move(shadow),
            simulation::Recorder(std::move(exercise.recording)), std::move(exercise.log),
@@ -202,10 +246,12 @@ LeftBehind look_for_what_was_left(const cases::CaseData& data,
     if (recording.case_fingerprint != case_fingerprint) why = "it was made on another case";
     if (procedure == nullptr) why = "there is no procedure '" + recording.procedure + "' here";
     std::optional<World> world;
+    std::size_t keyframes = 0;
     if (why.empty()) {
       auto reached = world_at_end(data, *procedure, recording);
       if (reached) {
-        world.emplace(std::move(reached.value()));
+        world.emplace(std::move(reached.value().world));
+        keyframes = reached->keyframes;
       } else {
         why = reached.error();
       }
@@ -218,8 +264,8 @@ LeftBehind look_for_what_was_left(const cases::CaseData& data,
       continue;
     }
     World shadow(data, *procedure, recording.seed);
-    auto pictures = last_pictures(shadow, each.exercise, shots);
-    if (!simulation::seek(shadow, recording, recording.tick_count())) continue;
+    auto pictures = last_pictures(shadow, each.exercise, keyframes, shots);
+    if (!simulation::seek(shadow, recording, recording.tick_count(), keyframes)) continue;
     left.words.push_back(name +
                          ", goes on where the station was stopped; at most its last second "
                          "is lost");

@@ -66,9 +66,9 @@ TEST_F(RecoveryTest, AnExerciseStandsWhereItsJournalEnds) {
   ASSERT_EQ(left.words.size(), 1U);
   EXPECT_THAT(left.words[0], HasSubstr("12 s long, goes on"));
   const ExerciseStart& start = left.running->start;
-  EXPECT_EQ(start.world.now().tick, 12'345U);
+  EXPECT_EQ(start.world.now().tick, 12'346U) << "with one tick in which nobody does anything";
   EXPECT_EQ(start.shadow.now().state_hash, start.world.now().state_hash);
-  EXPECT_EQ(start.recorder.tick(), 12'345U);
+  EXPECT_EQ(start.recorder.tick(), 12'346U);
   EXPECT_EQ(start.origin, origin);
   EXPECT_EQ(start.log.back().kind, "station_restarted");
   EXPECT_TRUE(start.paused);
@@ -82,28 +82,73 @@ TEST_F(RecoveryTest, AnExerciseStandsWhereItsJournalEnds) {
   EXPECT_THAT(look().running, ::testing::IsNull()) << "it is in use now";
 }
 
+/// Goes on for so many ticks, as a station does.
+void go_on(ExerciseStart& start, int ticks, const simulation::Command& first = {}) {
+  for (int i = 0; i < ticks; ++i) {
+    auto input = testing::scripted_input(start.world.now(), 0);
+    if (i == 0 && first.kind != simulation::CommandKind::None) input.command = first;
+    start.recorder.append(input);
+    start.world.step(input);
+    start.journal->append(input);
+    start.journal->hand_over(start.world.now().state_hash);
+  }
+  start.journal->hand_over_now(start.world.now().state_hash);
+  EXPECT_TRUE(start.journal->wait_until_safe(10s));
+}
+
+/// Whether the inputs lead from the beginning to where the world is.
+bool replays(const ExerciseStart& start) {
+  return simulation::replay(wrist(), exercise(),
+                            start.recorder.finished(start.world.now().state_hash))
+      .hash_matches;
+}
+
 TEST_F(RecoveryTest, WhatWasGoneOnWithCanBeLeftAgain) {
   const std::string origin = leave(10'400);
-  for (const Tick expected : {Tick{10'400}, Tick{10'900}, Tick{11'400}}) {
+  for (const Tick expected : {Tick{10'401}, Tick{10'902}, Tick{11'403}}) {
     LeftBehind left = look();
     ASSERT_NE(left.running, nullptr);
-    ExerciseStart& start = left.running->start;
-    ASSERT_EQ(start.world.now().tick, expected);
-    for (int i = 0; i < 500; ++i) {
-      const auto input = testing::scripted_input(start.world.now(), 0);
-      start.world.step(input);
-      start.journal->append(input);
-      start.journal->hand_over(start.world.now().state_hash);
-    }
-    start.journal->hand_over_now(start.world.now().state_hash);
-    EXPECT_TRUE(start.journal->wait_until_safe(10s));
+    ASSERT_EQ(left.running->start.world.now().tick, expected);
+    go_on(left.running->start, 500);
+    EXPECT_TRUE(replays(left.running->start));
   }
-  // The same inputs without any interruption.
-  ScriptedExercise whole(folder_ / "other.sqlite");
-  for (int i = 0; i < 11'900; ++i) whole.step(0);
+}
+
+const simulation::Command kTake = simulation::test::take("probe", 1);
+const simulation::Command kUndo = {simulation::CommandKind::Undo};
+
+TEST_F(RecoveryTest, UndoThatWentBackBeyondAKeyframeIsFollowed) {
+  ScriptedExercise left_running(records_);
+  // Something is done before the keyframe of 10 s, the next of 20 s, and undone after it.
+  for (Tick i = 0; i < 21'000; ++i) {
+    left_running.step(0, i == 9000 ? kTake : (i == 20'500 ? kUndo : simulation::Command{}));
+  }
+  EXPECT_EQ(left_running.now().undos, 1U);
+  (void)left_running.end();
+  EXPECT_TRUE(left_running.journal().wait_until_safe(10s));
+  left_running.take_journal().reset();
+  const LeftBehind left = look();
+  ASSERT_NE(left.running, nullptr) << left.words[0];
+  EXPECT_EQ(left.running->start.world.now().tick, 21'001U);
+  EXPECT_TRUE(replays(left.running->start));
+}
+
+TEST_F(RecoveryTest, UndoDoesNotReachBackBeforeTheStationWasStartedAgain) {
+  ScriptedExercise left_running(records_);
+  for (Tick i = 0; i < 10'500; ++i) left_running.step(0, i == 9000 ? kTake : simulation::Command{});
+  EXPECT_TRUE(left_running.now().can_undo);
+  (void)left_running.end();
+  EXPECT_TRUE(left_running.journal().wait_until_safe(10s));
+  left_running.take_journal().reset();
   LeftBehind left = look();
   ASSERT_NE(left.running, nullptr);
-  EXPECT_EQ(left.running->start.world.now().state_hash, whole.now().state_hash);
+  ExerciseStart& start = left.running->start;
+  EXPECT_FALSE(start.world.now().can_undo);
+  EXPECT_THAT(start.log.back().text, HasSubstr("undo does not reach back"));
+  // Asked for nevertheless it is refused, now and in a replay from the beginning.
+  go_on(start, 100, kUndo);
+  EXPECT_EQ(start.world.now().undos, 0U);
+  EXPECT_TRUE(replays(start));
 }
 
 TEST_F(RecoveryTest, WhatIsStoredAlreadyIsNotStoredTwice) {

@@ -32,8 +32,9 @@ enum class CommandKind : std::uint8_t {
   ReadGauge = 5,  ///< the gauge in `hand` is read
   Undo = 6,       ///< back to the last checkpoint; counted, time and shots stay spent
   Finish = 7,     ///< end the operation
+  ForgetCheckpoints = 8,  ///< a host went on from a keyframe: undo does not reach back before now
 };
-inline constexpr std::uint8_t kCommandKinds = 8;
+inline constexpr std::uint8_t kCommandKinds = 9;
 
 struct Command {
   CommandKind kind = CommandKind::None;

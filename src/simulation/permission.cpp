@@ -127,6 +127,7 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::Undo:
       return now.can_undo ? Refusal::None : Refusal::NothingToUndo;
     case CommandKind::Finish:
+    case CommandKind::ForgetCheckpoints:
       return Refusal::None;
   }
   return Refusal::UnknownCommand;

@@ -439,10 +439,10 @@ procedure::ScoreReport score_recording(const cases::CaseData& data,
   return procedure.score(data, replay(data, procedure, recording).record);
 }
 
-Result<bool> seek(World& world, const Recording& recording, Tick tick) {
+Result<bool> seek(World& world, const Recording& recording, Tick tick, std::size_t most_keyframes) {
   const Keyframe* nearest = nullptr;
-  for (const Keyframe& keyframe : recording.keyframes) {
-    if (keyframe.tick <= tick) nearest = &keyframe;
+  for (std::size_t i = 0; i < std::min(recording.keyframes.size(), most_keyframes); ++i) {
+    if (recording.keyframes[i].tick <= tick) nearest = &recording.keyframes[i];
   }
   Tick at = 0;
   if (nearest != nullptr) {

@@ -148,7 +148,13 @@ struct Replay {
                                                      const Recording& recording);
 
 /// Brings a world to the state after `tick` (at most the last one): from the nearest keyframe
-/// before it, or from the beginning. Refuses a keyframe that does not fit.
-[[nodiscard]] Result<bool> seek(World& world, const Recording& recording, Tick tick);
+/// before it, or from the beginning. Refuses a keyframe that does not fit. A keyframe does not know
+/// what undo would go back to: where one after it goes back beyond it, the state is another, which
+/// its hash tells.
+/// @param most_keyframes  only the first so many are used.
+[[nodiscard]] Result<bool> seek(World& world,
+                                const Recording& recording,
+                                Tick tick,
+                                std::size_t most_keyframes = SIZE_MAX);
 
 }  // namespace carpus::simulation

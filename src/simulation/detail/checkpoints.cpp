@@ -20,6 +20,11 @@ void World::State::save_checkpoint() noexcept {
   tissue.cuts().checkpoint();
 }
 
+void World::State::forget_checkpoints() noexcept {
+  checkpoint_count = 0;
+  tissue.cuts().forget_checkpoints();
+}
+
 void World::State::undo(const Model& model) noexcept {
   --checkpoint_count;
   now = checkpoints[checkpoint_count];

@@ -36,6 +36,8 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::Finish:
       is_finishing = true;
       return;
+    case CommandKind::ForgetCheckpoints:
+      return forget_checkpoints();
   }
 }
 

@@ -68,6 +68,7 @@ struct World::State {
 
   // checkpoints.cpp
   void save_checkpoint() noexcept;
+  void forget_checkpoints() noexcept;
   void undo(const Model& model) noexcept;
 
   // commands.cpp
