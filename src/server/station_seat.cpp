@@ -30,7 +30,11 @@ void Station::greet(const std::shared_ptr<PageConnection>& page, const protocol:
   }
   const auto before = std::exchange(operator_, page);
   if (before == page) return welcome();
-  if (before) before->close();
+  if (before) {
+    before->close();
+    // What it held is its own: whoever goes on finds driver and pedal let go.
+    if (exercise_) exercise_->loop().hold(exercise_->session().let_go());
+  }
   if (before && operator_owns_) left_at_ = steady_clock::now();
   asked_meanwhile_.clear();
   operator_word_ = hello.page;

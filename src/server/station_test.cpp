@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -414,6 +415,90 @@ TEST_F(StationTest, PageThatComesBackBeforeItsOldConnectionIsKnownDeadGetsItsSea
   EXPECT_TRUE(page->wait_until_closed());
   twin.send(kGoOn);
   (void)wait_for_snapshot(twin, [](const Json& s) { return !s["paused"] && s["tick"] > 20; });
+}
+
+constexpr const char* kPedalDown = R"({"type":"pedal","down":true})";
+constexpr const char* kDrill =
+    R"({"type":"hand","sequence":2,"hand":0,"tip_mm":[40,40,40],"shaft":[0,0.6,0.8],)"
+    R"("thrust_n":5,"driver":"forward","guidance":"direct"})";
+
+/// The inputs of the attempt that is stored when it is finished now.
+std::vector<simulation::InputRun> inputs_at_the_end(PageClient& page,
+                                                    records::AttemptKeeper& records) {
+  page.send(R"({"type":"act","id":"finish"})");
+  (void)page.wait_for_type("score");
+  const auto attempt = records.find(1);
+  const auto decoded = simulation::decode(attempt ? attempt->recording : std::vector<std::byte>{});
+  EXPECT_TRUE(decoded.has_value());
+  return decoded ? decoded->runs : std::vector<simulation::InputRun>{};
+}
+
+TEST_F(StationTest, PedalOfAPageThatDisappearsIsUpWhenItComesBack) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->send(kPedalDown);
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["c_arm"]["live"] == true; });
+  page->vanish();
+  PageClient again(port());
+  (void)say_hello(again, kHello, "welcome");
+  again.send(kGoOn);
+  const Json before = wait_for_snapshot(again, [](const Json& s) { return !s["paused"]; });
+  const Json after = wait_for_snapshot(
+      again, [&](const Json& s) { return s["tick"] > before["tick"].get<int>() + 100; });
+  EXPECT_EQ(after["c_arm"]["live"], false);
+}
+
+TEST_F(StationTest, WhatAPageHeldWhoseSeatIsTakenOverIsLetGo) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  page->send(kDrill);
+  page->send(kPedalDown);
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["c_arm"]["live"] == true; });
+  // It falls silent with its connection open; it comes again by another.
+  PageClient twin(port());
+  (void)say_hello(twin, kHello, "welcome");
+  twin.send(kGoOn);
+  const Json before = wait_for_snapshot(twin, [](const Json& s) { return !s["paused"]; });
+  (void)wait_for_snapshot(
+      twin, [&](const Json& s) { return s["tick"] > before["tick"].get<int>() + 20; });
+  const auto runs = inputs_at_the_end(twin, *records_);
+  ASSERT_FALSE(runs.empty());
+  Tick end = 0;
+  for (const simulation::InputRun& run : runs) {
+    end += run.ticks;
+    if (end <= before["tick"].get<Tick>() + 5) continue;
+    EXPECT_FALSE(run.input.c_arm.pedal_is_down) << "tick " << end;
+    EXPECT_EQ(run.input.hands[0].driver, simulation::Driver::Off) << "tick " << end;
+  }
+}
+
+TEST_F(StationTest, PagesThatFightOverAHandLeaveItToWhoHasTheSeat) {
+  auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
+  const auto hand_at = [](int x) {
+    return R"({"type":"hand","sequence":9,"hand":1,"tip_mm":[)" + std::to_string(x) +
+           R"(,50,60],"shaft":[0,0,1],"thrust_n":0,"driver":"off","guidance":"direct"})";
+  };
+  // A stranger, and a second window that says the same word.
+  PageClient stranger(port());
+  stranger.send(kSecondHello);
+  EXPECT_THAT(stranger.wait_for_type("busy"), HasSubstr("Another page"));
+  PageClient twin(port());
+  for (int i = 0; i < 100; ++i) {
+    page->send(hand_at(11));
+    stranger.send(hand_at(22));
+    twin.send(kHello);
+    twin.send(hand_at(33));
+    // Its pings must be answered, or it would lose its seat by silence.
+    (void)page->wait_for([](const auto&) { return false; }, 5ms);
+  }
+  EXPECT_THAT(stranger.wait_for_type("error"), HasSubstr("does not operate"));
+  EXPECT_THAT(twin.wait_for_type("busy"), HasSubstr("Another page"));
+  EXPECT_TRUE(page->is_connected());
+  for (const simulation::InputRun& run : inputs_at_the_end(*page, *records_)) {
+    const double x = run.input.hands[1].tip_in_patient.x;
+    EXPECT_TRUE(std::abs(x - 22) > 1e-3 && std::abs(x - 33) > 1e-3) << x;
+  }
 }
 
 class ImpatientStationTest : public StationTest {
