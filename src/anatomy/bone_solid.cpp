@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "anatomy/detail/outline.hpp"
 #include "core/error.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/trilinear.hpp"
@@ -173,18 +174,25 @@ BoneSolid::BoneSolid(std::span<const MeshIn<frame::Bone>* const> fragments) {
   const Grid<float> depth = imaging::distance_to_background(closed_.view());
   for (std::size_t own = 0; own < fragments_.size(); ++own) {
     const TriangleMesh& mesh = fragments_[own];
+    const auto first = static_cast<std::uint32_t>(outer_surface_.vertices.size());
+    outer_surface_.vertices.insert(outer_surface_.vertices.end(), mesh.vertices.begin(),
+                                   mesh.vertices.end());
     std::vector<SurfaceSample> samples;
     for (const Triangle& f : mesh.facets) {
+      samples.clear();
       sample_triangle(mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]], samples);
-    }
-    for (const SurfaceSample& sample : samples) {
-      const Vec3 v = closed_.geometry().voxel_from_patient(sample.point);
-      const VoxelIndex nearest{static_cast<int>(std::lround(v.x)),
-                               static_cast<int>(std::lround(v.y)),
-                               static_cast<int>(std::lround(v.z))};
-      if (depth[nearest] <= kFaceDepthMm && !faces_another(sample, own, masks)) {
-        outer_points_.push_back({sample.point, sample.area_mm2});
+      bool is_outer = false;
+      for (const SurfaceSample& sample : samples) {
+        const Vec3 v = closed_.geometry().voxel_from_patient(sample.point);
+        const VoxelIndex nearest{static_cast<int>(std::lround(v.x)),
+                                 static_cast<int>(std::lround(v.y)),
+                                 static_cast<int>(std::lround(v.z))};
+        if (depth[nearest] <= kFaceDepthMm && !faces_another(sample, own, masks)) {
+          outer_points_.push_back({sample.point, sample.area_mm2});
+          is_outer = true;
+        }
       }
+      if (is_outer) outer_surface_.facets.push_back({first + f[0], first + f[1], first + f[2]});
     }
   }
 }
@@ -231,7 +239,26 @@ double BoneSolid::way_inside_mm(const Vec3& point, const Vec3& direction) const 
   return chord && chord->leave_mm > 0.0 ? chord->leave_mm : 0.0;
 }
 
-double BoneSolid::section_area_mm2(const Vec3& point, const Vec3& normal) const {
+bool BoneSolid::encloses(const Vec3& point) const noexcept {
+  // Any direction will do; this one runs along no axis in which meshes have their edges.
+  const Vec3 direction = normalized_or({0.5377, 0.6211, 0.5702}, {0, 0, 1});
+  for (const TriangleMesh& mesh : fragments_) {
+    LineIntervals found;
+    append_intervals(mesh, point, direction, found);
+    for (const LineInterval& interval : found.all()) {
+      if (interval.enter_mm <= 0.0 && interval.leave_mm >= 0.0) return true;
+    }
+  }
+  return fragments_.size() > 1 && contains(point);
+}
+
+BoneSection BoneSolid::section_at(const Vec3& point, const Vec3& normal) const {
+  if (fragments_.size() == 1) return detail::outline_around(fragments_.front(), point, normal);
+  return section_with_gap(point, normal);
+}
+
+/// By the voxels: the part that is connected with the point.
+BoneSection BoneSolid::section_with_gap(const Vec3& point, const Vec3& normal) const {
   constexpr double kStepMm = 0.25;
   constexpr int kHalf = 72;  // 18 mm to each side: wider than any scaphoid
   constexpr int kWidth = 2 * kHalf + 1;
@@ -240,7 +267,7 @@ double BoneSolid::section_area_mm2(const Vec3& point, const Vec3& normal) const 
   const auto inside = [&](int i, int j) {
     return contains(point + a * ((i - kHalf) * kStepMm) + b * ((j - kHalf) * kStepMm));
   };
-  if (!inside(kHalf, kHalf)) return 0.0;
+  if (!inside(kHalf, kHalf)) return {};
   std::vector<std::uint8_t> seen(static_cast<std::size_t>(kWidth) * kWidth, 0);
   std::vector<std::pair<int, int>> stack;
   const auto visit = [&](int i, int j) {
@@ -252,16 +279,19 @@ double BoneSolid::section_area_mm2(const Vec3& point, const Vec3& normal) const 
   };
   visit(kHalf, kHalf);
   std::size_t count = 0;
+  Vec3 sum;
   while (!stack.empty()) {
     const auto [i, j] = stack.back();
     stack.pop_back();
     ++count;
+    sum += a * ((i - kHalf) * kStepMm) + b * ((j - kHalf) * kStepMm);
     visit(i + 1, j);
     visit(i - 1, j);
     visit(i, j + 1);
     visit(i, j - 1);
   }
-  return static_cast<double>(count) * kStepMm * kStepMm;
+  const auto cells = static_cast<double>(count);
+  return {cells * kStepMm * kStepMm, point + sum / cells};
 }
 
 }  // namespace carpus

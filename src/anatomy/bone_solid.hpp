@@ -49,6 +49,12 @@ struct OuterPoint {
   double area_mm2 = 0.0;  ///< of the surface that it stands for
 };
 
+/// Where a plane cuts a bone.
+struct BoneSection {
+  double area_mm2 = 0.0;  ///< 0: it cuts nothing there
+  Vec3 centroid;
+};
+
 /// A bone from the surfaces of its fragments. Built once (about 0.1 s); queries do not allocate but
 /// where they return a vector.
 class BoneSolid {
@@ -80,17 +86,28 @@ class BoneSolid {
   /// over the surface. A line that crosses it more than 64 times is followed that far.
   [[nodiscard]] double way_inside_mm(const Vec3& point, const Vec3& direction) const noexcept;
 
-  /// Area [mm^2] of the connected part, around `point`, of the section with the plane through
-  /// `point` perpendicular to `normal`, gap included.
-  [[nodiscard]] double section_area_mm2(const Vec3& point, const Vec3& normal) const;
+  /// True inside a fragment's surface, decided by its triangles, or in the bridged gap.
+  [[nodiscard]] bool encloses(const Vec3& point) const noexcept;
+
+  [[nodiscard]] bool is_whole() const noexcept { return fragments_.size() == 1; }
+
+  /// The fragments' facets without fracture faces, in one.
+  [[nodiscard]] const TriangleMesh& outer_surface() const noexcept { return outer_surface_; }
+
+  /// The section with the plane through `point` perpendicular to `normal` (unit vector): its part
+  /// around the point. Of a whole bone from its triangles, of a broken one by voxels, gap included;
+  /// then it is empty where the point is outside.
+  [[nodiscard]] BoneSection section_at(const Vec3& point, const Vec3& normal) const;
 
  private:
+  [[nodiscard]] BoneSection section_with_gap(const Vec3& point, const Vec3& normal) const;
   [[nodiscard]] LineIntervals merged_intervals(const Vec3& point,
                                                const Vec3& direction) const noexcept;
 
   std::vector<TriangleMesh> fragments_;
   Grid<std::uint8_t> closed_;  ///< 1 inside
   std::vector<OuterPoint> outer_points_;
+  TriangleMesh outer_surface_;
 };
 
 }  // namespace carpus

@@ -259,7 +259,7 @@ Vec3 find_waist(const BoneSolid& bone, const BoneLine& axis) {
   const auto share = [](double i) { return 0.2 + 0.6 * i / (kSections - 1); };
   for (int i = 0; i < kSections; ++i) {
     area[static_cast<std::size_t>(i)] =
-        bone.section_area_mm2(axis.start + along * share(i), direction);
+        bone.section_at(axis.start + along * share(i), direction).area_mm2;
   }
   const auto narrowest =
       static_cast<std::size_t>(std::min_element(area.begin() + 1, area.end() - 1) - area.begin());

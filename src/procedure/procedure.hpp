@@ -20,6 +20,7 @@
 #include "instruments/instrument.hpp"
 #include "procedure/operation_record.hpp"
 #include "procedure/score.hpp"
+#include "procedure/score_rules.hpp"
 #include "procedure/situation.hpp"
 
 namespace carpus::procedure {
@@ -56,6 +57,7 @@ struct Opening {
   WristPose wrist;
   Vec3 tip_in_target;             ///< where the first hand waits, outside all tissue [mm]
   Vec3 shaft_in_target{0, 0, 1};  ///< unit, towards the hand
+  Aim aim;                        ///< what the operation is after on this case
 };
 
 struct Procedure {
@@ -68,6 +70,7 @@ struct Procedure {
                                                    ///< the first hand at the beginning
   std::vector<Step> steps;                         ///< at most kMaxSteps
   std::vector<NamedView> views;
+  ScoreRules rules;
   /// @throws InvalidInput when it cannot be done on this case, saying why.
   Opening (*opening)(const cases::CaseData& data) = nullptr;
   ScoreReport (*score)(const cases::CaseData& data, const OperationRecord& record) = nullptr;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/json_fields.hpp"
+#include "procedure/detail/read_score_rules.hpp"
 #include "procedure/procedure.hpp"
 
 namespace carpus::procedure {
@@ -137,6 +138,7 @@ Procedure read_procedure(std::string_view json,
                   std::to_string(kMaxSteps));
   }
   for (JsonFields& entry : fields.objects("views")) procedure.views.push_back(read_view(entry));
+  procedure.rules = detail::read_score_rules(fields);
   refuse_twins(fields, "steps", procedure.steps);
   refuse_twins(fields, "views", procedure.views);
   fields.refuse_unknown_fields();

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace carpus::procedure {
 
@@ -12,6 +13,18 @@ std::string_view name_of(Grade grade) noexcept {
                                                           "not_measured"};
   const auto index = static_cast<std::size_t>(grade);
   return index < kNames.size() ? kNames[index] : std::string_view{"unknown"};
+}
+
+ScoreReport locked_where_void(ScoreReport report) {
+  std::vector<MustHave> missing;
+  for (const MustHave& must : report.must_haves) {
+    if (must.opens_truth && !must.fulfilled) missing.push_back(must);
+  }
+  if (missing.empty()) return report;
+  ScoreReport locked;
+  locked.must_haves = std::move(missing);
+  locked.is_void = true;
+  return locked;
 }
 
 }  // namespace carpus::procedure

@@ -37,6 +37,7 @@ struct MustHave {
   std::string id;
   std::string label;
   bool fulfilled = false;
+  bool opens_truth = false;  ///< without it an assessed operation is void
 };
 
 /// A straight line in frame Bone of the target, which is Patient as scanned [mm].
@@ -59,6 +60,7 @@ struct PlacementPicture {
 struct ScoreReport {
   double overall = 0.0;  ///< 0 to 100, sum of the items' points
   bool is_fixation_acceptable = false;
+  bool is_void = false;  ///< assessed, and there was nothing to assess
   std::vector<MustHave> must_haves;
   std::vector<ScoreItem> items;
 
@@ -75,5 +77,9 @@ struct ScoreReport {
   std::string penetration_at;  ///< "proximal", "distal", "side" or empty; with the bone reached
   PlacementPicture placement;
 };
+
+/// An assessed operation may not buy the truth of a case by ending early: where a must-have that
+/// opens it is not fulfilled, only that is told.
+[[nodiscard]] ScoreReport locked_where_void(ScoreReport report);
 
 }  // namespace carpus::procedure

@@ -42,8 +42,10 @@ struct Shot {
                               ///< 0 PA, 90 lateral, 45 pronated oblique
   double tilt_deg = 0.0;      ///< towards proximal (positive) or distal
   Tick tick = 0;
-  std::uint32_t completed_steps = 0;  ///< bit i: step i was done when it was taken
   WristPose wrist;
+  bool shows_wire = false;   ///< a wire lay in the target then
+  bool shows_screw = false;  ///< a screw was seated in the target
+  double along_aim = 0.0;    ///< |cos| between beam and the aim's line: 1 looks down it, the ring
   Look look = Look::Single;
   std::uint32_t pulses = kPulsesPerShot;
   bool operator==(const Shot&) const = default;
@@ -72,6 +74,15 @@ struct HandFacts {
   bool operator==(const HandFacts&) const = default;
 };
 
+/// The line that a procedure is after on a case, frame Bone of the target [mm]. Steps are told by
+/// it and practice shows it; the score measures by itself.
+struct Aim {
+  Vec3 entry;                    ///< where an instrument should go in
+  Vec3 direction{0, 0, 1};       ///< unit, into the bone
+  double length_mm = 0.0;        ///< of the longest way through the bone
+  double entry_within_mm = 0.0;  ///< of `entry` an entry is right
+};
+
 /// Everything so far; spans live as long as the call. Predicates are noexcept, allocate nothing and
 /// use only + - * / and sqrt: they run in every tick.
 struct Situation {
@@ -79,13 +90,15 @@ struct Situation {
   std::array<HandFacts, kHands> hands{};
   std::span<const LineFacts> lines;  ///< in the order in which they were laid
   std::span<const Shot> shots;
+  /// Of these, those since the step before the one that is asked for was last completed.
+  std::span<const Shot> recent_shots;
   std::uint32_t completed_steps = 0;
-  /// Number of shots when step i was last completed.
-  std::array<std::uint16_t, kMaxSteps> shots_at_completion{};
-  /// Last one; -1 before any, and again once no wire lies in the target: what was read is gone.
+  /// Last one; -1 before any, and again once neither wire nor screw lies in the target: what was
+  /// read is gone.
   double gauge_reading_mm = -1.0;
   double reamed_mm = 0.0;  ///< greatest depth of a reamer along its wire, from the entry
   WristPose wrist;
+  Aim aim;
   bool is_finishing = false;  ///< this is the tick of Finish
 };
 

@@ -39,6 +39,8 @@ std::string_view text_of(simulation::Refusal refusal) noexcept {
       return "The depth gauge must be in the hand, over a wire";
     case Refusal::NothingToUndo:
       return "Nothing to undo";
+    case Refusal::NoUndoWhenAssessed:
+      return "In an assessed operation nothing is taken back, as with a patient";
   }
   return "That is not possible now";
 }

@@ -90,7 +90,7 @@ inline bool is_driven(const procedure::Situation& now) noexcept {
   return false;
 }
 inline bool has_looked_since(const procedure::Situation& now) noexcept {
-  return (now.completed_steps & 2U) != 0 && now.shots.size() > now.shots_at_completion[1];
+  return (now.completed_steps & 2U) != 0 && !now.recent_shots.empty();
 }
 inline bool is_measured(const procedure::Situation& now) noexcept {
   return now.gauge_reading_mm >= 0;

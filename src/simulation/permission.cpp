@@ -125,6 +125,7 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::ReadGauge:
       return why_not_read(now, command);
     case CommandKind::Undo:
+      if (now.mode == procedure::Mode::Assessed) return Refusal::NoUndoWhenAssessed;
       return now.can_undo ? Refusal::None : Refusal::NothingToUndo;
     case CommandKind::Finish:
     case CommandKind::ForgetCheckpoints:
@@ -134,7 +135,7 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 16> kNames{"none",
+  static constexpr std::array<std::string_view, 17> kNames{"none",
                                                            "finished",
                                                            "unknown_command",
                                                            "no_such_hand",
@@ -149,7 +150,8 @@ std::string_view name_of(Refusal refusal) noexcept {
                                                            "nothing_there",
                                                            "something_rides_on_it",
                                                            "no_gauge_in_hand",
-                                                           "nothing_to_undo"};
+                                                           "nothing_to_undo",
+                                                           "no_undo_when_assessed"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

@@ -33,6 +33,7 @@ enum class Refusal : std::uint8_t {
   SomethingRidesOnIt,
   NoGaugeInHand,
   NothingToUndo,
+  NoUndoWhenAssessed,
 };
 
 /// Plain comparisons on what the last tick left: real-time.

@@ -290,10 +290,12 @@ std::uint64_t Recording::tick_count() const noexcept {
 Recorder::Recorder(std::string program_version,
                    std::uint64_t case_fingerprint,
                    const procedure::Procedure& procedure,
-                   std::uint64_t seed) {
+                   std::uint64_t seed,
+                   procedure::Mode mode) {
   recording_.program_version = std::move(program_version);
   recording_.case_fingerprint = case_fingerprint;
   recording_.procedure = procedure.id;
+  recording_.mode = mode;
   recording_.seed = seed;
   for (const instruments::Instrument& instrument : instruments::catalogue()) {
     recording_.instruments.push_back(instrument.id);
@@ -354,6 +356,7 @@ std::vector<std::byte> encode(const Recording& recording) {
   out.put(recording.program_version);
   out.put(recording.case_fingerprint, 8);
   out.put(recording.procedure);
+  out.put(static_cast<std::uint64_t>(recording.mode), 1);
   out.put(recording.seed, 8);
   out.put(recording.instruments.size(), 2);
   for (const std::string& id : recording.instruments) out.put(id);
@@ -385,11 +388,12 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   }
   const auto format = in.get(2);
   if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
-  if (format == 1 || format == 2) {
-    return carpus::Refusal{
-        "recording: format " + std::to_string(format) +
-        (format == 1 ? ", of a wrist that did not move" : ", of a C-arm without a pedal") +
-        "; it cannot be replayed, its stored score can be shown"};
+  if (format >= 1 && format <= 3) {
+    return carpus::Refusal{"recording: format " + std::to_string(format) +
+                           (format == 1   ? ", of a wrist that did not move"
+                            : format == 2 ? ", of a C-arm without a pedal"
+                                          : ", of a world that knew one way to operate") +
+                           "; it cannot be replayed, its stored score can be shown"};
   }
   if (format != kRecordingFormat) {
     return carpus::Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
@@ -399,6 +403,9 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   recording.program_version = in.get_text();
   recording.case_fingerprint = in.get(8);
   recording.procedure = in.get_text();
+  const auto mode = in.get(1);
+  if (mode >= procedure::kModeCount) return carpus::Refusal{"recording: unknown way to operate"};
+  recording.mode = static_cast<procedure::Mode>(mode);
   recording.seed = in.get(8);
   std::string reason = get_instruments(in, recording.instruments);
   if (reason.empty()) reason = get_runs(in, bytes.size(), false, recording.runs);
@@ -421,7 +428,7 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
 Replay replay(const cases::CaseData& data,
               const procedure::Procedure& procedure,
               const Recording& recording) {
-  World world(data, procedure, recording.seed);
+  World world(data, procedure, recording.seed, recording.mode);
   for (const InputRun& run : recording.runs) {
     for (std::uint32_t i = 0; i < run.ticks; ++i) world.step(run.input);
   }
@@ -453,7 +460,7 @@ Result<bool> seek(World& world, const Recording& recording, Tick tick, std::size
       return carpus::Refusal{"recording: a keyframe is not of the tick that it names"};
     }
   } else {
-    world = World(world.case_data(), world.procedure(), recording.seed);
+    world = World(world.case_data(), world.procedure(), recording.seed, recording.mode);
   }
   Tick begin = 0;
   for (const InputRun& run : recording.runs) {

@@ -28,9 +28,9 @@
 
 namespace carpus::simulation {
 
-/// 1 was of a world of one wire, 2 of a C-arm without a pedal; such recordings show their stored
-/// score only.
-inline constexpr std::uint16_t kRecordingFormat = 3;
+/// 1 was of a world of one wire, 2 of a C-arm without a pedal, 3 of one way to operate; such
+/// recordings show their stored score only.
+inline constexpr std::uint16_t kRecordingFormat = 4;
 
 /// Longest exercise that is recorded: 4 hours. Bounds what decoding untrusted bytes may allocate.
 inline constexpr std::uint64_t kMaxRecordedTicks = 4ULL * 3600 * 1000;
@@ -62,6 +62,7 @@ struct Recording {
   std::string program_version;
   std::uint64_t case_fingerprint = 0;
   std::string procedure;
+  procedure::Mode mode = procedure::Mode::Practice;
   std::uint64_t seed = 0;
   std::vector<std::string> instruments;  ///< ids by number
   std::vector<InputRun> runs;
@@ -79,7 +80,8 @@ class Recorder {
   Recorder(std::string program_version,
            std::uint64_t case_fingerprint,
            const procedure::Procedure& procedure,
-           std::uint64_t seed);
+           std::uint64_t seed,
+           procedure::Mode mode = procedure::Mode::Practice);
   /// Goes on with what was recorded before.
   explicit Recorder(Recording begun);
   void reserve(std::size_t runs) { recording_.runs.reserve(runs); }

@@ -12,6 +12,7 @@
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
+#include "procedure/mode.hpp"
 #include "simulation/input.hpp"
 
 namespace carpus::simulation {
@@ -100,6 +101,7 @@ inline constexpr std::size_t kMaxEventsPerTick = 8;
 struct Snapshot {
   Tick tick = 0;
   std::uint64_t state_hash = 0;
+  procedure::Mode mode = procedure::Mode::Practice;
   std::uint8_t step = 0;              ///< current one; the number of steps when finished
   std::uint32_t completed_steps = 0;  ///< bit i: step i is done
   std::array<HandView, kHands> hands{};

@@ -47,10 +47,12 @@ std::vector<BoneSolid> target_of(const cases::CaseData& data, BoneId target) {
 
 World::Model::Model(const cases::CaseData& case_data,
                     const procedure::Procedure& declared,
-                    std::uint64_t first_seed)
+                    std::uint64_t first_seed,
+                    procedure::Mode way)
     : data(case_data),
       procedure(declared),
       seed(first_seed),
+      mode(way),
       kinds(detail::kinds_of(case_data, declared)),
       catalogue(instruments::catalogue()),
       fields(fields_of(case_data)),
@@ -68,6 +70,7 @@ World::Model::Model(const cases::CaseData& case_data,
 
 World::State::State(const Model& model) : tissue(model.fields), scene(model.fields, kHands) {
   snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
+  snapshot.mode = model.mode;
   scene.set_cuts(tissue.cuts().fields());
 }
 
@@ -170,7 +173,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     advance(hand.plan, hand.wish, item == nullptr || !item->is_fixed());
   }
   obey(model, input.command);
-  look_through(input.c_arm);
+  look_through(model, input.c_arm);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;
@@ -193,8 +196,11 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   update_hash(model);
 }
 
-World::World(const cases::CaseData& data, const procedure::Procedure& procedure, std::uint64_t seed)
-    : model_(std::make_unique<Model>(data, procedure, seed)),
+World::World(const cases::CaseData& data,
+             const procedure::Procedure& procedure,
+             std::uint64_t seed,
+             procedure::Mode mode)
+    : model_(std::make_unique<Model>(data, procedure, seed, mode)),
       state_(std::make_unique<State>(*model_)) {
   state_->open(*model_);
 }
@@ -233,6 +239,7 @@ procedure::OperationRecord World::operation_record() const {
 
 const TickFaults& World::faults() const noexcept { return state_->faults; }
 const procedure::Procedure& World::procedure() const noexcept { return model_->procedure; }
+procedure::Mode World::mode() const noexcept { return model_->mode; }
 std::uint64_t World::seed() const noexcept { return model_->seed; }
 const cases::CaseData& World::case_data() const noexcept { return model_->data; }
 

@@ -16,6 +16,7 @@
 
 #include "cases/case_data.hpp"
 #include "core/result.hpp"
+#include "procedure/mode.hpp"
 #include "procedure/operation_record.hpp"
 #include "procedure/procedure.hpp"
 #include "simulation/input.hpp"
@@ -42,7 +43,10 @@ class World {
   ///              procedure must outlive the world and not change.
   /// @throws InvalidInput when the case lacks what the procedure operates on, a CT or a bone's
   ///     distance field.
-  World(const cases::CaseData& data, const procedure::Procedure& procedure, std::uint64_t seed);
+  World(const cases::CaseData& data,
+        const procedure::Procedure& procedure,
+        std::uint64_t seed,
+        procedure::Mode mode = procedure::Mode::Practice);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -66,6 +70,7 @@ class World {
   [[nodiscard]] const TickFaults& faults() const noexcept;
   [[nodiscard]] const procedure::Procedure& procedure() const noexcept;
   [[nodiscard]] std::uint64_t seed() const noexcept;
+  [[nodiscard]] procedure::Mode mode() const noexcept;
   [[nodiscard]] const cases::CaseData& case_data() const noexcept;
 
  private:

@@ -3,8 +3,10 @@
 #include "trainee/scripted_trainee.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
+#include "simulation/c_arm_angles.hpp"
 
 namespace carpus::trainee {
 namespace {
@@ -145,7 +147,7 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
   next_shot_ = 0;
   lean_n_ = 0.0;
   last_depth_mm_ = -1e9;
-  plan_shots();
+  plan_shots(now);
   if (phase == Phase::GoToStandoff) {
     start_move({planned_entry_ - planned_direction_ * kStandoffMm, -planned_direction_});
   } else if (phase == Phase::Approach) {
@@ -163,9 +165,23 @@ void ScriptedTrainee::start_move(const HandPose& target) {
   in_move_ = 0;
 }
 
-void ScriptedTrainee::plan_shots() {
+/// How the C-arm stands to look down the bone as it lies now, as far as it tilts.
+ScriptedTrainee::PlannedShot ScriptedTrainee::down_the_bone(const Snapshot& now) const {
+  const Vec3 line = normalized_or(turned(now, near_end_ - far_end_), {0, 0, 1});
+  Vec3 source = (case_.wrist_from_patient * Direction<frame::Patient>{line}).v;
+  if (source.z > 0) source = -source;  // from dorsal: the picture is the same
+  const double radial = case_.side == Side::Left ? -source.y : source.y;
+  const double tilt = degrees_from_radians(std::asin(std::clamp(source.x, -1.0, 1.0)));
+  return {degrees_from_radians(std::atan2(radial, -source.z)),
+          std::clamp(tilt, -simulation::kGreatestTiltDeg, simulation::kGreatestTiltDeg)};
+}
+
+void ScriptedTrainee::plan_shots(const Snapshot& now) {
   shots_.clear();
-  if (phase_ == Phase::Survey) shots_ = {{0, 0}, {90, 0}};
+  if (phase_ == Phase::Survey) {
+    shots_ = {{0, 0}, {90, 0}};
+    if (profile_.finds_ring) shots_.push_back(down_the_bone(now));
+  }
   if (phase_ == Phase::Check || phase_ == Phase::Verify) {
     shots_ = {{0, 0}, {90, 0}};
     if (profile_.checks_oblique) shots_.insert(shots_.end(), {{45, 0}, {0, 30}});
@@ -249,6 +265,12 @@ void ScriptedTrainee::think(const Snapshot& now) {
       return;
     case Phase::Insert:
       if (held(now).buried_mm >= bury_mm_ || in_phase_ > kPhaseTicks) enter(Phase::LetGo, now);
+      return;
+    case Phase::DrawWire:
+      if (held(now).body == simulation::kNoBody || in_phase_ > kPhaseTicks) {
+        hand_ = {held(now).tip_in_patient, held(now).shaft_in_patient};
+        enter(Phase::Verify, now);
+      }
       return;
     default:
       return;
@@ -386,6 +408,22 @@ void ScriptedTrainee::insert(const Snapshot& now, Input& input) {
   }
 }
 
+/// Takes hold of the wire that is left in the bone; where there is none, goes on.
+void ScriptedTrainee::take_wire(const Snapshot& now, Input& input) {
+  for (std::uint8_t i = 0; i < simulation::kMaxItems; ++i) {
+    const ItemView& item = now.items[i];
+    if (item.instrument >= instruments::catalogue().size() || !item.in_target ||
+        kind_of(item.instrument).work != Work::Drill) {
+      continue;
+    }
+    input.command = of_hand(CommandKind::PickUp, 0);
+    input.command.index = i;
+    enter(Phase::DrawWire, now);
+    return;
+  }
+  enter(Phase::Verify, now);
+}
+
 /// What the hand does in this phase, once it has reacted.
 void ScriptedTrainee::act(const Snapshot& now, Input& input) {
   switch (phase_) {
@@ -403,6 +441,7 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
       return;
     case Phase::Withdraw:
     case Phase::DrillOut:
+    case Phase::DrawWire:
       input.hands[0].driver = Driver::Reverse;
       return;
     case Phase::Measure:
@@ -417,8 +456,10 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
       return insert(now, input);
     case Phase::LetGo:
       input.command = of_hand(CommandKind::PutDown, 0);
-      enter(Phase::Verify, now);
+      enter(Phase::TakeWire, now);
       return;
+    case Phase::TakeWire:
+      return take_wire(now, input);
     case Phase::Verify:
       if (shoot(input)) enter(Phase::Finish, now);
       return;

@@ -55,6 +55,8 @@ class ScriptedTrainee {
     Choose,
     Insert,
     LetGo,
+    TakeWire,
+    DrawWire,
     Verify,
     Finish,
     Done
@@ -77,8 +79,10 @@ class ScriptedTrainee {
   void choose_screw(const simulation::Snapshot& now, simulation::Input& input);
   void lean(double depth_mm);
   void insert(const simulation::Snapshot& now, simulation::Input& input);
+  void take_wire(const simulation::Snapshot& now, simulation::Input& input);
+  [[nodiscard]] PlannedShot down_the_bone(const simulation::Snapshot& now) const;
   bool shoot(simulation::Input& input);
-  void plan_shots();
+  void plan_shots(const simulation::Snapshot& now);
   [[nodiscard]] double draw(const Range& range) { return rng_.uniform(range.low, range.high); }
   [[nodiscard]] Vec3 random_across();
   [[nodiscard]] Vec3 random_error(const Range& range_mm);

@@ -56,6 +56,7 @@ SkillProfile profile_of(Skill skill) noexcept {
   profile.speed_mm_per_s = 40;
   profile.drive_thrust_n = {24.0, 45.0};
   profile.checks_oblique = false;
+  profile.finds_ring = false;
   profile.repeated_shots = 2;
   return profile;
 }

@@ -50,6 +50,7 @@ struct SkillProfile {
   double speed_mm_per_s = 50;       ///< mean speed of a free move
   Range drive_thrust_n;             ///< push while drilling
   bool checks_oblique = true;       ///< takes the oblique and the proximal pole views
+  bool finds_ring = true;           ///< looks down the bone before it goes in
   int repeated_shots = 0;           ///< pictures taken again because they were not read
 };
 

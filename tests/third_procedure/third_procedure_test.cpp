@@ -11,7 +11,6 @@
 #include <string>
 
 #include "procedure/procedure.hpp"
-#include "procedure/score_items.hpp"
 #include "session/held_input.hpp"
 #include "session/page_input.hpp"
 #include "session/score_message.hpp"
@@ -50,7 +49,11 @@ procedure::Opening opening(const cases::CaseData& data) {
 
 procedure::ScoreReport score(const cases::CaseData& /*data*/,
                              const procedure::OperationRecord& record) {
-  procedure::ScoreItem touched = procedure::make_item("lunate_touched", "Lunate touched", "1", 100);
+  procedure::ScoreItem touched;
+  touched.id = "lunate_touched";
+  touched.label = "Lunate touched";
+  touched.unit = "1";
+  touched.points_possible = 100.0;
   touched.target = "touched";
   touched.reason = "That was all there was to do.";
   const bool is_done = (record.completed_steps & 2U) != 0;
@@ -59,7 +62,7 @@ procedure::ScoreReport score(const cases::CaseData& /*data*/,
   touched.points = is_done ? touched.points_possible : 0.0;
   procedure::ScoreReport report;
   report.items = {touched};
-  procedure::sum_up(report);
+  report.overall = touched.points;
   return report;
 }
 

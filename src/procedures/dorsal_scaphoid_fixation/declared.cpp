@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "procedures/scaphoid_fixation/aim.hpp"
 #include "procedures/scaphoid_fixation/predicates.hpp"
 
 namespace carpus::procedures::dorsal_scaphoid_fixation {
@@ -72,11 +73,12 @@ procedure::Opening opening(const cases::CaseData& data) {
   opening.wrist = flexed(data);
   opening.tip_in_target = axis.proximal + outward * kWaitingMm;
   opening.shaft_in_target = outward;
+  opening.aim = scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromProximal);
   return opening;
 }
 
 procedure::Procedure read() {
-  constexpr auto kPredicates = scaphoid_fixation::named_predicates<kDriveStep, kInsertStep>();
+  constexpr auto kPredicates = scaphoid_fixation::named_predicates();
   procedure::Procedure read =
       procedure::read_procedure(json(), "dorsal_scaphoid_fixation/procedure.json", kPredicates);
   read.opening = opening;

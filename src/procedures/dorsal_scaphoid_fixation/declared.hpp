@@ -4,16 +4,11 @@
 // Dorsal percutaneous scaphoid fixation [clinical: B1]: procedure.json and what of it needs code.
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 
 #include "procedure/procedure.hpp"
 
 namespace carpus::procedures::dorsal_scaphoid_fixation {
-
-/// Places of two steps in procedure.json; a test compares.
-inline constexpr std::size_t kDriveStep = 3;
-inline constexpr std::size_t kInsertStep = 7;
 
 /// The text of procedure.json, built in by CMakeLists.txt.
 [[nodiscard]] std::string_view json();
@@ -21,7 +16,7 @@ inline constexpr std::size_t kInsertStep = 7;
 /// Read once, on the first call. @throws InvalidInput  when procedure.json is wrong.
 [[nodiscard]] const procedure::Procedure& declared();
 
-/// Items, limits and weights of docs/scoring.md, in its order.
+/// By the rules in procedure.json (docs/scoring.md).
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record);
 

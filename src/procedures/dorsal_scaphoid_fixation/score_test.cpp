@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cases/synthetic_case_test_support.hpp"
 #include "core/units.hpp"
@@ -31,12 +34,13 @@ InstrumentIndex index_of(const char* id) {
   return index.value_or(0);
 }
 
-/// Taken once wire and screw were in place.
-Shot shot_at(double rotation_deg, double tilt_deg) {
+/// Of the wire in place, or of the screw.
+Shot shot_at(double rotation_deg, double tilt_deg, bool of_screw) {
   Shot shot;
   shot.rotation_deg = rotation_deg;
   shot.tilt_deg = tilt_deg;
-  shot.completed_steps = 1U << kDriveStep | 1U << kInsertStep;
+  shot.shows_wire = !of_screw;
+  shot.shows_screw = of_screw;
   return shot;
 }
 
@@ -55,10 +59,9 @@ Pass pass_into(std::uint32_t bodies, const char* instrument = "guide_wire") {
   return pass;
 }
 
-LineFacts& wire_of(OperationRecord& record) { return record.lines.at(0); }
-LineFacts& screw_of(OperationRecord& record) { return record.lines.at(1); }
+LineFacts& screw_of(OperationRecord& record) { return record.lines.at(0); }
 
-/// Moves wire and screw.
+/// Moves the screw.
 void shift(OperationRecord& record, const Vec3& by) {
   for (LineFacts& line : record.lines) line.entry_in_bone += by;
 }
@@ -69,18 +72,22 @@ OperationRecord perfect() {
   const auto& axis = wrist().scaphoid.central_axis;
   OperationRecord record;
   LineFacts line;
-  line.instrument = index_of("guide_wire");
   line.in_target = true;
   line.entry_in_bone = axis.proximal;
   line.direction_in_bone = normalized_or(axis.distal - axis.proximal, {});
-  line.depth_mm = 26.5;
-  record.lines.push_back(line);
   line.instrument = index_of("acutrak_standard_1994_22_5");
   line.depth_mm = 24.75;
   record.lines.push_back(line);
   record.gauge_reading_mm = 26.5;
   record.passes = {pass_into(bit_of(BoneId::Scaphoid))};
-  record.shots = {shot_at(0, 0), shot_at(90, 0), shot_at(45, 0), shot_at(0, 30)};
+  record.reamed_mm = 25.0;
+  for (const bool of_screw : {false, true}) {
+    for (const auto& [rotation, tilt] :
+         {std::pair{0.0, 0.0}, {90.0, 0.0}, {45.0, 0.0}, {0.0, 30.0}}) {
+      record.shots.push_back(shot_at(rotation, tilt, of_screw));
+    }
+  }
+  record.completed_steps = (1U << declared().steps.size()) - 1U;
   record.ticks = 300000;
   record.finished = true;
   return record;
@@ -100,7 +107,7 @@ OperationRecord tilted(double angle_deg) {
   const Vec3 side = cases::test::synthetic_scaphoid().rotation.column(0);
   const double angle = radians_from_degrees(angle_deg);
   const Vec3 direction =
-      wire_of(record).direction_in_bone * std::cos(angle) + side * std::sin(angle);
+      screw_of(record).direction_in_bone * std::cos(angle) + side * std::sin(angle);
   const auto body = cases::test::synthetic_scaphoid();
   // Where the line through the centre enters the ellipsoid.
   const Vec3 q = body.rotation.transposed() * direction;
@@ -157,32 +164,33 @@ TEST(Score, APerfectOperationEarnsEverything) {
   EXPECT_EQ(report.chosen_screw_index, report.ideal_screw_index);
 }
 
-TEST(Score, MeasuresTheAngle) {
-  for (const double angle : {3.0, 8.0, 20.0}) {
-    const ScoreReport report = score(wrist(), tilted(angle));
-    EXPECT_NEAR(*item_of(report, "angle_to_central_axis_deg").value, angle, 1e-6);
-  }
-  EXPECT_EQ(item_of(score(wrist(), tilted(3)), "angle_to_central_axis_deg").grade, Grade::Good);
-  EXPECT_EQ(item_of(score(wrist(), tilted(8)), "angle_to_central_axis_deg").grade,
-            Grade::Acceptable);
+TEST(Score, ALineIsJudgedByItsCorridorAndNotByItsAngle) {
+  const ScoreReport slight = score(wrist(), tilted(8));
+  EXPECT_NEAR(*item_of(slight, "angle_to_central_axis_deg").value, 8.0, 1e-6);
+  EXPECT_EQ(item_of(slight, "angle_to_central_axis_deg").points_possible, 0.0);
+  EXPECT_TRUE(slight.is_fixation_acceptable);
   const ScoreReport flat = score(wrist(), tilted(20));
-  EXPECT_EQ(item_of(flat, "angle_to_central_axis_deg").grade, Grade::Fail);
-  EXPECT_FALSE(flat.is_fixation_acceptable);
+  EXPECT_LT(*item_of(flat, "bone_beside_screw_mm").value,
+            *item_of(slight, "bone_beside_screw_mm").value);
+  EXPECT_LT(*item_of(flat, "usable_length_percent").value, 90.0);
+  EXPECT_LT(flat.overall, slight.overall);
 }
 
-TEST(Score, MeasuresTheOffsetAtWaistAndPoles) {
+TEST(Score, MeasuresTheOffsetAtWaistAndPolesAndSaysWhereTo) {
   OperationRecord record = perfect();
   const Vec3 side = cases::test::synthetic_scaphoid().rotation.column(0);
   shift(record, side * 1.2);
   const ScoreReport report = score(wrist(), record);
-  const ScoreItem& waist = item_of(report, "waist_offset_mm");
-  EXPECT_NEAR(*waist.value, 1.2, 1e-6);
-  EXPECT_EQ(waist.grade, Grade::Good) << "the waist is 10.4 mm wide, a sixth of it 1.7";
-  EXPECT_NEAR(*item_of(report, "proximal_offset_mm").value, 1.2, 1e-6);
+  const ScoreItem& waist = item_of(report, "waist_offset_percent");
+  EXPECT_NEAR(*waist.value, 100 * 1.2 / 10.37, 0.2) << "the waist is 11.2 x 9.6 mm wide";
+  EXPECT_EQ(waist.grade, Grade::Good);
+  EXPECT_NE(waist.reason.find("1.2 mm "), std::string::npos) << waist.reason;
+  EXPECT_NE(waist.reason.find(" of the middle"), std::string::npos) << waist.reason;
   shift(record, side * 3.0);
   const ScoreReport outer = score(wrist(), record);
-  EXPECT_EQ(item_of(outer, "waist_offset_mm").grade, Grade::Fail);
+  EXPECT_EQ(item_of(outer, "waist_offset_percent").grade, Grade::Fail);
   EXPECT_FALSE(outer.is_fixation_acceptable);
+  EXPECT_EQ(outer.overall, 0.0) << "nothing earns points without a safe fixation";
 }
 
 TEST(Score, MeasuresTheCoverAtBothEnds) {
@@ -213,34 +221,52 @@ TEST(Score, FindsAScrewThatStandsOut) {
   EXPECT_GT(*item_of(report, "penetration_mm").value, 0.5);
 }
 
-TEST(Score, FewShotsAloneEarnNothing) {
+TEST(Score, DoingNothingEarnsNothing) {
   OperationRecord nothing;
   nothing.ticks = 1000;
   nothing.finished = true;
-  const ScoreReport report = score(wrist(), nothing);
-  for (const char* id : {"shots", "dose_cgy_cm2", "time_s"}) {
-    EXPECT_EQ(item_of(report, id).points, 0.0) << id;
-  }
-  EXPECT_FALSE(report.is_fixation_acceptable);
-  EXPECT_EQ(report.overall, 0.0);
+  EXPECT_FALSE(score(wrist(), nothing).is_fixation_acceptable);
+  EXPECT_EQ(score(wrist(), nothing).overall, 0.0);
 
   OperationRecord fewer = perfect();
   fewer.shots.resize(2);
   EXPECT_LT(score(wrist(), fewer).overall, score(wrist(), perfect()).overall);
 }
 
-TEST(Score, RequiredViewsCountOnlyOnceTheWireIsIn) {
-  OperationRecord record = perfect();
-  for (Shot& shot : record.shots) shot.completed_steps = 0b111;
-  const ScoreReport report = score(wrist(), record);
-  EXPECT_EQ(*item_of(report, "required_views_seen").value, 0.0);
+TEST(Score, OneHarmAndTheFixationIsNotAcceptable) {
+  std::vector<std::pair<const char*, OperationRecord>> harmed;
+  const auto add = [&](const char* what) -> OperationRecord& {
+    return harmed.emplace_back(what, perfect()).second;
+  };
+  add("a capitate drilled and taken back").passes.push_back(pass_into(bit_of(BoneId::Capitate)));
+  harmed.back().second.passes.back().was_undone = true;
+  add("a wire 9 mm out of the far cortex").passes.front().far_exit_mm = 9.0;
+  add("a screw too long").lines.front().depth_mm = 28.0;
+  LineFacts wire = screw_of(harmed.back().second);
+  wire.instrument = index_of("guide_wire");
+  add("a wire left in").lines.push_back(wire);
+  screw_of(add("a screw beside the waist")).entry_in_bone +=
+      cases::test::synthetic_scaphoid().rotation.column(0) * 4.0;
+  add("no screw").lines.clear();
+  for (const auto& [what, record] : harmed) {
+    const ScoreReport report = score(wrist(), record);
+    EXPECT_FALSE(report.is_fixation_acceptable) << what;
+    EXPECT_EQ(report.overall, 0.0) << what;
+  }
 }
 
-TEST(Score, CountsPassesWrongBonesAndUndos) {
+TEST(Score, ViewsCountOnlyOnceWireOrScrewAreIn) {
+  OperationRecord record = perfect();
+  for (Shot& shot : record.shots) shot.shows_wire = shot.shows_screw = false;
+  const ScoreReport report = score(wrist(), record);
+  EXPECT_EQ(*item_of(report, "views_with_wire").value, 0.0);
+  EXPECT_EQ(*item_of(report, "views_with_screw").value, 0.0);
+}
+
+TEST(Score, CountsPassesAndUndos) {
   OperationRecord record = perfect();
   record.passes.assign(5, pass_into(bit_of(BoneId::Scaphoid)));
   record.passes.front().was_undone = true;
-  record.passes.front().bodies_entered |= bit_of(BoneId::Trapezium);
   record.passes.push_back(pass_into(bit_of(BoneId::Scaphoid), "cannulated_drill"));
   record.undos = 3;
   const ScoreReport report = score(wrist(), record);
@@ -248,28 +274,22 @@ TEST(Score, CountsPassesWrongBonesAndUndos) {
   EXPECT_EQ(*item_of(report, "wire_passes").value, 5.0)
       << "what is undone counts, a drill does not";
   EXPECT_EQ(item_of(report, "undos").grade, Grade::Fail);
-  EXPECT_EQ(item_of(report, "wrong_bones_entered").grade, Grade::Fail);
-  EXPECT_NE(item_of(report, "wrong_bones_entered").reason.find("trapezium"), std::string::npos);
 }
 
-TEST(Score, TheWireMayBeOutWhenTheScrewIsIn) {
+TEST(Score, WhatWasSkippedIsTold) {
   OperationRecord record = perfect();
-  record.lines.erase(record.lines.begin());
+  record.completed_steps &= ~1U;
   const ScoreReport report = score(wrist(), record);
-  EXPECT_TRUE(report.is_fixation_acceptable);
-  EXPECT_FALSE(report.placement.wire.has_value());
+  EXPECT_EQ(*item_of(report, "steps_left_out").value, 1.0);
+  EXPECT_NE(item_of(report, "steps_left_out").reason.find("Survey"), std::string::npos);
 }
 
 TEST(Score, WiresThatTakeNoScrewAndLinesBesideTheBoneDoNotCount) {
   OperationRecord record = perfect();
-  LineFacts joystick = wire_of(record);
+  LineFacts joystick = screw_of(record);
   joystick.instrument = index_of("joystick_wire");
   joystick.direction_in_bone = cases::test::synthetic_scaphoid().rotation.column(0);
-  LineFacts beside = wire_of(record);
-  beside.in_target = false;
-  record.lines.erase(record.lines.begin() + 1);
   record.lines.push_back(joystick);
-  record.lines.push_back(beside);
   EXPECT_NEAR(*item_of(score(wrist(), record), "angle_to_central_axis_deg").value, 0.0, 1e-6);
 }
 

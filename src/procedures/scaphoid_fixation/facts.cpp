@@ -13,7 +13,6 @@ namespace {
 using instruments::Instrument;
 using instruments::Work;
 using procedure::LineFacts;
-using procedure::MustHave;
 using procedure::ScoreReport;
 
 const Instrument& instrument_of(const LineFacts& line) {
@@ -47,26 +46,10 @@ void find_passes(Facts& facts) {
     }
   }
   for (const BoneId bone : kAllBones) {
-    if (bone != facts.rules.procedure->target && is_entered[static_cast<std::size_t>(bone)]) {
+    if (bone != facts.fixation.procedure->target && is_entered[static_cast<std::size_t>(bone)]) {
       facts.entered.push_back(bone);
     }
   }
-}
-
-std::vector<MustHave> check_must_haves(const Facts& facts) {
-  const auto& line = facts.line;
-  const auto& placed = facts.placed;
-  const double tail = placed ? placed->tail_cover_mm : -1.0;
-  const double tip = placed ? placed->tip_cover_mm : -1.0;
-  return {
-      {"screw_placed", "A screw lies in the scaphoid", placed.has_value()},
-      {"angle", "Within 15° of the central axis", line && line->angle_deg <= 15.0},
-      {"waist", "Through the middle two thirds of the waist",
-       line && line->at_waist.distance_mm <= line->at_waist.local_width_mm / 3.0},
-      {"cover", "At least 0.5 mm of bone over both ends", tail >= 0.5 && tip >= 0.5},
-      {"penetration", "No part more than 0.5 mm outside the bone",
-       placed && placed->penetration_mm <= 0.5},
-  };
 }
 
 void fill_references(ScoreReport& report, const Facts& facts) {
@@ -77,8 +60,8 @@ void fill_references(ScoreReport& report, const Facts& facts) {
   if (facts.record.gauge_reading_mm >= 0) report.gauge_reading_mm = facts.record.gauge_reading_mm;
   if (facts.line) {
     report.angle_to_longest_line_deg = facts.line->angle_to_longest_deg;
-    report.true_length_mm = facts.line->chord.leave_mm - facts.line->chord.enter_mm;
-    report.ideal_screw_index = ideal_screw(facts.screws, *report.true_length_mm);
+    report.true_length_mm = facts.line->length_mm();
+    report.ideal_screw_index = ideal_screw_of(facts);
   }
   const auto catalogue = instruments::catalogue();
   if (report.ideal_screw_index >= 0) {
@@ -125,29 +108,29 @@ const std::optional<LineFacts>& fixed_line(const Facts& facts) noexcept {
 
 Facts facts_of(const cases::CaseData& data,
                const procedure::OperationRecord& record,
-               const Rules& rules) {
-  Facts facts{data, record, rules, screws_on(rules.procedure->tray), {}, {}, {}, {}, 0, {}, false};
+               const Fixation& fixation) {
+  Facts facts{data, record, fixation, screws_on(fixation.procedure->tray), {}, {}, {}, {}, 0, {}};
   find_lines(facts);
   find_passes(facts);
   if (const auto& lain = fixed_line(facts)) {
     std::vector<const MeshIn<frame::Bone>*> fragments;
     for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
-    const BoneSolid scaphoid(fragments);
-    facts.line = place_line(scaphoid, data.scaphoid, rules.approach, lain->entry_in_bone,
-                            lain->direction_in_bone);
+    const OuterBone scaphoid(fragments);
+    facts.line =
+        place_line(scaphoid, data, fixation.approach, lain->entry_in_bone, lain->direction_in_bone);
     if (facts.line && facts.screw) {
-      facts.placed = place_screw(scaphoid, data, *facts.line, rules.approach, *facts.screw);
+      facts.placed = place_screw(scaphoid, data, *facts.line, fixation.approach, *facts.screw);
     }
   }
   return facts;
 }
 
-ScoreReport report_of(Facts& facts) {
+int ideal_screw_of(const Facts& facts) {
+  return facts.line ? ideal_screw(facts.screws, facts.line->length_mm()) : -1;
+}
+
+ScoreReport references_of(const Facts& facts) {
   ScoreReport report;
-  report.must_haves = check_must_haves(facts);
-  report.is_fixation_acceptable = std::all_of(report.must_haves.begin(), report.must_haves.end(),
-                                              [](const MustHave& must) { return must.fulfilled; });
-  facts.is_acceptable = report.is_fixation_acceptable;
   fill_references(report, facts);
   report.placement = picture_of(facts);
   return report;

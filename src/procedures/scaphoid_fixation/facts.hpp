@@ -15,18 +15,16 @@
 
 namespace carpus::procedures::scaphoid_fixation {
 
-/// What the score has to know of a procedure.
-struct Rules {
+/// A way of fixing the scaphoid, as the score has to know it.
+struct Fixation {
   const procedure::Procedure* procedure = nullptr;
   Approach approach = Approach::FromProximal;
-  std::size_t drive_step = 0;   ///< shots taken once this step was done …
-  std::size_t insert_step = 0;  ///< … or this one show wire or screw in place
 };
 
 struct Facts {
   const cases::CaseData& data;
   const procedure::OperationRecord& record;
-  const Rules& rules;
+  const Fixation& fixation;
   std::vector<instruments::InstrumentIndex> screws;  ///< on the tray
   /// The wire for the screw: the last laid into the scaphoid that fits a screw's bore; the screw's
   /// own line where the wire is out.
@@ -36,20 +34,21 @@ struct Facts {
   std::optional<ScrewPlacement> placed;
   unsigned wire_passes = 0;     ///< of wires into bone
   std::vector<BoneId> entered;  ///< other bones, allowed or not, without repetition
-  bool is_acceptable = false;
 };
 
 /// Intersects lines with the scaphoid; about 0.5 s.
 /// @param data  as scanned; needs `scaphoid` and `bones`.
 [[nodiscard]] Facts facts_of(const cases::CaseData& data,
                              const procedure::OperationRecord& record,
-                             const Rules& rules);
+                             const Fixation& fixation);
 
 /// The line along which the fixation lies: the screw's, else the wire's.
 [[nodiscard]] const std::optional<procedure::LineFacts>& fixed_line(const Facts& facts) noexcept;
 
-/// Must-haves, lengths, names and the picture; `items` are the procedure's own. Sets
-/// `facts.is_acceptable`.
-[[nodiscard]] procedure::ScoreReport report_of(Facts& facts);
+/// Longest screw on the tray for that line; its place in `facts.screws`, -1 where none fits.
+[[nodiscard]] int ideal_screw_of(const Facts& facts);
+
+/// Lengths, names and the picture; the verdict and the items are graded from the measures.
+[[nodiscard]] procedure::ScoreReport references_of(const Facts& facts);
 
 }  // namespace carpus::procedures::scaphoid_fixation

@@ -3,11 +3,14 @@
 #include "procedures/scaphoid_fixation/placement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "anatomy/bone_words.hpp"
 #include "core/units.hpp"
+#include "procedures/scaphoid_fixation/screw_envelope.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
 namespace {
@@ -16,37 +19,52 @@ double angle_between_deg(const Vec3& a, const Vec3& b) {
   return degrees_from_radians(std::atan2(length(cross(a, b)), dot(a, b)));
 }
 
+/// "volar and radial", from the larger part on; what is less than a third of it is not named.
+std::string direction_in_words(const cases::CaseData& data, const Vec3& in_patient) {
+  const Vec3 v = (data.wrist_from_patient * Direction<frame::Patient>{in_patient}).v;
+  // Frame Wrist: +x proximal, +z volar, +y ulnar on the left.
+  const double ulnar = data.side == Side::Left ? v.y : -v.y;
+  std::array<std::pair<double, std::string_view>, 3> parts{{
+      {v.z, v.z > 0 ? "volar" : "dorsal"},
+      {ulnar, ulnar > 0 ? "ulnar" : "radial"},
+      {v.x, v.x > 0 ? "proximal" : "distal"},
+  }};
+  std::sort(parts.begin(), parts.end(),
+            [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  std::string words(parts[0].second);
+  if (std::abs(parts[1].first) * 3.0 >= std::abs(parts[0].first)) {
+    words += " and ";
+    words += parts[1].second;
+  }
+  return words;
+}
+
 Offset offset_at(const BoneSolid& scaphoid,
+                 const cases::CaseData& data,
                  const Vec3& on_axis,
                  const Vec3& axis_direction,
                  const Vec3& entry,
                  const Vec3& direction) {
-  Offset offset;
-  const double along = dot(direction, axis_direction);
-  if (std::abs(along) < 0.05) {  // across the bone: it meets this level nowhere near
-    offset.distance_mm = length(cross(on_axis - entry, direction));
-  } else {
-    const double t = dot(on_axis - entry, axis_direction) / along;
-    offset.distance_mm = distance(entry + direction * t, on_axis);
-  }
-  // Near the fracture a section may cut the gap's mouth: the widest of three levels stands for all.
+  // Near a gap a section may cut its mouth: of three levels the widest counts.
   constexpr double kLevelMm = 0.8;
-  double area = 0;
-  for (const double level : {-kLevelMm, 0.0, kLevelMm}) {
-    area =
-        std::max(area, scaphoid.section_area_mm2(on_axis + axis_direction * level, axis_direction));
+  constexpr double kAcross = 0.05;  // a line so flat meets this level nowhere near
+  Offset offset;
+  double area = -1.0;
+  for (const double level : {0.0, -kLevelMm, kLevelMm}) {
+    const Vec3 point = on_axis + axis_direction * level;
+    const BoneSection section = scaphoid.section_at(point, axis_direction);
+    if (!(section.area_mm2 > area) || (level != 0.0 && scaphoid.is_whole())) continue;
+    area = section.area_mm2;
+    const Vec3 middle = section.area_mm2 > 0.0 ? section.centroid : point;
+    const double along = dot(direction, axis_direction);
+    const double t = std::abs(along) < kAcross ? dot(middle - entry, direction)
+                                               : dot(middle - entry, axis_direction) / along;
+    const Vec3 away = entry + direction * t - middle;
+    offset.distance_mm = length(away);
+    offset.local_width_mm = 2.0 * std::sqrt(section.area_mm2 / kPi);
+    offset.towards = direction_in_words(data, away);
   }
-  offset.local_width_mm = 2.0 * std::sqrt(area / std::numbers::pi);
   return offset;
-}
-
-/// Distance from a point outside to the outer surface [mm].
-double distance_to_outside(const BoneSolid& scaphoid, const Vec3& p) {
-  double best = 1e30;
-  for (const OuterPoint& outer : scaphoid.outer_points()) {
-    best = std::min(best, squared_length(outer.point - p));
-  }
-  return std::sqrt(best);
 }
 
 /// Name of the bone other than the scaphoid nearest to `p`, empty beyond 3 mm.
@@ -84,65 +102,42 @@ std::string place_in_words(const cases::CaseData& data,
   return words;
 }
 
-/// Deepest place of the screw's envelope outside the bone.
-void find_penetration(const BoneSolid& scaphoid,
-                      const cases::CaseData& data,
-                      const LineInterval& chord,
-                      Approach approach,
-                      const procedure::LineFacts& lain,
-                      ScrewPlacement& placement) {
-  const instruments::Instrument& screw = instruments::catalogue()[lain.instrument];
-  constexpr double kStepMm = 0.5;
-  constexpr int kAround = 16;
-  constexpr double kResolutionMm = 0.3;  // of the voxelised solid: less is not told from contact
-  const Vec3 a = any_perpendicular(lain.direction_in_bone);
-  const Vec3 b = cross(lain.direction_in_bone, a);
-  const double tip = lain.depth_mm;
-  const double tail = tip - screw.length_mm;
-  Vec3 worst;
-  double worst_t = 0;
-  const auto consider = [&](double t, const Vec3& p) {
-    if (scaphoid.contains(p)) return;
-    const double out = distance_to_outside(scaphoid, p);
-    if (out <= placement.penetration_mm || out <= kResolutionMm) return;
-    placement.penetration_mm = out;
-    worst = p;
-    worst_t = t;
-  };
-  const int steps = static_cast<int>(std::ceil(screw.length_mm / kStepMm));
-  for (int i = 0; i <= steps; ++i) {
-    const double t = tail + screw.length_mm * i / steps;
-    const Vec3 centre = lain.entry_in_bone + lain.direction_in_bone * t;
-    consider(t, centre);
-    // The ends are rounded: their rim is not counted, only their middle.
-    if (i == 0 || i == steps) continue;
-    const double share = static_cast<double>(i) / steps;
-    const double radius =
-        0.5 * (screw.tail_diameter_mm + (screw.tip_diameter_mm - screw.tail_diameter_mm) * share);
-    for (int j = 0; j < kAround; ++j) {
-      const double angle = 2 * std::numbers::pi * j / kAround;
-      consider(t, centre + (a * std::cos(angle) + b * std::sin(angle)) * radius);
+/// Of the line's part between tail and tip, in the fragment that has less of it; all of it in a
+/// bone that is whole.
+double length_in_smaller_part(const cases::CaseData& data, const ScrewEnvelope& screw) {
+  const double whole_mm = distance(screw.tail, screw.tip);
+  double least = whole_mm;
+  const auto parts = cases::scaphoid_parts(data);
+  if (parts.size() < 2) return least;
+  const Vec3 direction = normalized_or(screw.tip - screw.tail, {0, 0, 1});
+  for (const cases::Bone* part : parts) {
+    const std::array<const MeshIn<frame::Bone>*, 1> alone{&part->surface};
+    double inside = 0.0;
+    for (const LineInterval& interval : BoneSolid(alone).intervals_along(screw.tail, direction)) {
+      inside +=
+          std::max(0.0, std::min(whole_mm, interval.leave_mm) - std::max(0.0, interval.enter_mm));
     }
+    least = std::min(least, inside);
   }
-  if (placement.penetration_mm > 0) {
-    placement.penetration_at = place_in_words(data, chord, approach, worst_t, worst);
-  }
+  return least;
 }
 
 }  // namespace
 
-std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
-                                        const cases::ScaphoidLandmarks& landmarks,
+std::optional<LinePlacement> place_line(const OuterBone& scaphoid,
+                                        const cases::CaseData& data,
                                         Approach approach,
                                         const Vec3& entry,
                                         const Vec3& direction) {
+  const cases::ScaphoidLandmarks& landmarks = data.scaphoid;
   const cases::AxisSegment& axis = landmarks.central_axis;
   const Vec3 along = axis.distal - axis.proximal;
   const double sign =
       approach == Approach::FromProximal ? 1.0 : -1.0;  // the way that the wire goes
   const Vec3 axis_direction = normalized_or(along, {0, 0, 1}) * sign;
   constexpr double kInsideMm = 1.0;  // the entry itself may lie a hair outside
-  const auto chord = scaphoid.chord_through(entry + direction * kInsideMm, direction);
+  const BoneSolid& solid = scaphoid.solid();
+  const auto chord = solid.chord_through(entry + direction * kInsideMm, direction);
   if (!chord) return std::nullopt;
   LinePlacement line;
   line.chord = {chord->enter_mm + kInsideMm, chord->leave_mm + kInsideMm};
@@ -150,7 +145,7 @@ std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
   line.angle_to_longest_deg = angle_between_deg(
       direction, (landmarks.longest_line.distal - landmarks.longest_line.proximal) * sign);
   const auto level = [&](const Vec3& p) {
-    return offset_at(scaphoid, p, axis_direction, entry, direction);
+    return offset_at(solid, data, p, axis_direction, entry, direction);
   };
   line.at_waist = level(landmarks.waist);
   line.at_proximal = level(axis.proximal + along / 6.0);
@@ -158,16 +153,25 @@ std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
   return line;
 }
 
-ScrewPlacement place_screw(const BoneSolid& scaphoid,
+ScrewPlacement place_screw(const OuterBone& scaphoid,
                            const cases::CaseData& data,
                            const LinePlacement& line,
                            Approach approach,
                            const procedure::LineFacts& lain) {
+  constexpr double kEndsMm = 4.0;  // of a screw, where every line nears the surface [E]
+  const ScrewEnvelope screw = envelope_of(lain);
+  const double length_mm = distance(screw.tail, screw.tip);
   ScrewPlacement placement;
-  const double length_mm = instruments::catalogue()[lain.instrument].length_mm;
   placement.tail_cover_mm = lain.depth_mm - length_mm - line.chord.enter_mm;
   placement.tip_cover_mm = line.chord.leave_mm - lain.depth_mm;
-  find_penetration(scaphoid, data, line.chord, approach, lain, placement);
+  const DeepestPlace worst = farthest_outside(scaphoid, screw);
+  placement.penetration_mm = worst.outside_mm;
+  if (worst.outside_mm > 0) {
+    placement.penetration_at = place_in_words(
+        data, line.chord, approach, lain.depth_mm - length_mm * (1.0 - worst.along), worst.point);
+  }
+  placement.beside_mm = least_bone_beside(scaphoid, screw, kEndsMm);
+  placement.in_smaller_part_mm = length_in_smaller_part(data, screw);
   return placement;
 }
 

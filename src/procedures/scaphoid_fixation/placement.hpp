@@ -9,49 +9,57 @@
 #include <optional>
 #include <string>
 
-#include "anatomy/bone_solid.hpp"
 #include "cases/case_data.hpp"
-#include "instruments/instrument.hpp"
 #include "procedure/situation.hpp"
+#include "procedures/scaphoid_fixation/outer_bone.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
 
 /// The pole through which wire and screw go in.
 enum class Approach : std::uint8_t { FromProximal = 0, FromDistal = 1 };
 
-/// How far the wire runs beside the central axis at one level of it.
+/// How far a line runs beside the middle of the bone at one level of its axis.
 struct Offset {
-  double distance_mm = 0.0;
+  double distance_mm = 0.0;     ///< from the centroid of the bone's section
   double local_width_mm = 0.0;  ///< diameter of the circle with the section's area
+  std::string towards;          ///< "volar and radial": where it lies from the middle
+
+  [[nodiscard]] double percent_of_width() const noexcept {
+    return local_width_mm > 0.0 ? 100.0 * distance_mm / local_width_mm : 100.0;
+  }
 };
 
-/// Line of the wire against the central axis.
+/// A line through the bone.
 struct LinePlacement {
-  double angle_deg = 0.0;
+  double angle_deg = 0.0;  ///< to the central axis
   double angle_to_longest_deg = 0.0;
   Offset at_waist;
   Offset at_proximal;  ///< at a sixth of the axis from the proximal end
   Offset at_distal;    ///< at a sixth from the distal end
-  LineInterval chord;  ///< of the wire's line inside the scaphoid, from the entry along it [mm]
+  LineInterval chord;  ///< of the line inside the scaphoid, from the entry along it [mm]
+
+  [[nodiscard]] double length_mm() const noexcept { return chord.leave_mm - chord.enter_mm; }
 };
 
 /// A screw on that line.
 struct ScrewPlacement {
-  double tail_cover_mm = 0.0;   ///< bone over its tail along the line, negative: stands out
-  double tip_cover_mm = 0.0;    ///< bone before its tip
-  double penetration_mm = 0.0;  ///< how far any part of it stands out of the bone
-  std::string penetration_at;   ///< where, in words; empty when nowhere
+  double tail_cover_mm = 0.0;       ///< bone over its tail along the line, negative: stands out
+  double tip_cover_mm = 0.0;        ///< bone before its tip
+  double penetration_mm = 0.0;      ///< how far any part of it stands out of the bone
+  std::string penetration_at;       ///< where, in words; empty when nowhere
+  double beside_mm = 0.0;           ///< least bone beside it along its middle
+  double in_smaller_part_mm = 0.0;  ///< of its length, in the fragment that holds less of it
 };
 
 /// Nothing when the line misses the scaphoid.
-[[nodiscard]] std::optional<LinePlacement> place_line(const BoneSolid& scaphoid,
-                                                      const cases::ScaphoidLandmarks& landmarks,
+[[nodiscard]] std::optional<LinePlacement> place_line(const OuterBone& scaphoid,
+                                                      const cases::CaseData& data,
                                                       Approach approach,
                                                       const Vec3& entry,
                                                       const Vec3& direction);
 
 /// @param lain  the screw's line.
-[[nodiscard]] ScrewPlacement place_screw(const BoneSolid& scaphoid,
+[[nodiscard]] ScrewPlacement place_screw(const OuterBone& scaphoid,
                                          const cases::CaseData& data,
                                          const LinePlacement& line,
                                          Approach approach,

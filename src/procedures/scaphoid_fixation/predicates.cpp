@@ -2,107 +2,153 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedures/scaphoid_fixation/predicates.hpp"
 
-#include "procedure/shots.hpp"
+#include <span>
+
+#include "procedures/scaphoid_fixation/screws.hpp"
 #include "procedures/scaphoid_fixation/views.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
 namespace {
 
+using instruments::Instrument;
 using instruments::InstrumentIndex;
 using instruments::Work;
 using procedure::HandFacts;
 using procedure::LineFacts;
 using procedure::Shot;
 
-constexpr double kDoneShare = 0.6;  // of the line's length inside the scaphoid [E]
+// Limits of what counts as done rightly [E].
+constexpr double kRing = 0.978;            // cos 12 degrees
+constexpr double kLongShare = 0.85;        // of the longest line
+constexpr double kCommittedMm = 4.0;       // a wire so deep has its line
+constexpr double kUnderCortexMm = 2.5;     // "just under the far cortex"
+constexpr double kBeyondMm = 0.3;          // what is not told from touching it
+constexpr double kMeasuredWithinMm = 1.5;  // three marks of the gauge
+constexpr double kReamedLeastMm = 0.5;     // of bone before the drill; 2 are wanted [K, B1 step 8]
+constexpr double kReamedMostMm = 4.0;
+constexpr double kNextScrewMm = 2.6;    // to the next shorter screw of the tray's families
+constexpr double kBuriedLeastMm = 1.0;  // 2 are wanted [K, B1 step 9]
+constexpr double kBuriedMostMm = 4.0;
+constexpr double kTipCoverMm = 0.5;
 
-Work work_of(InstrumentIndex index) noexcept {
+const Instrument* kind_of(InstrumentIndex index) noexcept {
   const auto all = instruments::catalogue();
-  return index < all.size() ? all[index].work : Work::None;
+  return index < all.size() ? &all[index] : nullptr;
 }
 
 bool lies_in_target(const LineFacts& line, Work work) noexcept {
-  return line.in_target && work_of(line.instrument) == work;
+  const Instrument* kind = kind_of(line.instrument);
+  return line.in_target && kind != nullptr && kind->work == work;
 }
 
-/// Whether the shots from `first` on hold two different views, and the oblique if needed.
-bool are_views_enough(const Situation& now, std::size_t first, bool needs_oblique) noexcept {
-  bool has_two = false;
-  bool has_oblique = !needs_oblique;
-  for (std::size_t i = first; i < now.shots.size(); ++i) {
-    const Shot& shot = now.shots[i];
-    has_two = has_two || procedure::are_different_views(shot, now.shots[first]);
-    has_oblique = has_oblique || shows(View::PronatedOblique, shot.rotation_deg, shot.tilt_deg);
+/// Whether a line of that work in the target is so.
+template <typename Condition>
+bool any_line(const Situation& now, Work work, Condition&& condition) noexcept {
+  for (const LineFacts& line : now.lines) {
+    if (lies_in_target(line, work) && condition(line)) return true;
   }
-  return has_two && has_oblique;
+  return false;
+}
+
+unsigned views_in(std::span<const Shot> shots) noexcept {
+  unsigned seen = 0;
+  for (const Shot& shot : shots) {
+    for (int i = 0; i < kViewCount; ++i) {
+      if (shows(static_cast<View>(i), shot.rotation_deg, shot.tilt_deg)) seen |= 1U << i;
+    }
+  }
+  return seen;
+}
+
+bool has_all(unsigned seen, unsigned wanted) noexcept { return (seen & wanted) == wanted; }
+
+bool is_right_length(const Instrument& screw, double measured_mm) noexcept {
+  const double longest = measured_mm - kMeasuredMinusScrewMm;
+  return screw.length_mm <= longest && screw.length_mm >= longest - kNextScrewMm;
 }
 
 }  // namespace
 
-bool is_surveyed(const Situation& now) noexcept { return are_views_enough(now, 0, false); }
+bool is_surveyed(const Situation& now) noexcept {
+  constexpr unsigned kWanted =
+      1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
+  return has_all(views_in(now.shots), kWanted);
+}
 
-bool wire_touches_target(const Situation& now) noexcept {
-  for (const HandFacts& hand : now.hands) {
-    if (hand.touches_target && work_of(hand.instrument) == Work::Drill) return true;
+bool is_ring_seen(const Situation& now) noexcept {
+  for (const Shot& shot : now.shots) {
+    if (shot.along_aim >= kRing) return true;
   }
   return false;
 }
 
-bool is_wire_in_target(const Situation& now) noexcept {
-  for (const LineFacts& line : now.lines) {
-    if (lies_in_target(line, Work::Drill)) return true;
-  }
-  return false;
+bool is_entry_right(const Situation& now) noexcept {
+  const double within = now.aim.entry_within_mm;
+  return any_line(now, Work::Drill, [&](const LineFacts& line) {
+    return squared_length(line.entry_in_bone - now.aim.entry) <= within * within;
+  });
+}
+
+bool is_line_long(const Situation& now) noexcept {
+  return any_line(now, Work::Drill, [&](const LineFacts& line) {
+    return line.depth_mm >= kCommittedMm && line.chord_mm >= kLongShare * now.aim.length_mm;
+  });
 }
 
 bool is_driven(const Situation& now) noexcept {
-  for (const LineFacts& line : now.lines) {
-    if (lies_in_target(line, Work::Drill) && line.depth_mm >= kDoneShare * line.chord_mm) {
-      return true;
-    }
-  }
-  return false;
+  return any_line(now, Work::Drill, [](const LineFacts& line) {
+    return line.depth_mm >= line.chord_mm - kUnderCortexMm &&
+           line.depth_mm <= line.chord_mm + kBeyondMm;
+  });
 }
 
-bool is_checked(const Situation& now, std::size_t drive) noexcept {
-  return procedure::is_completed(now.completed_steps, drive) &&
-         are_views_enough(now, now.shots_at_completion[drive], true);
+bool is_checked(const Situation& now) noexcept {
+  return is_driven(now) && has_all(views_of(now.recent_shots, false), kViewsOfWire);
 }
 
 bool is_measured(const Situation& now) noexcept {
-  return now.gauge_reading_mm >= 0.0 && is_wire_in_target(now);
+  return any_line(now, Work::Drill, [&](const LineFacts& line) {
+    const double off = now.gauge_reading_mm - line.chord_mm;
+    return off >= -kMeasuredWithinMm && off <= kMeasuredWithinMm;
+  });
 }
 
 bool is_reamed(const Situation& now) noexcept {
-  for (const LineFacts& line : now.lines) {
-    if (lies_in_target(line, Work::Drill) && now.reamed_mm > 0.0 &&
-        now.reamed_mm >= kDoneShare * line.chord_mm) {
-      return true;
-    }
-  }
-  return false;
+  return any_line(now, Work::Drill, [&](const LineFacts& line) {
+    const double left = line.chord_mm - now.reamed_mm;
+    return now.reamed_mm > 0.0 && left >= kReamedLeastMm && left <= kReamedMostMm;
+  });
 }
 
 bool is_screw_chosen(const Situation& now) noexcept {
+  if (now.gauge_reading_mm < 0.0) return false;
   for (const HandFacts& hand : now.hands) {
-    if (work_of(hand.instrument) == Work::Thread) return true;
+    const Instrument* kind = kind_of(hand.instrument);
+    if (kind != nullptr && kind->work == Work::Thread &&
+        is_right_length(*kind, now.gauge_reading_mm)) {
+      return true;
+    }
   }
-  for (const LineFacts& line : now.lines) {
-    if (lies_in_target(line, Work::Thread)) return true;
-  }
-  return false;
+  return any_line(now, Work::Thread, [&](const LineFacts& line) {
+    return is_right_length(*kind_of(line.instrument), now.gauge_reading_mm);
+  });
 }
 
 bool is_screw_seated(const Situation& now) noexcept {
-  for (const LineFacts& line : now.lines) {
-    if (lies_in_target(line, Work::Thread) && line.buried_mm >= 0.0) return true;
-  }
-  return false;
+  return any_line(now, Work::Thread, [](const LineFacts& line) {
+    return line.buried_mm >= kBuriedLeastMm && line.buried_mm <= kBuriedMostMm &&
+           line.depth_mm <= line.chord_mm - kTipCoverMm;
+  });
 }
 
-bool is_verified(const Situation& now, std::size_t insert) noexcept {
-  return now.is_finishing && is_screw_seated(now) && !now.shots.empty() &&
-         procedure::is_completed(now.shots[now.shots.size() - 1].completed_steps, insert);
+bool is_wire_out(const Situation& now) noexcept {
+  const auto is_there = [](const LineFacts&) { return true; };
+  return any_line(now, Work::Thread, is_there) && !any_line(now, Work::Drill, is_there);
+}
+
+bool is_verified(const Situation& now) noexcept {
+  return now.is_finishing && is_screw_seated(now) &&
+         has_all(views_of(now.shots, true), kViewsOfScrew);
 }
 
 bool has_no_line(const Situation& now) noexcept {

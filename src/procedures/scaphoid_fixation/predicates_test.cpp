@@ -13,22 +13,31 @@ using instruments::instrument_of;
 using procedure::LineFacts;
 using procedure::Shot;
 
-constexpr std::size_t kDrive = 3;
-constexpr std::size_t kInsert = 7;
+constexpr double kChordMm = 25.0;
 
-/// A situation that owns what it spans.
+/// A situation that owns what it spans; all its shots are recent.
 struct Scene {
   std::vector<LineFacts> lines;
   std::vector<Shot> shots;
   Situation now;
 
+  Scene() { now.aim = {{1, 2, 3}, {0, 0, 1}, 27.0, 4.0}; }
   const Situation& seen() {
     now.lines = lines;
     now.shots = shots;
+    now.recent_shots = shots;
     return now;
   }
-  void shoot(double rotation_deg, double tilt_deg, std::uint32_t completed = 0) {
-    shots.push_back({rotation_deg, tilt_deg, 0, completed, {}});
+  Shot& shoot(double rotation_deg, double tilt_deg) {
+    Shot shot;
+    shot.rotation_deg = rotation_deg;
+    shot.tilt_deg = tilt_deg;
+    for (const LineFacts& line : lines) {
+      const bool is_screw = line.buried_mm > -20;
+      shot.shows_screw = shot.shows_screw || is_screw;
+      shot.shows_wire = shot.shows_wire || !is_screw;
+    }
+    return shots.emplace_back(shot);
   }
 };
 
@@ -36,107 +45,143 @@ LineFacts line(const char* instrument, double depth_mm, double buried_mm = -20) 
   LineFacts facts;
   facts.instrument = *instrument_of(instrument);
   facts.in_target = true;
+  facts.entry_in_bone = {1, 2, 3};
   facts.depth_mm = depth_mm;
-  facts.chord_mm = 25.0;
+  facts.chord_mm = kChordMm;
   facts.buried_mm = buried_mm;
   return facts;
 }
 
 TEST(Predicates, NothingIsDoneAtTheBeginning) {
   Scene scene;
-  const Situation& now = scene.seen();
-  EXPECT_FALSE(is_surveyed(now) || wire_touches_target(now) || is_wire_in_target(now) ||
-               is_driven(now) || is_checked(now, kDrive) || is_measured(now) || is_reamed(now) ||
-               is_screw_chosen(now) || is_screw_seated(now) || is_verified(now, kInsert));
-  EXPECT_TRUE(has_no_line(now));
-}
-
-TEST(Predicates, ASurveyNeedsTwoViewsTwentyDegreesApart) {
-  Scene scene;
-  scene.shoot(0, 0);
-  scene.shoot(15, 10);
-  EXPECT_FALSE(is_surveyed(scene.seen()));
-  scene.shoot(0, 20);
-  EXPECT_TRUE(is_surveyed(scene.seen()));
-}
-
-TEST(Predicates, OnlyAWireOnTheScaphoidFindsTheEntry) {
-  Scene scene;
-  scene.now.hands[1] = {*instrument_of("probe"), 2, true};
-  EXPECT_FALSE(wire_touches_target(scene.seen()));
-  scene.now.hands[1] = {*instrument_of("guide_wire"), 3, false};
-  EXPECT_FALSE(wire_touches_target(scene.seen())) << "on another bone";
-  scene.now.hands[1].touches_target = true;
-  EXPECT_TRUE(wire_touches_target(scene.seen()));
-}
-
-TEST(Predicates, AWireIsDrivenAtSixtyPercentOfItsLine) {
-  Scene scene;
-  scene.lines = {line("guide_wire", 14.9)};
-  EXPECT_TRUE(is_wire_in_target(scene.seen()));
-  EXPECT_FALSE(is_driven(scene.seen()));
-  scene.lines = {line("guide_wire", 15.0)};
-  EXPECT_TRUE(is_driven(scene.seen()));
-  scene.lines.front().in_target = false;
-  EXPECT_FALSE(is_driven(scene.seen()) || is_wire_in_target(scene.seen()));
+  for (const auto& [name, predicate] : named_predicates()) {
+    if (name.starts_with("is_") && name != "is_screw_unseated") {
+      EXPECT_FALSE(predicate(scene.seen())) << name;
+    }
+  }
   EXPECT_TRUE(has_no_line(scene.seen()));
 }
 
-TEST(Predicates, ViewsAreCheckedOnlySinceTheWireWasDriven) {
+TEST(Predicates, ASurveyNeedsPaAndLateral) {
   Scene scene;
   scene.shoot(0, 0);
   scene.shoot(45, 0);
-  EXPECT_FALSE(is_checked(scene.seen(), kDrive)) << "the wire is not in";
-  scene.now.completed_steps = 1U << kDrive;
-  scene.now.shots_at_completion[kDrive] = 2;
-  scene.shoot(0, 0);
-  scene.shoot(90, 0);
-  EXPECT_FALSE(is_checked(scene.seen(), kDrive)) << "without the oblique";
-  scene.shoot(45, 0);
-  EXPECT_TRUE(is_checked(scene.seen(), kDrive));
+  EXPECT_FALSE(is_surveyed(scene.seen()));
+  scene.shoot(-85, 5);
+  EXPECT_TRUE(is_surveyed(scene.seen()));
 }
 
-TEST(Predicates, AGaugeReadsAWireThatLiesInTheBone) {
+TEST(Predicates, TheRingIsSeenDownTheBoneAlone) {
+  Scene scene;
+  scene.shoot(0, 0).along_aim = 0.97;
+  EXPECT_FALSE(is_ring_seen(scene.seen()));
+  scene.shoot(20, 10).along_aim = 0.985;
+  EXPECT_TRUE(is_ring_seen(scene.seen()));
+}
+
+TEST(Predicates, AnEntryIsRightWhereTheAimGoesIn) {
+  Scene scene;
+  scene.now.hands[0] = {*instrument_of("guide_wire"), 3, true};
+  EXPECT_FALSE(is_entry_right(scene.seen())) << "touching is not entering";
+  scene.lines = {line("guide_wire", 1)};
+  EXPECT_TRUE(is_entry_right(scene.seen()));
+  scene.lines.front().entry_in_bone = {1, 2, 7.5};
+  EXPECT_FALSE(is_entry_right(scene.seen())) << "beside it";
+  scene.lines = {line("acutrak_2_mini_24", 1)};
+  EXPECT_FALSE(is_entry_right(scene.seen())) << "a screw finds no entry";
+}
+
+TEST(Predicates, ALineIsGoodWhenItRunsTheLengthOfTheBone) {
+  Scene scene;
+  scene.lines = {line("guide_wire", 3.9)};
+  EXPECT_FALSE(is_line_long(scene.seen())) << "not committed yet";
+  scene.lines = {line("guide_wire", 4.0)};
+  EXPECT_TRUE(is_line_long(scene.seen()));
+  scene.lines.front().chord_mm = 20.0;
+  EXPECT_FALSE(is_line_long(scene.seen())) << "it leaves the bone at its side";
+}
+
+TEST(Predicates, AWireIsDrivenWhenItsTipLiesUnderTheFarCortex) {
+  Scene scene;
+  for (const auto& [depth, is_right] :
+       {std::pair{15.0, false}, {22.4, false}, {22.6, true}, {25.2, true}, {25.5, false}}) {
+    scene.lines = {line("guide_wire", depth)};
+    EXPECT_EQ(is_driven(scene.seen()), is_right) << depth;
+  }
+}
+
+TEST(Predicates, ViewsAreCheckedWithTheWireInPlace) {
+  Scene scene;
+  scene.shoot(0, 0);
+  scene.shoot(90, 0);
+  scene.shoot(45, 0);
+  scene.lines = {line("guide_wire", 24)};
+  EXPECT_FALSE(is_checked(scene.seen())) << "taken before it was in";
+  scene.shoot(0, 0);
+  scene.shoot(90, 0);
+  EXPECT_FALSE(is_checked(scene.seen())) << "without the oblique";
+  scene.shoot(45, 0);
+  EXPECT_TRUE(is_checked(scene.seen()));
+  scene.lines = {line("guide_wire", 34)};
+  EXPECT_FALSE(is_checked(scene.seen())) << "it was driven on";
+}
+
+TEST(Predicates, AMeasureIsRightWhenTheWireEndsAtTheFarCortex) {
   Scene scene;
   scene.now.gauge_reading_mm = 25.0;
   EXPECT_FALSE(is_measured(scene.seen()));
   scene.lines = {line("guide_wire", 24)};
   EXPECT_TRUE(is_measured(scene.seen()));
+  scene.now.gauge_reading_mm = 34.0;
+  EXPECT_FALSE(is_measured(scene.seen())) << "the wire was nine millimetres out";
 }
 
-TEST(Predicates, ReamingFollowsTheWiresLine) {
+TEST(Predicates, ADrillStopsBeforeTheFarCortex) {
   Scene scene;
   scene.lines = {line("guide_wire", 24)};
-  scene.now.reamed_mm = 14.0;
-  EXPECT_FALSE(is_reamed(scene.seen()));
-  scene.now.reamed_mm = 23.0;
-  EXPECT_TRUE(is_reamed(scene.seen()));
+  for (const auto& [reamed, is_right] :
+       {std::pair{0.0, false}, {14.0, false}, {21.5, true}, {23.0, true}, {25.0, false}}) {
+    scene.now.reamed_mm = reamed;
+    EXPECT_EQ(is_reamed(scene.seen()), is_right) << reamed;
+  }
 }
 
-TEST(Predicates, AScrewIsChosenInTheHandAndSeatedInTheBone) {
+TEST(Predicates, AScrewIsChosenByWhatWasMeasured) {
   Scene scene;
-  scene.now.hands[0].instrument = *instrument_of("acutrak_2_mini_24");
+  scene.now.hands[0].instrument = *instrument_of("acutrak_2_mini_20");
+  EXPECT_FALSE(is_screw_chosen(scene.seen())) << "nothing was measured";
+  scene.now.gauge_reading_mm = 24.5;
   EXPECT_TRUE(is_screw_chosen(scene.seen()));
-  EXPECT_FALSE(is_screw_seated(scene.seen()));
-  scene.now.hands[0].instrument = instruments::kNoInstrument;
-  scene.lines = {line("acutrak_2_mini_24", 23.9, -0.1)};
-  EXPECT_TRUE(is_screw_chosen(scene.seen()));
-  EXPECT_FALSE(is_screw_seated(scene.seen()));
-  scene.lines.front().buried_mm = 0.0;
-  EXPECT_TRUE(is_screw_seated(scene.seen()));
-  EXPECT_FALSE(has_no_line(scene.seen())) << "the wire may be out by now";
+  scene.now.gauge_reading_mm = 23.5;
+  EXPECT_FALSE(is_screw_chosen(scene.seen())) << "too long by half a millimetre";
+  scene.now.gauge_reading_mm = 28.0;
+  EXPECT_FALSE(is_screw_chosen(scene.seen())) << "too short";
 }
 
-TEST(Predicates, TheEndIsVerifiedByAShotOfTheSeatedScrew) {
+TEST(Predicates, AScrewIsSeatedWhenBothEndsAreCovered) {
   Scene scene;
-  scene.lines = {line("acutrak_2_mini_24", 26, 2)};
-  scene.shoot(0, 0);
+  for (const auto& [depth, buried, is_right] :
+       {std::tuple{20.5, 0.5, false}, {21.5, 1.5, true}, {24.6, 2.0, false}, {24.2, 4.5, false}}) {
+    scene.lines = {line("acutrak_2_mini_20", depth, buried)};
+    EXPECT_EQ(is_screw_seated(scene.seen()), is_right) << depth << " " << buried;
+  }
+}
+
+TEST(Predicates, TheWireComesOutAndAllViewsAreTakenOfTheScrew) {
+  Scene scene;
+  scene.lines = {line("acutrak_2_mini_20", 22, 2), line("guide_wire", 24)};
+  EXPECT_FALSE(is_wire_out(scene.seen()));
+  scene.lines.pop_back();
+  EXPECT_TRUE(is_wire_out(scene.seen()));
   scene.now.is_finishing = true;
-  EXPECT_FALSE(is_verified(scene.seen(), kInsert)) << "taken before it was in";
-  scene.shoot(0, 0, 1U << kInsert);
-  EXPECT_TRUE(is_verified(scene.seen(), kInsert));
+  for (const auto& [rotation, tilt] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {45.0, 0.0}}) {
+    scene.shoot(rotation, tilt);
+  }
+  EXPECT_FALSE(is_verified(scene.seen())) << "the proximal pole was not looked at";
+  scene.shoot(0, -60);
+  EXPECT_TRUE(is_verified(scene.seen()));
   scene.now.is_finishing = false;
-  EXPECT_FALSE(is_verified(scene.seen(), kInsert));
+  EXPECT_FALSE(is_verified(scene.seen()));
 }
 
 }  // namespace

@@ -40,10 +40,10 @@ bool shows(View view, double rotation_deg, double tilt_deg) noexcept {
   return false;
 }
 
-unsigned views_after(const procedure::OperationRecord& record, std::uint32_t steps) {
+unsigned views_of(std::span<const procedure::Shot> shots, bool of_screw) noexcept {
   unsigned seen = 0;
-  for (const procedure::Shot& shot : record.shots) {
-    if ((shot.completed_steps & steps) == 0) continue;
+  for (const procedure::Shot& shot : shots) {
+    if (of_screw ? !shot.shows_screw : (!shot.shows_wire || shot.shows_screw)) continue;
     for (int i = 0; i < kViewCount; ++i) {
       if (shows(static_cast<View>(i), shot.rotation_deg, shot.tilt_deg)) seen |= 1U << i;
     }
@@ -58,7 +58,7 @@ std::string views_taken(const procedure::OperationRecord& record) {
     const auto count = std::count_if(
         record.shots.begin(), record.shots.end(),
         [&](const procedure::Shot& shot) { return shows(view, shot.rotation_deg, shot.tilt_deg); });
-    words += i == 0 ? " Taken: " : ", ";
+    words += i == 0 ? "Taken: " : ", ";
     words += in_words(view) + " " + std::to_string(count);
   }
   return words + ".";

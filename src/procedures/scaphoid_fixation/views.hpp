@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "procedure/operation_record.hpp"
@@ -21,16 +22,21 @@ enum class View : std::uint8_t {
 };
 inline constexpr int kViewCount = 4;
 
+/// Bits of the views that a wire, and that a screw, is to be seen in before one goes on.
+inline constexpr unsigned kViewsOfWire = 0b0111;
+inline constexpr unsigned kViewsOfScrew = 0b1111;
+
 /// "45° pronated oblique".
 [[nodiscard]] std::string in_words(View view);
 
 /// Whether a shot at these angles counts as this view. Plain comparisons: safe in the tick.
 [[nodiscard]] bool shows(View view, double rotation_deg, double tilt_deg) noexcept;
 
-/// Bit i: View i was taken once one of `steps` (bits of completed_steps) was done.
-[[nodiscard]] unsigned views_after(const procedure::OperationRecord& record, std::uint32_t steps);
+/// Bit i: View i was taken while a wire lay in the target and no screw yet, or (`of_screw`) while a
+/// screw was seated there. Plain comparisons: safe in the tick.
+[[nodiscard]] unsigned views_of(std::span<const procedure::Shot> shots, bool of_screw) noexcept;
 
-/// " Taken: PA 2, lateral 2, …."
+/// "Taken: PA 2, lateral 2, …."
 [[nodiscard]] std::string views_taken(const procedure::OperationRecord& record);
 
 }  // namespace carpus::procedures::scaphoid_fixation

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedures/volar_scaphoid_fixation/declared.hpp"
 
-#include <algorithm>
-#include <vector>
-
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "procedures/scaphoid_fixation/aim.hpp"
 #include "procedures/scaphoid_fixation/predicates.hpp"
 
 namespace carpus::procedures::volar_scaphoid_fixation {
@@ -35,20 +33,14 @@ procedure::Opening opening(const cases::CaseData& data) {
   opening.wrist.radial_deviation_rad = -radians_from_degrees(kUlnarDeviationDeg);
   opening.shaft_in_target = away_from_bone(data);
   opening.tip_in_target = data.scaphoid.central_axis.distal + opening.shaft_in_target * kWaitingMm;
+  opening.aim = scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromDistal);
   return opening;
 }
 
-/// The wire rests on the tubercle, or came into the scaphoid through the trapezium.
-bool is_entry_found(const procedure::Situation& now) noexcept {
-  return scaphoid_fixation::wire_touches_target(now) || scaphoid_fixation::is_wire_in_target(now);
-}
-
 procedure::Procedure read() {
-  constexpr auto kShared = scaphoid_fixation::named_predicates<kDriveStep, kInsertStep>();
-  std::vector<procedure::NamedPredicate> predicates(kShared.begin(), kShared.end());
-  predicates.push_back({"is_entry_found", is_entry_found});
+  constexpr auto kPredicates = scaphoid_fixation::named_predicates();
   procedure::Procedure read =
-      procedure::read_procedure(json(), "volar_scaphoid_fixation/procedure.json", predicates);
+      procedure::read_procedure(json(), "volar_scaphoid_fixation/procedure.json", kPredicates);
   read.opening = opening;
   read.score = score;
   return read;

@@ -5,16 +5,11 @@
 // needs code.
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 
 #include "procedure/procedure.hpp"
 
 namespace carpus::procedures::volar_scaphoid_fixation {
-
-/// Places of two steps in procedure.json; a test compares.
-inline constexpr std::size_t kDriveStep = 3;
-inline constexpr std::size_t kInsertStep = 8;
 
 /// The text of procedure.json, built in by CMakeLists.txt.
 [[nodiscard]] std::string_view json();
@@ -22,7 +17,7 @@ inline constexpr std::size_t kInsertStep = 8;
 /// Read once, on the first call. @throws InvalidInput  when procedure.json is wrong.
 [[nodiscard]] const procedure::Procedure& declared();
 
-/// Items, limits and weights of docs/scoring.md, in its order.
+/// By the rules in procedure.json (docs/scoring.md).
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record);
 

@@ -32,12 +32,9 @@ OperationRecord perfect() {
   const auto& axis = wrist().scaphoid.central_axis;
   OperationRecord record;
   LineFacts line;
-  line.instrument = *instruments::instrument_of("guide_wire");
   line.in_target = true;
   line.entry_in_bone = axis.distal;
   line.direction_in_bone = normalized_or(axis.proximal - axis.distal, {});
-  line.depth_mm = 26.5;
-  record.lines.push_back(line);
   line.instrument = *instruments::instrument_of("acutrak_standard_1994_22_5");
   line.depth_mm = 24.75;
   record.lines.push_back(line);
@@ -49,8 +46,15 @@ OperationRecord perfect() {
   record.passes = {pass};
   for (const auto& [rotation, tilt] :
        {std::pair{0.0, 0.0}, {90.0, 0.0}, {45.0, 0.0}, {0.0, -60.0}}) {
-    record.shots.push_back({rotation, tilt, 0, 1U << kDriveStep | 1U << kInsertStep, {}});
+    procedure::Shot shot;
+    shot.rotation_deg = rotation;
+    shot.tilt_deg = tilt;
+    shot.shows_wire = true;
+    record.shots.push_back(shot);
+    shot.shows_screw = true;
+    record.shots.push_back(shot);
   }
+  record.completed_steps = (1U << declared().steps.size()) - 1U;
   record.ticks = 300000;
   record.finished = true;
   return record;
@@ -77,12 +81,12 @@ TEST(VolarScore, APerfectOperationEarnsEverything) {
 
 TEST(VolarScore, TipAndTailHaveChangedPoles) {
   OperationRecord record = perfect();
-  record.lines[1].depth_mm = 26.5;  // 0.5 mm short of the proximal pole
+  record.lines.front().depth_mm = 26.5;  // 0.5 mm short of the proximal pole
   const ScoreReport report = score(wrist(), record);
   EXPECT_NEAR(*item_of(report, "proximal_cover_mm").value, 0.5, 0.05);
-  EXPECT_EQ(item_of(report, "proximal_cover_mm").label, "Bone before the screw's tip");
+  EXPECT_NE(item_of(report, "proximal_cover_mm").reason.find("tip is here"), std::string::npos);
   EXPECT_NEAR(*item_of(report, "distal_cover_mm").value, 4.0, 0.05);
-  record.lines[1].depth_mm = 30.0;
+  record.lines.front().depth_mm = 30.0;
   const ScoreReport through = score(wrist(), record);
   EXPECT_EQ(through.penetration_at.substr(0, 8), "proximal");
 }

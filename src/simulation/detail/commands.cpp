@@ -22,7 +22,7 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::None:
       return;
     case CommandKind::TakeShot:
-      return take_shot(command);
+      return take_shot(model, command);
     case CommandKind::Take:
       return take(model, command.hand, command.index);
     case CommandKind::PickUp:

@@ -5,6 +5,7 @@
 // the foot pedal is down. The pictures themselves are made elsewhere, of what is published.
 #include <cstdint>
 
+#include "core/sin_cos.hpp"
 #include "core/units.hpp"
 #include "procedure/shots.hpp"
 #include "simulation/c_arm_angles.hpp"
@@ -12,6 +13,7 @@
 
 namespace carpus::simulation {
 
+using detail::absolute;
 using procedure::Look;
 
 namespace {
@@ -20,14 +22,46 @@ constexpr std::uint32_t kPulseTicks = 1000 / procedure::kPulsesPerSecond;
 
 }  // namespace
 
+/// How far a beam of these angles [deg, in the room] runs along the line that the procedure is
+/// after, |cos|; the angles' meaning is fluoroscopy/c_arm.hpp's.
+double World::State::along_aim(const Model& model,
+                               double rotation_deg,
+                               double tilt_deg) const noexcept {
+  const SinCos rotation = sin_cos_deg(rotation_deg);
+  const SinCos tilt = sin_cos_deg(tilt_deg);
+  const double radial = model.data.side == Side::Left ? -1.0 : 1.0;
+  const Vec3 towards_source{tilt.sin, radial * rotation.sin * tilt.cos, -rotation.cos * tilt.cos};
+  const Vec3 line = (poses[detail::first_of(model.kinds.target)] *
+                     Direction<frame::Bone>{model.opening.aim.direction})
+                        .v;
+  return absolute(
+      dot((model.data.wrist_from_patient * Direction<frame::Patient>{line}).v, towards_source));
+}
+
+/// What of the metal that is operated with lies in the target.
+void World::State::note_what_shows(const Model& model, procedure::Shot& shot) const noexcept {
+  shot.shows_wire = false;
+  shot.shows_screw = false;
+  for (const detail::Item& item : now.items) {
+    if (!item.is_there() || !item.is_fixed() || !item.in_target) continue;
+    const instruments::Work work = kind_of(model, item).work;
+    if (work == instruments::Work::Drill) shot.shows_wire = true;
+    if (work == instruments::Work::Thread && buried_mm(model, item) >= 0.0) shot.shows_screw = true;
+  }
+}
+
 /// Puts a look on record. There is room: permission.cpp or `pulse` saw to it.
-void World::State::note_look(double rotation_deg, double tilt_deg, Look look) noexcept {
+void World::State::note_look(const Model& model,
+                             double rotation_deg,
+                             double tilt_deg,
+                             Look look) noexcept {
   procedure::Shot& shot = shots[spent.shot_count++];
   // What is seen hangs on how the forearm lies under the C-arm.
   shot.rotation_deg = held_rotation_deg(rotation_deg, spent.wrist.pronation_rad);
   shot.tilt_deg = tilt_deg;
   shot.tick = spent.tick;
-  shot.completed_steps = now.completed_steps;
+  note_what_shows(model, shot);
+  shot.along_aim = along_aim(model, rotation_deg, tilt_deg);
   shot.wrist = spent.wrist;
   shot.look = look;
   shot.pulses = look == Look::Single ? procedure::kPulsesPerShot : 0;
@@ -35,12 +69,12 @@ void World::State::note_look(double rotation_deg, double tilt_deg, Look look) no
   spent.pulses += shot.pulses;
 }
 
-void World::State::take_shot(const Command& command) noexcept {
-  note_look(command.rotation_deg, command.tilt_deg, Look::Single);
+void World::State::take_shot(const Model& model, const Command& command) noexcept {
+  note_look(model, command.rotation_deg, command.tilt_deg, Look::Single);
   emit(EventKind::ShotTaken, kNoItem, static_cast<std::int32_t>(spent.looks), 0.0);
 }
 
-void World::State::look_through(const CArmInput& raw) noexcept {
+void World::State::look_through(const Model& model, const CArmInput& raw) noexcept {
   CArmInput wanted = raw;
   if (!can_stand(raw.rotation_deg, raw.tilt_deg)) {
     ++faults.bad_inputs;
@@ -55,13 +89,13 @@ void World::State::look_through(const CArmInput& raw) noexcept {
     spent.live_ticks = 0;
     return;
   }
-  if (spent.live_ticks % kPulseTicks == 0) pulse();
+  if (spent.live_ticks % kPulseTicks == 0) pulse(model);
   ++spent.live_ticks;
 }
 
 /// One flash of the tube. A new entry is made where it shows something that the last one did not:
 /// another view, or more that was done. When there is room for no more it counts with the last.
-void World::State::pulse() noexcept {
+void World::State::pulse(const Model& model) noexcept {
   const CArmInput& stand = spent.c_arm;
   const bool is_first = spent.live_ticks == 0;
   bool is_new = is_first;
@@ -70,11 +104,12 @@ void World::State::pulse() noexcept {
     procedure::Shot seen = last;
     seen.rotation_deg = held_rotation_deg(stand.rotation_deg, spent.wrist.pronation_rad);
     seen.tilt_deg = stand.tilt_deg;
-    is_new = last.look == Look::Single || last.completed_steps != now.completed_steps ||
-             procedure::are_different_views(seen, last);
+    note_what_shows(model, seen);
+    is_new = last.look == Look::Single || last.shows_wire != seen.shows_wire ||
+             last.shows_screw != seen.shows_screw || procedure::are_different_views(seen, last);
   }
   if (is_new && spent.shot_count < kMaxShots) {
-    note_look(stand.rotation_deg, stand.tilt_deg, is_first ? Look::Live : Look::LiveOn);
+    note_look(model, stand.rotation_deg, stand.tilt_deg, is_first ? Look::Live : Look::LiveOn);
   }
   if (is_first) spent.live_look = spent.looks;
   ++spent.pulses;

@@ -274,6 +274,16 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
   if (beyond > pass.far_exit_mm) pass.far_exit_mm = beyond;
 }
 
+bool World::State::has_screw_in_target(const Model& model) const noexcept {
+  for (const Item& item : now.items) {
+    if (item.is_there() && item.is_fixed() && item.in_target &&
+        kind_of(model, item).work == Work::Thread) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Drawn back to where it went in: a wire is free in the hand again; what rode comes off and the
 /// hand has the wire again.
 void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
@@ -297,7 +307,7 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
     item.has_left = false;
     item.hole = kNoHole;
     item.crossing_count = 0;
-    now.gauge_reading_mm = -1.0;  // of a line that is no more
+    if (!has_screw_in_target(model)) now.gauge_reading_mm = -1.0;  // of a line that is no more
     scene.forget();
   }
   spent.hands[hand].touched_body = kNoBody;

@@ -234,7 +234,9 @@ void visit_shot(SomeShot& shot, Visitor&& v) noexcept {
   v(shot.rotation_deg);
   v(shot.tilt_deg);
   v(shot.tick);
-  v(shot.completed_steps);
+  v(shot.shows_wire);
+  v(shot.shows_screw);
+  v(shot.along_aim);
   v(shot.wrist.flexion_rad);
   v(shot.wrist.radial_deviation_rad);
   v(shot.wrist.pronation_rad);

@@ -117,6 +117,7 @@ void World::State::publish(const Model& model) noexcept {
 void World::State::update_hash(const Model& model) noexcept {
   StateHash hash;
   hash.add(model.seed);
+  hash.add(static_cast<std::uint64_t>(model.mode));
   const HashFields fields{hash};
   visit(now, fields);
   visit(spent, fields);

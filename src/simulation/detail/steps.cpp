@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which steps of the procedure are done: its own predicates on the facts of this tick.
+#include <algorithm>
 #include <cstdint>
 
 #include "simulation/detail/world_state.hpp"
@@ -44,10 +45,10 @@ void World::State::gather(const Model& model, Facts& facts) const noexcept {
   }
   situation.shots = {shots.data(), spent.shot_count};
   situation.completed_steps = now.completed_steps;
-  situation.shots_at_completion = now.shots_at_completion;
   situation.gauge_reading_mm = now.gauge_reading_mm;
   situation.reamed_mm = now.reamed_mm;
   situation.wrist = spent.wrist;
+  situation.aim = model.opening.aim;
   situation.is_finishing = is_finishing;
 }
 
@@ -59,7 +60,9 @@ void World::State::tick_off_steps(const Model& model) noexcept {
     const std::uint32_t bit = 1U << i;
     const procedure::Step& step = steps[i];
     facts.situation.completed_steps = now.completed_steps;
-    facts.situation.shots_at_completion = now.shots_at_completion;
+    const std::size_t since =
+        i == 0 ? 0 : std::min<std::size_t>(now.shots_at_completion[i - 1], spent.shot_count);
+    facts.situation.recent_shots = facts.situation.shots.subspan(since);
     if ((now.completed_steps & bit) != 0) {
       if (step.is_lost != nullptr && step.is_lost(facts.situation)) now.completed_steps &= ~bit;
     } else if (step.is_done(facts.situation)) {

@@ -26,11 +26,15 @@
 namespace carpus::simulation {
 
 struct World::Model {
-  Model(const cases::CaseData& data, const procedure::Procedure& procedure, std::uint64_t seed);
+  Model(const cases::CaseData& data,
+        const procedure::Procedure& procedure,
+        std::uint64_t seed,
+        procedure::Mode mode);
 
   const cases::CaseData& data;
   const procedure::Procedure& procedure;
   std::uint64_t seed;
+  procedure::Mode mode;
   detail::BodyKinds kinds;
   std::span<const instruments::Instrument> catalogue;
   std::vector<fields::ContactField> fields;  ///< by body
@@ -80,10 +84,17 @@ struct World::State {
   void ride_on(const Model& model, detail::Item& item, std::uint8_t wire) noexcept;
 
   // fluoroscopy.cpp
-  void take_shot(const Command& command) noexcept;
-  void look_through(const CArmInput& raw) noexcept;
-  void note_look(double rotation_deg, double tilt_deg, procedure::Look look) noexcept;
-  void pulse() noexcept;
+  void take_shot(const Model& model, const Command& command) noexcept;
+  void look_through(const Model& model, const CArmInput& raw) noexcept;
+  void note_look(const Model& model,
+                 double rotation_deg,
+                 double tilt_deg,
+                 procedure::Look look) noexcept;
+  void note_what_shows(const Model& model, procedure::Shot& shot) const noexcept;
+  [[nodiscard]] double along_aim(const Model& model,
+                                 double rotation_deg,
+                                 double tilt_deg) const noexcept;
+  void pulse(const Model& model) noexcept;
 
   // wrist_motion.cpp
   void move_wrist(const Model& model, const WristPose& raw) noexcept;
@@ -130,6 +141,7 @@ struct World::State {
                   double radius_mm) noexcept;
   void steer(const Model& model, detail::Item& item, double advanced_mm) noexcept;
   void come_out(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] bool has_screw_in_target(const Model& model) const noexcept;
   void seat(const Model& model, std::uint8_t index) noexcept;
   [[nodiscard]] double holding_share_of(const Model& model,
                                         const detail::Item& item) const noexcept;

@@ -25,14 +25,15 @@ function svg(...children: SVGElement[]): SVGElement {
 }
 
 /** Section of the bone across its axis: the good zone is its central third. */
-function target(mm: number, radiusMm: number, color: string): SVGElement {
-  const scale = 25 / Math.max(radiusMm, mm, 0.1);
+function target(percentOfWidth: number, color: string): SVGElement {
+  const radius = 50;
+  const scale = 25 / Math.max(radius, percentOfWidth);
   const ring = (r: number, fill: string): SVGElement =>
     makeSvg("circle", { cx: MIDDLE, cy: MIDDLE, r, fill, stroke: "var(--secondary)" });
   return svg(
-    ring(radiusMm * scale, "var(--picture-bone)"),
-    ring((radiusMm * scale) / 3, "none"),
-    makeSvg("circle", { cx: MIDDLE + mm * scale, cy: MIDDLE, r: 4, fill: color }),
+    ring(radius * scale, "var(--picture-bone)"),
+    ring((radius * scale) / 3, "none"),
+    makeSvg("circle", { cx: MIDDLE + percentOfWidth * scale, cy: MIDDLE, r: 4, fill: color }),
   );
 }
 
@@ -83,13 +84,11 @@ function cover(mm: number, color: string): SVGElement {
   );
 }
 
-export function itemPicture(item: ScoreItem, report: ScoreReport): SVGElement | undefined {
+export function itemPicture(item: ScoreItem): SVGElement | undefined {
   if (item.value === null) return undefined;
   const color = COLORS[item.grade];
   if (item.id === "angle_to_central_axis_deg") return rays(item.value, color);
-  if (item.id.endsWith("_offset_mm")) {
-    return target(item.value, report.central_cylinder_radius_mm, color);
-  }
+  if (item.id.endsWith("_offset_percent")) return target(item.value, color);
   if (item.id.endsWith("_cover_mm")) return cover(item.value, color);
   return undefined;
 }

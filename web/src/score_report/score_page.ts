@@ -199,7 +199,7 @@ function table(report: ScoreReport): HTMLElement {
 }
 
 function row(item: ScoreItem, report: ScoreReport): HTMLElement {
-  const picture = itemPicture(item, report);
+  const picture = itemPicture(item);
   const besides = item.id === "angle_to_central_axis_deg" ? longestLineText(report) : "";
   const points =
     item.points_possible === 0

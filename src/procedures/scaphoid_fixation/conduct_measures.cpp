@@ -1,0 +1,173 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <utility>
+
+#include "anatomy/bone_words.hpp"
+#include "core/units.hpp"
+#include "procedure/thrift_measures.hpp"
+#include "procedures/scaphoid_fixation/measures.hpp"
+#include "procedures/scaphoid_fixation/views.hpp"
+
+namespace carpus::procedures::scaphoid_fixation {
+namespace {
+
+using instruments::Work;
+using procedure::Measure;
+using procedure::text_of;
+
+constexpr const char* kNoWire = "No wire went into bone.";
+
+Measure wire_passes(const Facts& facts) {
+  Measure measure{"wire_passes", std::nullopt, kNoWire};
+  if (facts.wire_passes > 0) {
+    measure.value = facts.wire_passes;
+    measure.finding.clear();
+  }
+  return measure;
+}
+
+/// Wires, and what ran over them.
+Measure beyond_far_cortex(const Facts& facts) {
+  Measure measure{"beyond_far_cortex_mm", std::nullopt, kNoWire};
+  if (facts.record.passes.empty()) return measure;
+  double deepest = 0.0;
+  std::uint32_t times = 0;
+  for (const procedure::Pass& pass : facts.record.passes) {
+    deepest = std::max(deepest, pass.far_exit_mm);
+    times += pass.far_exits;
+  }
+  measure.value = deepest;
+  measure.finding = times == 0 ? "Nothing came out at the far side."
+                               : "Something came out at the far side " + std::to_string(times) +
+                                     (times == 1 ? " time." : " times.");
+  return measure;
+}
+
+Measure wrong_bones(const Facts& facts) {
+  Measure measure{"wrong_bones_entered", std::nullopt, kNoWire};
+  if (facts.record.passes.empty()) return measure;
+  const auto& allowed = facts.fixation.procedure->allowed;
+  measure.value = 0.0;
+  measure.finding.clear();
+  for (const BoneId bone : facts.entered) {
+    if (std::find(allowed.begin(), allowed.end(), bone) != allowed.end()) continue;
+    *measure.value += 1.0;
+    measure.finding += (measure.finding.empty() ? "Entered: the " : ", the ");
+    measure.finding += words_of(bone);
+  }
+  measure.finding += measure.finding.empty() ? "None was." : ".";
+  return measure;
+}
+
+/// Far end of the line less the drill's greatest depth.
+Measure ream_short(const Facts& facts) {
+  Measure measure{"ream_short_of_far_cortex_mm", std::nullopt, "No drill went over the wire."};
+  if (!facts.line || !(facts.record.reamed_mm > 0.0)) return measure;
+  measure.value = facts.line->chord.leave_mm - facts.record.reamed_mm;
+  measure.finding.clear();
+  return measure;
+}
+
+double area_of(double radius_mm) { return kPi * radius_mm * radius_mm; }
+
+bool is_through_trapezium(const Facts& facts, const procedure::Pass& pass) {
+  const auto& bones = facts.data.bones;
+  for (std::size_t body = 0; body < bones.size() && body < 32; ++body) {
+    const bool is_entered = (pass.bodies_entered >> body & 1U) != 0;
+    if (is_entered && bones[body].bone == BoneId::Trapezium) return true;
+  }
+  return false;
+}
+
+/// Radius of the widest thing that followed the wire: screw or drill; 0 when none did.
+double widest_follower_mm(const Facts& facts) {
+  const auto all = instruments::catalogue();
+  double widest = 0.0;
+  if (facts.screw) widest = all[facts.screw->instrument].tail_diameter_mm / 2;
+  if (!(facts.record.reamed_mm > 0.0)) return widest;
+  for (const instruments::InstrumentIndex index : facts.fixation.procedure->tray) {
+    if (all[index].work == Work::Ream) widest = std::max(widest, all[index].cut_tail_radius_mm);
+  }
+  return widest;
+}
+
+/// Cartilage of the trapezium that was lost on the way: a round hole for every pass of a wire
+/// through it, and the last of them as wide as what followed.
+Measure trapezium_cartilage(const Facts& facts) {
+  Measure measure{"trapezium_cartilage_mm2", std::nullopt, kNoWire};
+  const auto& allowed = facts.fixation.procedure->allowed;
+  measure.applies = std::find(allowed.begin(), allowed.end(), BoneId::Trapezium) != allowed.end();
+  if (facts.wire_passes == 0) return measure;
+  double lost = 0.0;
+  double last_wire = 0.0;
+  for (const procedure::Pass& pass : facts.record.passes) {
+    if (pass.instrument >= instruments::catalogue().size()) continue;
+    last_wire = 0.0;
+    if (!is_through_trapezium(facts, pass)) continue;
+    last_wire = instruments::catalogue()[pass.instrument].cut_tail_radius_mm;
+    lost += area_of(last_wire);
+  }
+  const double follower = widest_follower_mm(facts);
+  if (last_wire > 0.0 && follower > last_wire) lost += area_of(follower) - area_of(last_wire);
+  measure.value = lost;
+  measure.finding = lost > 0 ? "It was gone through." : "The trapezium was left whole.";
+  return measure;
+}
+
+/// How many of `wanted` (bits of View) were taken while wire, or screw, lay in place.
+Measure views(const Facts& facts, const char* id, bool of_screw, unsigned wanted) {
+  const unsigned seen = views_of(facts.record.shots, of_screw) & wanted;
+  Measure measure{id, static_cast<double>(std::popcount(seen)), ""};
+  for (int i = 0; i < kViewCount; ++i) {
+    if ((wanted >> i & 1U) == 0 || (seen >> i & 1U) != 0) continue;
+    measure.finding += (measure.finding.empty() ? "Not taken: " : ", ");
+    measure.finding += in_words(static_cast<View>(i));
+  }
+  measure.finding += measure.finding.empty() ? "All were taken." : ".";
+  return measure;
+}
+
+Measure wires_left_in(const Facts& facts) {
+  Measure measure{"wires_left_in", 0.0, ""};
+  for (const procedure::LineFacts& line : facts.record.lines) {
+    if (line.instrument >= instruments::catalogue().size()) continue;
+    if (instruments::catalogue()[line.instrument].work == Work::Drill) *measure.value += 1.0;
+  }
+  return measure;
+}
+
+}  // namespace
+
+std::vector<Measure> conduct_measures(const Facts& facts) {
+  std::vector<Measure> all{
+      wire_passes(facts),
+      beyond_far_cortex(facts),
+      wrong_bones(facts),
+      ream_short(facts),
+      trapezium_cartilage(facts),
+      views(facts, "views_with_wire", false, kViewsOfWire),
+      views(facts, "views_with_screw", true, kViewsOfScrew),
+      wires_left_in(facts),
+  };
+  for (Measure& measure : procedure::thrift_measures(*facts.fixation.procedure, facts.record,
+                                                     views_taken(facts.record))) {
+    all.push_back(std::move(measure));
+  }
+  return all;
+}
+
+procedure::ScoreReport score(const cases::CaseData& data,
+                             const procedure::OperationRecord& record,
+                             const Fixation& fixation) {
+  const Facts facts = facts_of(data, record, fixation);
+  procedure::ScoreReport report = references_of(facts);
+  std::vector<Measure> measures = placement_measures(facts);
+  for (Measure& measure : conduct_measures(facts)) measures.push_back(std::move(measure));
+  procedure::grade(report, fixation.procedure->rules, measures);
+  return report;
+}
+
+}  // namespace carpus::procedures::scaphoid_fixation

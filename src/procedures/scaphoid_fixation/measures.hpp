@@ -1,0 +1,31 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The figures of a scaphoid fixation, by the ids under which the rules in procedure.json grade them
+// (docs/scoring.md defines each).
+#pragma once
+
+#include <vector>
+
+#include "procedure/grading.hpp"
+#include "procedures/scaphoid_fixation/facts.hpp"
+
+namespace carpus::procedures::scaphoid_fixation {
+
+/// Where wire and screw lie: `screw_placed`, `waist_offset_percent`, `proximal_offset_percent`,
+/// `distal_offset_percent`, `bone_beside_screw_mm`, `usable_length_percent`,
+/// `angle_to_central_axis_deg`, `proximal_cover_mm`, `distal_cover_mm`, `penetration_mm`,
+/// `screw_in_smaller_fragment_mm`, `screw_length_minus_ideal_mm`, `hold_percent`.
+[[nodiscard]] std::vector<procedure::Measure> placement_measures(const Facts& facts);
+
+/// How it went: `wire_passes`, `beyond_far_cortex_mm`, `wrong_bones_entered`,
+/// `ream_short_of_far_cortex_mm`, `trapezium_cartilage_mm2`, `views_with_wire`,
+/// `views_with_screw`, `wires_left_in`, and procedure::thrift_measures.
+[[nodiscard]] std::vector<procedure::Measure> conduct_measures(const Facts& facts);
+
+/// Both, graded by the procedure's rules.
+[[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
+                                           const procedure::OperationRecord& record,
+                                           const Fixation& fixation);
+
+}  // namespace carpus::procedures::scaphoid_fixation
