@@ -32,6 +32,7 @@ void write(FieldWriter& out, const End& /*in*/) { out.name("type", "end"); }
 void read(FieldReader& in, Start& out) {
   out.trainee = in.string("trainee", 64);
   out.procedure = in.string("procedure", 64);
+  if (in.has("mode")) out.mode = static_cast<Mode>(in.choice("mode", kModeNames));
   out.input_device = static_cast<InputDevice>(in.choice("input_device", kInputDeviceNames));
   out.seed = in.integer("seed", 0, 4294967295);
 }
@@ -40,6 +41,11 @@ void write(FieldWriter& out, const Start& in) {
   out.name("type", "start");
   out.text("trainee", in.trainee, 64);
   out.text("procedure", in.procedure, 64);
+  if (in.mode) {
+    out.name("mode", name_of(*in.mode));
+  } else {
+    out.null("mode");
+  }
   out.name("input_device", name_of(in.input_device));
   out.value("seed", in.seed);
 }
@@ -189,6 +195,7 @@ void write(FieldWriter& out, const Welcome& in) {
 
 void read(FieldReader& in, Exercise& out) {
   in.record("procedure", out.procedure);
+  out.mode = static_cast<Mode>(in.choice("mode", kModeNames));
   in.records("steps", 0, 32, out.steps);
   in.records("views", 0, 32, out.views);
   in.list("tray", 0, 128, 64, out.tray);
@@ -200,6 +207,7 @@ void read(FieldReader& in, Exercise& out) {
 void write(FieldWriter& out, const Exercise& in) {
   out.name("type", "exercise");
   out.record("procedure", in.procedure);
+  out.name("mode", name_of(in.mode));
   out.records("steps", in.steps);
   out.records("views", in.views);
   out.list("tray", in.tray, 64);

@@ -46,6 +46,8 @@ struct Start {
   std::string trainee;
   /// id of GET /api/procedures
   std::string procedure;
+  /// practice where it is not said
+  std::optional<Mode> mode;
   InputDevice input_device = InputDevice::Mouse;
   /// 0 to 4294967295
   std::int64_t seed = 0;
@@ -185,6 +187,7 @@ struct Welcome {
 /// to one. Nothing of it changes while it runs.
 struct Exercise {
   ProcedureSummary procedure;
+  Mode mode = Mode::Practice;
   std::vector<Step> steps;
   std::vector<NamedView> views;
   /// ids of what may be taken, in order

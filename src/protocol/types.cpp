@@ -447,9 +447,10 @@ void write(FieldWriter& out, const Placement& in) {
 }
 
 void read(FieldReader& in, ScoreReport& out) {
-  out.score_version = in.integer("score_version", 1, 1);
+  out.score_version = in.integer("score_version", 1, 2);
   out.overall = in.number("overall", 0.0, 100.0);
   out.fixation_acceptable = in.boolean("fixation_acceptable");
+  if (in.has("is_void")) out.is_void = in.boolean("is_void");
   in.records("must_haves", 0, 32, out.must_haves);
   in.records("items", 0, 64, out.items);
   out.central_axis_length_mm = in.number("central_axis_length_mm", 0.0, 1000.0);
@@ -471,6 +472,11 @@ void write(FieldWriter& out, const ScoreReport& in) {
   out.value("score_version", in.score_version);
   out.value("overall", in.overall);
   out.value("fixation_acceptable", in.fixation_acceptable);
+  if (in.is_void) {
+    out.value("is_void", *in.is_void);
+  } else {
+    out.null("is_void");
+  }
   out.records("must_haves", in.must_haves);
   out.records("items", in.items);
   out.value("central_axis_length_mm", in.central_axis_length_mm);
@@ -506,6 +512,7 @@ void read(FieldReader& in, AttemptSummary& out) {
   out.case_fingerprint = in.string("case_fingerprint", 16);
   if (in.has("case_simulated")) out.case_simulated = in.boolean("case_simulated");
   out.procedure = in.string("procedure", 64);
+  if (in.has("mode")) out.mode = static_cast<Mode>(in.choice("mode", kModeNames));
   out.input_device = in.string("input_device", 32);
   out.started_at = in.string("started_at", 32);
   out.ended_at = in.string("ended_at", 32);
@@ -526,6 +533,11 @@ void write(FieldWriter& out, const AttemptSummary& in) {
     out.null("case_simulated");
   }
   out.text("procedure", in.procedure, 64);
+  if (in.mode) {
+    out.name("mode", name_of(*in.mode));
+  } else {
+    out.null("mode");
+  }
   out.text("input_device", in.input_device, 32);
   out.text("started_at", in.started_at, 32);
   out.text("ended_at", in.ended_at, 32);

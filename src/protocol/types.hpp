@@ -19,9 +19,17 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 6;
+inline constexpr std::int64_t kProtocolVersion = 7;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
+
+/// Two ways to operate: practice with bones, ticks and undo; assessed by the C-arm alone, and the
+/// truth afterwards.
+enum class Mode : std::uint8_t { Practice, Assessed };
+inline constexpr std::array<std::string_view, 2> kModeNames{"practice", "assessed"};
+[[nodiscard]] constexpr std::string_view name_of(Mode value) noexcept {
+  return kModeNames[static_cast<std::size_t>(value)];
+}
 
 /// What the trainee's hand moves.
 enum class InputDevice : std::uint8_t { Mouse, Keyboard, Gamepad, Arm, Headset, Script };
@@ -476,11 +484,13 @@ struct Placement {
 
 /// The truth about a finished operation (docs/scoring.md). Records hold it in this form.
 struct ScoreReport {
-  /// 1 to 1
+  /// 1 to 2
   std::int64_t score_version = 0;
   /// sum of the items' points 0 to 100
   double overall = 0.0;
   bool fixation_acceptable = false;
+  /// an assessed operation that ended before there was anything to assess: the truth stays locked
+  std::optional<bool> is_void;
   std::vector<MustHave> must_haves;
   std::vector<ScoreItem> items;
   /// [mm] 0 to 1000
@@ -521,6 +531,8 @@ struct AttemptSummary {
   /// not scanned from a person; none in records from before this was noted
   std::optional<bool> case_simulated;
   std::string procedure;
+  /// none in records from before there were two
+  std::optional<Mode> mode;
   std::string input_device;
   /// UTC, ISO 8601
   std::string started_at;

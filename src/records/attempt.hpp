@@ -31,6 +31,7 @@ struct AttemptSummary {
   std::string case_fingerprint;
   std::optional<bool> case_simulated;  ///< not scanned from a person; none in records from before
   std::string procedure;               ///< "dorsal_scaphoid_fixation"
+  std::string mode;                    ///< "practice", "assessed"; empty in records from before
   std::string input_device;            ///< "mouse", "script", …
   std::string started_at;              ///< UTC, ISO 8601
   std::string ended_at;                ///< UTC, ISO 8601

@@ -20,8 +20,8 @@ namespace {
 
 /// What the list shows of an attempt.
 constexpr const char* kSummaryColumns =
-    "id, origin, trainee, case_name, case_fingerprint, case_simulated, procedure, input_device, "
-    "started_at, ended_at, outcome, overall, duration_ticks, final_hash";
+    "id, origin, trainee, case_name, case_fingerprint, case_simulated, procedure, mode, "
+    "input_device, started_at, ended_at, outcome, overall, duration_ticks, final_hash";
 
 /// Says in words what to do about an SQLite error.
 std::string advice(const SQLite::Exception& error) {
@@ -91,6 +91,8 @@ AttemptSummary read_summary(SQLite::Statement& row) {
   const SQLite::Column simulated = row.getColumn("case_simulated");
   if (!simulated.isNull()) summary.case_simulated = simulated.getInt() != 0;
   summary.procedure = row.getColumn("procedure").getString();
+  const SQLite::Column mode = row.getColumn("mode");
+  if (!mode.isNull()) summary.mode = mode.getString();
   summary.input_device = row.getColumn("input_device").getString();
   summary.started_at = row.getColumn("started_at").getString();
   summary.ended_at = row.getColumn("ended_at").getString();
@@ -111,6 +113,7 @@ void bind(SQLite::Statement& insert, const Attempt& attempt) {
   insert.bind(":case_fingerprint", summary.case_fingerprint);
   if (summary.case_simulated) insert.bind(":case_simulated", *summary.case_simulated ? 1 : 0);
   insert.bind(":procedure", summary.procedure);
+  if (!summary.mode.empty()) insert.bind(":mode", summary.mode);
   insert.bind(":input_device", summary.input_device);
   insert.bind(":started_at", summary.started_at);
   insert.bind(":ended_at", summary.ended_at);
@@ -211,10 +214,12 @@ std::int64_t AttemptStore::save(const Attempt& attempt) {
         connection_->database,
         "INSERT INTO attempt (origin, trainee, case_name, case_fingerprint, case_simulated, "
         "procedure, "
-        "input_device, started_at, ended_at, outcome, overall, duration_ticks, final_hash, score, "
+        "mode, input_device, started_at, ended_at, outcome, overall, duration_ticks, final_hash, "
+        "score, "
         "events, recording) VALUES (:origin, :trainee, :case_name, :case_fingerprint, "
         ":case_simulated, "
-        ":procedure, :input_device, :started_at, :ended_at, :outcome, :overall, :duration_ticks, "
+        ":procedure, :mode, :input_device, :started_at, :ended_at, :outcome, :overall, "
+        ":duration_ticks, "
         ":final_hash, :score, :events, :recording)");
     bind(insert, attempt);
     insert.exec();

@@ -19,7 +19,7 @@
 namespace carpus::records {
 
 /// Schema of the records file that this program writes; it reads and updates older ones.
-inline constexpr int kRecordsSchemaVersion = 3;
+inline constexpr int kRecordsSchemaVersion = 4;
 
 /// Another program holds the file; later it may not.
 class RecordsBusy : public IoError {

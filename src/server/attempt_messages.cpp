@@ -18,6 +18,8 @@ protocol::AttemptSummary summary_message(const records::AttemptSummary& attempt)
   message.case_fingerprint = attempt.case_fingerprint;
   message.case_simulated = attempt.case_simulated;
   message.procedure = attempt.procedure;
+  if (attempt.mode == name_of(protocol::Mode::Assessed)) message.mode = protocol::Mode::Assessed;
+  if (attempt.mode == name_of(protocol::Mode::Practice)) message.mode = protocol::Mode::Practice;
   message.input_device = attempt.input_device;
   message.started_at = attempt.started_at;
   message.ended_at = attempt.ended_at;

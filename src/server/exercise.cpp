@@ -30,8 +30,8 @@ ExerciseStart begin_anew(const cases::CaseData& data,
                          const ExerciseSetup& setup,
                          const std::filesystem::path& records) {
   return begin_anew(data, case_fingerprint, setup, records,
-                    simulation::World(data, *setup.procedure, setup.seed),
-                    simulation::World(data, *setup.procedure, setup.seed));
+                    simulation::World(data, *setup.procedure, setup.seed, setup.mode),
+                    simulation::World(data, *setup.procedure, setup.seed, setup.mode));
 }
 
 ExerciseStart begin_anew(const cases::CaseData& data,
@@ -40,7 +40,8 @@ ExerciseStart begin_anew(const cases::CaseData& data,
                          const std::filesystem::path& records,
                          simulation::World world,
                          simulation::World shadow) {
-  simulation::Recorder recorder(kProgramVersion, case_fingerprint, *setup.procedure, setup.seed);
+  simulation::Recorder recorder(kProgramVersion, case_fingerprint, *setup.procedure, setup.seed,
+                                setup.mode);
   ExerciseStart start{records::new_origin(),
                       records::utc_now(),
                       std::move(world),
@@ -107,6 +108,7 @@ std::vector<TakenShot> pictures_of(const procedure::Procedure& procedure,
 void Exercise::add_news(const EventfulTick& tick, ExerciseNews& news) const {
   for (std::size_t i = 0; i < tick.snapshot.event_count; ++i) {
     news.events.push_back(session_.describe(tick.snapshot.events[i]));
+    if (auto told = session_.tell(tick.snapshot.events[i])) news.told.push_back(std::move(*told));
   }
   for (const TakenShot& shot : pictures_of(*setup_.procedure, tick)) news.shots.push_back(shot);
 }
@@ -157,6 +159,9 @@ records::Attempt Exercise::end() {
   std::optional<procedure::ScoreReport> score;
   if (world_.now().finished) {
     score = setup_.procedure->score(data_, world_.operation_record());
+    if (setup_.mode == procedure::Mode::Assessed) {
+      score = procedure::locked_where_void(std::move(*score));
+    }
   }
   return make_attempt({data_, recording, log_, std::move(score), setup_.trainee,
                        setup_.input_device, started_at_, origin_});
@@ -171,6 +176,7 @@ records::Attempt make_attempt(const AttemptParts& parts) {
   summary.case_fingerprint = hexadecimal(parts.recording.case_fingerprint);
   summary.case_simulated = parts.data.provenance.simulated;
   summary.procedure = parts.recording.procedure;
+  summary.mode = procedure::name_of(parts.recording.mode);
   summary.input_device = parts.input_device;
   summary.started_at = parts.started_at;
   summary.ended_at = records::utc_now();

@@ -30,6 +30,7 @@ struct ExerciseSetup {
   std::string input_device;
   const procedure::Procedure* procedure = nullptr;  ///< must outlive the exercise
   std::uint64_t seed = 0;
+  procedure::Mode mode = procedure::Mode::Practice;
   std::uint64_t number = 0;  ///< the station's count
 };
 
@@ -81,7 +82,8 @@ struct TakenShot {
 
 /// What happened since the last look.
 struct ExerciseNews {
-  std::vector<protocol::LoggedEvent> events;
+  std::vector<protocol::LoggedEvent> events;  ///< for the records
+  std::vector<protocol::LoggedEvent> told;    ///< for the page
   std::vector<TakenShot> shots;
 };
 

@@ -237,7 +237,7 @@ void Station::watch_disk() {
 
 void Station::send_news() {
   ExerciseNews news = exercise_->collect();
-  for (const protocol::LoggedEvent& event : news.events) {
+  for (const protocol::LoggedEvent& event : news.told) {
     if (may_watch()) send(protocol::Event{event});
   }
   for (TakenShot& shot : news.shots) {

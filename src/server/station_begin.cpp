@@ -35,6 +35,7 @@ void Station::on_message(const protocol::Start& start) {
   setup.trainee = start.trainee;
   setup.input_device = name_of(start.input_device);
   setup.procedure = procedure;
+  setup.mode = static_cast<procedure::Mode>(start.mode.value_or(protocol::Mode::Practice));
   setup.seed = static_cast<std::uint64_t>(start.seed);
   setup.number = exercise_number_;
   is_beginning_ = true;

@@ -128,8 +128,10 @@ protocol::InstrumentList instrument_list() {
 }
 
 protocol::Exercise exercise_message(const cases::CaseData& data,
-                                    const procedure::Procedure& procedure) {
+                                    const procedure::Procedure& procedure,
+                                    procedure::Mode mode) {
   protocol::Exercise message;
+  message.mode = static_cast<protocol::Mode>(mode);
   message.procedure = summary_of(procedure);
   for (const procedure::Step& step : procedure.steps) message.steps.push_back(message_of(step));
   for (const procedure::NamedView& view : procedure.views) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "cases/case_data.hpp"
+#include "procedure/mode.hpp"
 #include "procedure/procedure.hpp"
 #include "protocol/bodies.hpp"
 #include "protocol/messages.hpp"
@@ -18,7 +19,8 @@ namespace carpus::session {
 [[nodiscard]] protocol::InstrumentList instrument_list();
 /// What is being done.
 [[nodiscard]] protocol::Exercise exercise_message(const cases::CaseData& data,
-                                                  const procedure::Procedure& procedure);
+                                                  const procedure::Procedure& procedure,
+                                                  procedure::Mode mode);
 
 [[nodiscard]] protocol::WristPose message_of(const procedure::WristPose& wrist) noexcept;
 

@@ -99,6 +99,20 @@ class Sentence {
   const BodyNames& bodies_;
 };
 
+/// What is felt of it, without a name; empty where nothing is.
+std::string_view felt(EventKind kind) {
+  switch (kind) {
+    case EventKind::TouchedBone:
+      return "Touches bone";
+    case EventKind::EnteredBone:
+      return "The tip bites into bone";
+    case EventKind::Slipped:
+      return "The tip slips along bone: hold it steeper to the surface";
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
@@ -116,6 +130,26 @@ protocol::LoggedEvent describe(const simulation::Event& event,
                                const BodyNames& bodies) {
   return {static_cast<std::int64_t>(event.tick), std::string(name_of(event.kind)),
           Sentence(event, procedure, bodies).text()};
+}
+
+std::optional<protocol::LoggedEvent> describe_blind(const simulation::Event& event,
+                                                    const procedure::Procedure& procedure,
+                                                    const BodyNames& bodies) {
+  protocol::LoggedEvent told = describe(event, procedure, bodies);
+  switch (event.kind) {
+    case EventKind::LeftFarSide:
+    case EventKind::WrongBone:
+    case EventKind::Seated:
+    case EventKind::StepCompleted:
+      return std::nullopt;
+    case EventKind::TouchedBone:
+    case EventKind::EnteredBone:
+    case EventKind::Slipped:
+      told.text = felt(event.kind);
+      return told;
+    default:
+      return told;
+  }
 }
 
 }  // namespace carpus::session

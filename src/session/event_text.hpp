@@ -4,6 +4,7 @@
 // Events of the simulation in words, for the log on the page and in the records.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "procedure/procedure.hpp"
@@ -19,5 +20,11 @@ namespace carpus::session {
 [[nodiscard]] protocol::LoggedEvent describe(const simulation::Event& event,
                                              const procedure::Procedure& procedure,
                                              const BodyNames& bodies);
+
+/// The same as it is told in an assessed operation: nothing that eyes, hand and C-arm do not show.
+[[nodiscard]] std::optional<protocol::LoggedEvent> describe_blind(
+    const simulation::Event& event,
+    const procedure::Procedure& procedure,
+    const BodyNames& bodies);
 
 }  // namespace carpus::session

@@ -7,7 +7,7 @@ namespace carpus::session {
 namespace {
 
 /// Of the report's form; it changes when a key changes its meaning.
-constexpr std::int64_t kScoreVersion = 1;
+constexpr std::int64_t kScoreVersion = 2;
 
 // The enumeration of protocol.json is in the order of the procedure's.
 static_assert(static_cast<int>(protocol::Grade::NotMeasured) ==
@@ -39,6 +39,7 @@ protocol::ScoreReport score_message(const procedure::ScoreReport& report) {
   message.score_version = kScoreVersion;
   message.overall = report.overall;
   message.fixation_acceptable = report.is_fixation_acceptable;
+  if (report.is_void) message.is_void = true;
   for (const procedure::MustHave& must : report.must_haves) {
     message.must_haves.push_back({must.id, must.label, must.fulfilled});
   }

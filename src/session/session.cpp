@@ -57,7 +57,9 @@ const HeldInput& Session::let_go() noexcept {
   return held_;
 }
 
-protocol::Exercise Session::exercise() const { return exercise_message(data_, procedure_); }
+protocol::Exercise Session::exercise() const {
+  return exercise_message(data_, procedure_, latest_.mode);
+}
 
 std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& now,
                                                    const HostState& host) {
@@ -91,6 +93,11 @@ void Session::forget_what_was_sent() noexcept {
 
 protocol::LoggedEvent Session::describe(const simulation::Event& event) const {
   return session::describe(event, procedure_, bodies_);
+}
+
+std::optional<protocol::LoggedEvent> Session::tell(const simulation::Event& event) const {
+  if (latest_.mode == procedure::Mode::Practice) return describe(event);
+  return describe_blind(event, procedure_, bodies_);
 }
 
 }  // namespace carpus::session

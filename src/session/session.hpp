@@ -50,7 +50,10 @@ class Session {
                                                           const HostState& host);
   /// A page came back: the next update tells everything.
   void forget_what_was_sent() noexcept;
+  /// For the records: everything.
   [[nodiscard]] protocol::LoggedEvent describe(const simulation::Event& event) const;
+  /// For the page: in an assessed operation only what it would notice; empty where that is nothing.
+  [[nodiscard]] std::optional<protocol::LoggedEvent> tell(const simulation::Event& event) const;
 
  private:
   using BonePose = Pose<frame::Patient, frame::Bone>;

@@ -53,6 +53,20 @@ protocol::Item message_of(const simulation::ItemView& item,
   return message;
 }
 
+/// Takes out what only the simulation knows: in which bone a tip is, how deep a tail lies, what is
+/// done rightly. What a hand feels stays, and how far an instrument went in: it can be seen on it.
+void blind(protocol::Snapshot& message) {
+  message.step = 0;
+  message.completed_steps.clear();
+  message.holding_share = 1.0;
+  for (protocol::HandState& hand : message.hands) hand.touched_body.clear();
+  for (protocol::Item& item : message.items) {
+    item.tip_body.clear();
+    item.tip_hu = 0.0;
+    item.buried_mm = 0.0;
+  }
+}
+
 }  // namespace
 
 std::array<double, 4> quaternion_of(const Mat3& rotation) noexcept {
@@ -106,6 +120,7 @@ protocol::Snapshot snapshot_message(const simulation::Snapshot& now,
   message.tick_rate_hz = host.tick_rate_hz;
   message.tick_p99_us = host.tick_p99_us;
   message.late_ticks = static_cast<std::int64_t>(host.late_ticks);
+  if (now.mode == procedure::Mode::Assessed && !now.finished) blind(message);
   // A paused simulation asks for no force: whatever draws on it stands still with time.
   if (host.paused) {
     for (protocol::HandState& hand : message.hands) hand.force_n = {};

@@ -13,7 +13,7 @@ inline constexpr int kApplicationId = 0x43415250;
 
 /// kMigrations[v] turns a file of version v into one of version v + 1; a new file begins at 0.
 /// Never change one that was released: add the next.
-inline constexpr std::array<const char*, 3> kMigrations{
+inline constexpr std::array<const char*, 4> kMigrations{
     R"sql(
       CREATE TABLE attempt (
         id               INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -43,6 +43,10 @@ inline constexpr std::array<const char*, 3> kMigrations{
     R"sql(
       ALTER TABLE attempt ADD COLUMN origin TEXT;
       CREATE UNIQUE INDEX attempt_by_origin ON attempt (origin);
+    )sql",
+    // NULL of attempts from before there were two ways to operate.
+    R"sql(
+      ALTER TABLE attempt ADD COLUMN mode TEXT CHECK (mode IN ('practice', 'assessed'));
     )sql",
 };
 

@@ -6,10 +6,13 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 6;
+export const PROTOCOL_VERSION = 7;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
+
+/** Two ways to operate: practice with bones, ticks and undo; assessed by the C-arm alone, and the truth afterwards. */
+export type Mode = "practice" | "assessed";
 
 /** What the trainee's hand moves. */
 export type InputDevice = "mouse" | "keyboard" | "gamepad" | "arm" | "headset" | "script";
@@ -380,11 +383,13 @@ export interface Placement {
 
 /** The truth about a finished operation (docs/scoring.md). Records hold it in this form. */
 export interface ScoreReport {
-  /** 1 to 1 */
+  /** 1 to 2 */
   readonly score_version: number;
   /** sum of the items' points 0 to 100 */
   readonly overall: number;
   readonly fixation_acceptable: boolean;
+  /** an assessed operation that ended before there was anything to assess: the truth stays locked */
+  readonly is_void: boolean | null;
   readonly must_haves: readonly MustHave[];
   readonly items: readonly ScoreItem[];
   /** [mm] 0 to 1000 */
@@ -424,6 +429,8 @@ export interface AttemptSummary {
   /** not scanned from a person; none in records from before this was noted */
   readonly case_simulated: boolean | null;
   readonly procedure: string;
+  /** none in records from before there were two */
+  readonly mode: Mode | null;
   readonly input_device: string;
   /** UTC, ISO 8601 */
   readonly started_at: string;
@@ -473,6 +480,8 @@ export interface StartMessage {
   readonly trainee: string;
   /** id of GET /api/procedures */
   readonly procedure: string;
+  /** practice where it is not said */
+  readonly mode: Mode | null;
   readonly input_device: InputDevice;
   /** 0 to 4294967295 */
   readonly seed: number;
@@ -603,6 +612,7 @@ export interface WelcomeMessage {
 export interface ExerciseMessage {
   readonly type: "exercise";
   readonly procedure: ProcedureSummary;
+  readonly mode: Mode;
   readonly steps: readonly Step[];
   readonly views: readonly NamedView[];
   /** ids of what may be taken, in order */

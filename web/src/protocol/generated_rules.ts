@@ -8,6 +8,7 @@ import type { Rules, Schema } from "./validator";
 export const SCHEMA: Schema = {
   maxDepth: 16,
   types: {
+    mode: { values: ["practice", "assessed"] },
     input_device: { values: ["mouse", "keyboard", "gamepad", "arm", "headset", "script"] },
     driver: { values: ["off", "forward", "reverse"] },
     guidance: { values: ["direct", "planned"] },
@@ -206,9 +207,10 @@ export const SCHEMA: Schema = {
       screw: {"type": "placed_screw", "optional": true},
     } },
     score_report: { fields: {
-      score_version: {"type": "integer", "min": 1, "max": 1},
+      score_version: {"type": "integer", "min": 1, "max": 2},
       overall: {"type": "number", "min": 0, "max": 100},
       fixation_acceptable: {"type": "boolean"},
+      is_void: {"type": "boolean", "optional": true},
       must_haves: {"type": "array", "of": {"type": "must_have"}, "max_items": 32},
       items: {"type": "array", "of": {"type": "score_item"}, "max_items": 64},
       central_axis_length_mm: {"type": "number", "min": 0, "max": 1000},
@@ -231,6 +233,7 @@ export const SCHEMA: Schema = {
       case_fingerprint: {"type": "string", "max_length": 16},
       case_simulated: {"type": "boolean", "optional": true},
       procedure: {"type": "string", "max_length": 64},
+      mode: {"type": "mode", "optional": true},
       input_device: {"type": "string", "max_length": 32},
       started_at: {"type": "string", "max_length": 32},
       ended_at: {"type": "string", "max_length": 32},
@@ -260,6 +263,7 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
   start: {
     trainee: {"type": "string", "max_length": 64},
     procedure: {"type": "string", "max_length": 64},
+    mode: {"type": "mode", "optional": true},
     input_device: {"type": "input_device"},
     seed: {"type": "integer", "min": 0, "max": 4294967295},
   },
@@ -324,6 +328,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
   },
   exercise: {
     procedure: {"type": "procedure_summary"},
+    mode: {"type": "mode"},
     steps: {"type": "array", "of": {"type": "step"}, "max_items": 32},
     views: {"type": "array", "of": {"type": "named_view"}, "max_items": 32},
     tray: {"type": "array", "of": {"type": "string", "max_length": 64}, "max_items": 128},
@@ -434,6 +439,7 @@ export const ATTEMPT: Rules = {
   case_fingerprint: {"type": "string", "max_length": 16},
   case_simulated: {"type": "boolean", "optional": true},
   procedure: {"type": "string", "max_length": 64},
+  mode: {"type": "mode", "optional": true},
   input_device: {"type": "string", "max_length": 32},
   started_at: {"type": "string", "max_length": 32},
   ended_at: {"type": "string", "max_length": 32},
