@@ -71,7 +71,7 @@ function list(first: AttemptList, known: readonly ProcedureSummary[]): HTMLEleme
 }
 
 function table(rows: HTMLElement): HTMLElement {
-  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "Input", "Time", "Score"];
+  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "How", "Input", "Time", "Score"];
   return make(
     "div.table-frame",
     { tabindex: "0", role: "region", "aria-label": "Attempts" },
@@ -99,6 +99,7 @@ function row(attempt: AttemptSummary, known: readonly ProcedureSummary[]): HTMLE
     make("td", {}, attempt.trainee === "" ? "not named" : attempt.trainee),
     make("td", {}, ...caseCell(attempt)),
     make("td", {}, procedureText(attempt.procedure, known)),
+    make("td", {}, attempt.mode ?? ""),
     make("td", {}, attempt.input_device),
     make("td.figure", {}, durationText(attempt.duration_s)),
     make(

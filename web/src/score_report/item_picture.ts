@@ -5,7 +5,7 @@
 // axis, two rays for the angle, a bar for bone cover and lengths. Decoration for readers: the value
 // is in the table.
 import { makeSvg } from "../dom";
-import type { Grade, ScoreItem, ScoreReport } from "../protocol";
+import type { Grade, ScoreItem } from "../protocol";
 
 const COLORS: Readonly<Record<Grade, string>> = {
   good: "var(--good)",

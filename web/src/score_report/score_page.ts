@@ -55,6 +55,7 @@ function show(
     attempt.trainee === "" ? "trainee not named" : attempt.trainee,
     attempt.case,
     procedure,
+    attempt.mode ?? "",
     dateText(attempt.started_at),
     `${durationText(attempt.duration_s)} min`,
     attempt.input_device,
@@ -101,6 +102,10 @@ function show(
       "Measured on the case's own geometry; simulated training, not a medical device.",
     ),
   );
+  if (report.is_void === true) {
+    pictures.remove();
+    return;
+  }
   if (operated.notice !== "") {
     pictures.append(make("p.secondary", {}, operated.notice));
     return;
@@ -147,9 +152,11 @@ function verdict(report: ScoreReport): HTMLElement {
     make(
       `p.${report.fixation_acceptable ? "good" : "harm"}` as "p",
       {},
-      report.fixation_acceptable
-        ? "✓ The fixation is acceptable."
-        : "✕ The fixation is not acceptable.",
+      report.is_void === true
+        ? "✕ Void: the operation ended before a screw was in. What is true of this case stays closed."
+        : report.fixation_acceptable
+          ? "✓ The fixation is acceptable."
+          : "✕ The fixation is not acceptable: nothing earns points without it.",
     ),
     make(
       "ul.must-haves",

@@ -3,7 +3,7 @@
 //
 // Who operates, on which case, and that it is no patient where it is none.
 import { button, make, setText } from "../dom";
-import type { CaseDescription, ProcedureSummary } from "../protocol";
+import type { CaseDescription, Mode, ProcedureSummary } from "../protocol";
 import { nameProblem } from "./name_model";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
@@ -12,10 +12,25 @@ export interface StartChoice {
   readonly trainee: string;
   /** Id of what is to be practised; empty where the host offers nothing. */
   readonly procedure: string;
+  readonly mode: Mode;
 }
 
 const NAME_KEY = "carpus.trainee";
 const PROCEDURE_KEY = "carpus.procedure";
+const MODE_KEY = "carpus.mode";
+
+const MODES: readonly { readonly mode: Mode; readonly title: string; readonly text: string }[] = [
+  {
+    mode: "practice",
+    title: "Practice",
+    text: "Bones can be seen, steps are ticked off, mistakes can be taken back.",
+  },
+  {
+    mode: "assessed",
+    title: "Assessed",
+    text: "Closed skin and the C-arm, as in theatre. Nothing is taken back; the truth comes afterwards.",
+  },
+];
 const MAX_NAME = 64;
 
 function remembered(key: string): string {
@@ -89,6 +104,7 @@ export class StartDialog {
       ),
       this.facts(description),
       this.procedureChoice(),
+      this.modeChoice(),
       make("label", { for: "trainee-name" }, "Your name, for the list of attempts"),
       this.name,
       this.note,
@@ -167,13 +183,36 @@ export class StartDialog {
     );
   }
 
+  private modeChoice(): HTMLElement {
+    const last = remembered(MODE_KEY);
+    const chosen = MODES.find((one) => one.mode === last) ?? MODES[0];
+    return make(
+      "fieldset.start-procedures.start-modes",
+      {},
+      make("legend", {}, "How"),
+      ...MODES.map((one) => {
+        const input = make("input", { type: "radio", name: "mode", value: one.mode });
+        input.checked = one === chosen;
+        return make(
+          "label",
+          {},
+          input,
+          make("span", {}, make("strong", {}, one.title), make("span.secondary", {}, one.text)),
+        );
+      }),
+    );
+  }
+
   private choice(): StartChoice {
     const trainee = this.name.value.trim();
     const checked = this.element.querySelector<HTMLInputElement>("input[name=procedure]:checked");
     const procedure = checked?.value ?? "";
+    const wanted = this.element.querySelector<HTMLInputElement>("input[name=mode]:checked")?.value;
+    const mode: Mode = wanted === "assessed" ? "assessed" : "practice";
+    remember(MODE_KEY, mode);
     remember(NAME_KEY, trainee);
     remember(PROCEDURE_KEY, procedure);
-    return { trainee, procedure };
+    return { trainee, procedure, mode };
   }
 
   open(): void {

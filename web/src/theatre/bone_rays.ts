@@ -24,15 +24,23 @@ export class BoneRays {
   private readonly hits: THREE.Intersection[] = [];
   private readonly bones: THREE.Mesh[];
 
-  constructor(bones: readonly THREE.Mesh[]) {
+  /** @param skin  hit instead of the bones where nothing is seen through it */
+  constructor(
+    bones: readonly THREE.Mesh[],
+    private readonly skin?: () => THREE.Mesh,
+  ) {
     this.bones = [...bones];
   }
+
+  /** Whether rays end at the skin. */
+  hitsSkin = false;
 
   /** The first point of any bone on the ray, in the scene's frame, into `out`. @return whether there is one */
   first(caster: THREE.Raycaster, out: THREE.Vector3): boolean {
     caster.firstHitOnly = true;
     this.hits.length = 0;
-    caster.intersectObjects(this.bones, false, this.hits);
+    const closed = this.hitsSkin ? this.skin?.() : undefined;
+    caster.intersectObjects(closed === undefined ? this.bones : [closed], false, this.hits);
     const hit = this.hits[0];
     if (hit !== undefined) out.copy(hit.point);
     return hit !== undefined;

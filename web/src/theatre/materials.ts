@@ -189,6 +189,55 @@ export function skinMaterial(vertexShader: string): THREE.ShaderMaterial {
   return shell(vertexShader, SKIN_COLOR, 0.2, 2.6);
 }
 
+const CLOSED_SKIN_FRAGMENT = /* glsl */ `
+uniform vec3 tint;
+varying vec3 vNormalView;
+varying vec3 vToEye;
+varying vec3 vBoneMm;
+float hash(vec3 p) {
+  return fract(sin(dot(p, vec3(12.9898, 78.233, 37.719))) * 43758.5453);
+}
+float mottle(vec3 p) {
+  vec3 i = floor(p);
+  vec3 f = smoothstep(0.0, 1.0, fract(p));
+  vec4 low = vec4(hash(i), hash(i + vec3(1, 0, 0)), hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)));
+  i.z += 1.0;
+  vec4 high = vec4(hash(i), hash(i + vec3(1, 0, 0)), hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)));
+  vec4 level = mix(low, high, f.z);
+  return mix(mix(level.x, level.y, f.x), mix(level.z, level.w, f.x), f.y);
+}
+void main() {
+  vec3 n = normalize(vNormalView);
+  vec3 eye = normalize(vToEye);
+  float patches = mottle(vBoneMm * 0.22);
+  float pores = mottle(vBoneMm * 2.1);
+  n = normalize(n + 0.07 * (vec3(pores, mottle(vBoneMm * 2.1 + 17.0), mottle(vBoneMm * 2.1 + 41.0)) - 0.5));
+  vec3 key = normalize(vec3(-0.4, 0.75, 0.55));
+  float facing = dot(n, key);
+  // Light goes some way through skin: the edge of the shade is soft and red.
+  float lit = smoothstep(-0.45, 1.0, facing);
+  vec3 through = vec3(0.30, 0.05, 0.02) * smoothstep(-0.5, 0.1, facing) * (1.0 - smoothstep(0.1, 0.6, facing));
+  float fill = 0.22 + 0.1 * n.y;
+  float shine = 0.10 * pow(max(0.0, dot(reflect(-key, n), eye)), 18.0);
+  vec3 skin = tint * mix(vec3(1.0, 0.86, 0.82), vec3(1.03, 1.0, 0.97), patches) * (0.94 + 0.1 * pores);
+  vec3 color = skin * (fill + 0.85 * lit) + 0.5 * tint * through + shine;
+  float edge = pow(1.0 - max(0.0, dot(n, eye)), 3.0);
+  gl_FragColor = vec4(color * (1.0 - 0.25 * edge), 1.0);
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+}
+`;
+
+/** Skin that nothing is seen through. */
+export function closedSkinMaterial(vertexShader: string): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    vertexShader,
+    fragmentShader: CLOSED_SKIN_FRAGMENT,
+    uniforms: { tint: { value: new THREE.Color(SKIN_COLOR) } },
+    side: THREE.DoubleSide,
+  });
+}
+
 /** Bone that one looks into, for the placement in the score. */
 export function glassBoneMaterial(color: string = BONE_COLOR): THREE.ShaderMaterial {
   return shell(SHELL_VERTEX, color, 0.42, 1.9);

@@ -4,8 +4,19 @@
 // The skin as a see-through shell that follows forearm and hand (skin_blend_model.ts); its shader moves
 // each point, so that a bent wrist costs no more than a straight one.
 import * as THREE from "three";
-import { depthOnlyMaterial, skinMaterial } from "./materials";
-import { dualQuaternion, evened, handWeights, sideOf, type RigidMotion } from "./skin_blend_model";
+import type { Vec3 } from "../protocol";
+import { makeHittable } from "./bone_rays";
+import { closedSkinMaterial, depthOnlyMaterial, skinMaterial } from "./materials";
+import {
+  blendedPoint,
+  dualQuaternion,
+  evened,
+  handWeights,
+  sideOf,
+  type DualQuaternion,
+  type RigidMotion,
+  type SkinSide,
+} from "./skin_blend_model";
 
 /** The bones whose motion is that of their side of the skin, the first that is there. */
 const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"] } as const;
@@ -44,6 +55,13 @@ export class Skin {
   readonly group = new THREE.Group();
   private readonly shell: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   private readonly depth: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  private readonly closed: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  private readonly motions: Record<SkinSide, DualQuaternion> = {
+    forearm: { real: [0, 0, 0, 1], dual: [0, 0, 0, 0] },
+    hand: { real: [0, 0, 0, 1], dual: [0, 0, 0, 0] },
+  };
+  private posed: THREE.Mesh | undefined;
+  private hasMoved = false;
   private readonly motion = {
     forearmReal: { value: new THREE.Vector4(0, 0, 0, 1) },
     forearmDual: { value: new THREE.Vector4(0, 0, 0, 0) },
@@ -69,7 +87,9 @@ export class Skin {
     this.depth.renderOrder = 5;
     this.shell = new THREE.Mesh(surface, skinMaterial(VERTEX));
     this.shell.renderOrder = 6;
-    for (const mesh of [this.depth, this.shell]) {
+    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX));
+    this.closed.visible = false;
+    for (const mesh of [this.depth, this.shell, this.closed]) {
       Object.assign(mesh.material.uniforms, this.motion);
       // Its bounds are those of the unbent wrist.
       mesh.frustumCulled = false;
@@ -84,11 +104,52 @@ export class Skin {
     if (uniform !== undefined) uniform.value = opacity;
   }
 
+  /** Whether nothing is seen through it, whatever the opacity. */
+  setClosed(on: boolean): void {
+    this.closed.visible = on;
+    this.depth.visible = this.shell.visible = !on;
+    if (on) this.group.visible = true;
+  }
+
+  /** The skin as it lies now, for rays; made anew when it was moved since. */
+  hittable(): THREE.Mesh {
+    this.posed ??= this.makeHittable();
+    if (this.hasMoved) this.moveHittable(this.posed);
+    return this.posed;
+  }
+
+  private makeHittable(): THREE.Mesh {
+    const mesh = new THREE.Mesh(this.closed.geometry.clone());
+    mesh.visible = false;
+    this.group.add(mesh);
+    mesh.updateWorldMatrix(true, false);
+    makeHittable(mesh);
+    this.hasMoved = true;
+    return mesh;
+  }
+
+  private moveHittable(mesh: THREE.Mesh): void {
+    this.hasMoved = false;
+    const from = this.closed.geometry.getAttribute("position").array;
+    const weights = this.closed.geometry.getAttribute("handWeight").array;
+    const to = mesh.geometry.getAttribute("position").array;
+    const { forearm, hand } = this.motions;
+    for (let v = 0; v < weights.length; ++v) {
+      const point: Vec3 = [from[3 * v] ?? 0, from[3 * v + 1] ?? 0, from[3 * v + 2] ?? 0];
+      to.set(blendedPoint(point, forearm, hand, weights[v] ?? 0), 3 * v);
+    }
+    mesh.geometry.boundsTree?.refit();
+    mesh.geometry.computeBoundingSphere();
+    mesh.geometry.computeBoundingBox();
+  }
+
   /** A bone has moved: the skin goes with those that carry it. */
   follow(bone: string, motion: RigidMotion): void {
     const side = this.carriers.has(bone) ? sideOf(bone) : undefined;
     if (side === undefined) return;
     const { dual, real } = dualQuaternion(motion);
+    this.motions[side] = { real, dual };
+    this.hasMoved = true;
     this.motion[`${side}Real`].value.set(...real);
     this.motion[`${side}Dual`].value.set(...dual);
   }

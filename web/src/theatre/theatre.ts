@@ -40,6 +40,7 @@ export class Theatre {
   private readonly names: BoneNames;
   private readonly sightMark = new SightMark();
   private readonly sight: Sight;
+  private readonly rays: BoneRays;
   private readonly pointed: PointedAt;
   private readonly home: THREE.Vector3;
   private stale = true;
@@ -71,8 +72,9 @@ export class Theatre {
     this.home = middleOf(caseScene, []);
     const { matrix } = this.patient;
     this.sight = new Sight(this.canvas, this.home, matrix, frames, facing);
-    const rays = new BoneRays(caseScene.bones);
-    this.pointed = new PointedAt(this.canvas, this.sight.camera, rays, matrix, frames);
+    const { skin } = caseScene;
+    this.rays = new BoneRays(caseScene.bones, skin && (() => skin.hittable()));
+    this.pointed = new PointedAt(this.canvas, this.sight.camera, this.rays, matrix, frames);
     this.sight.onChange = () => {
       this.stale = true;
     };
@@ -175,6 +177,18 @@ export class Theatre {
   /** @param opacity 0 none, 1 as on the patient. */
   setSkin(opacity: number): void {
     this.caseScene.skin?.setOpacity(opacity);
+    this.stale = true;
+  }
+
+  /** Only what a patient shows: closed skin, no bones, no names; the pointer ends at the skin. */
+  showOnlySkin(on: boolean): void {
+    const { bones, skin } = this.caseScene;
+    // Without skin there would be nothing left to see.
+    const closed = on && skin !== undefined;
+    for (const bone of bones) bone.visible = !closed;
+    skin?.setClosed(closed);
+    this.rays.hitsSkin = closed;
+    if (closed) this.showNames(false);
     this.stale = true;
   }
 

@@ -25,6 +25,8 @@ export class StepPanel {
   private readonly announcer = make("p.visually-hidden", { "aria-live": "polite" });
   private readonly log = make("ol.log", { "aria-label": "What happened", tabindex: "0" });
   private shown = "";
+  /** Then nobody tells which step is done. */
+  private isAssessed = false;
 
   constructor(firstTouch: HTMLElement, wrist: HTMLElement) {
     this.element = make(
@@ -41,7 +43,8 @@ export class StepPanel {
   }
 
   /** The steps of the procedure that is done, with the name of what each is done with. */
-  setSteps({ steps, instruments }: ExerciseMessage): void {
+  setSteps({ mode, steps, instruments }: ExerciseMessage): void {
+    this.isAssessed = mode === "assessed";
     this.shown = "";
     this.items = steps.map((step, index) => {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
@@ -69,7 +72,7 @@ export class StepPanel {
     if (state === this.shown) return;
     this.shown = state;
     this.items.forEach(({ step, item, mark }, index) => {
-      const current = index === s.step;
+      const current = index === s.step && !this.isAssessed;
       const done = s.completed_steps.includes(index);
       item.classList.toggle("current", current);
       item.classList.toggle("done", done);

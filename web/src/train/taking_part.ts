@@ -34,7 +34,7 @@ export class TakingPart {
   private seenTick: number | undefined;
   /** Said before what waits. */
   private waitingLead = "";
-  private chosen: StartChoice = { trainee: "", procedure: "" };
+  private chosen: StartChoice = { trainee: "", procedure: "", mode: "practice" };
   private wanted: StartChoice = this.chosen;
 
   constructor(private readonly room: ExerciseRoom) {}
@@ -65,6 +65,7 @@ export class TakingPart {
       type: "start",
       trainee: choice.trainee,
       procedure: choice.procedure,
+      mode: choice.mode,
       input_device: "mouse",
       seed: crypto.getRandomValues(new Uint32Array(1))[0] ?? 1,
     });
@@ -80,8 +81,9 @@ export class TakingPart {
 
   resume(choice: StartChoice): void {
     // Restart does again what goes on, whatever else was chosen.
-    const procedure = this.room.seen.doing?.procedure.id ?? choice.procedure;
-    this.chosen = { ...choice, procedure };
+    const { doing } = this.room.seen;
+    const procedure = doing?.procedure.id ?? choice.procedure;
+    this.chosen = { ...choice, procedure, mode: doing?.mode ?? choice.mode };
     this.part.goOn();
     this.pausedByHand = false;
     this.goOn();
@@ -147,7 +149,11 @@ export class TakingPart {
   askToFinish(): void {
     if (!this.operates) return;
     const { doing, latest } = this.room.seen;
-    const open = openStepsText(doing?.steps ?? [], latest?.completed_steps ?? []);
+    // In an assessed operation nobody tells which are done.
+    const open =
+      doing?.mode === "assessed"
+        ? ""
+        : openStepsText(doing?.steps ?? [], latest?.completed_steps ?? []);
     this.room.panels.finishQuestion.ask(open);
   }
 

@@ -23,6 +23,7 @@ export class TopBar {
   private readonly late = make("span", {}, "late –");
   private readonly link = make("span.link-state", { role: "status" });
   private readonly procedure = make("span.secondary.procedure");
+  private readonly mode = make("span.badge.mode", { hidden: "" });
   private readonly pauseButton: HTMLButtonElement;
   private readonly soundButton: HTMLButtonElement;
 
@@ -51,6 +52,7 @@ export class TopBar {
       make("h1.brand", {}, "Carpus"),
       patient,
       this.procedure,
+      this.mode,
       this.link,
       timing,
       this.pauseButton,
@@ -80,8 +82,11 @@ export class TopBar {
   }
 
   /** @param title  of the procedure that is done */
-  showProcedure(title: string): void {
+  showProcedure(title: string, assessed: boolean): void {
     setText(this.procedure, `${this.description.side} wrist · ${title}`);
+    setText(this.mode, assessed ? "assessed" : "practice");
+    this.mode.hidden = false;
+    this.mode.classList.toggle("assessed", assessed);
   }
 
   showLink(text: string): void {

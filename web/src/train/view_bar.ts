@@ -72,6 +72,12 @@ export class ViewBar {
     this.showView("dorsal");
   }
 
+  /** In an assessed operation nothing is seen through the skin. */
+  showOnlySkin(on: boolean): void {
+    this.element.classList.toggle("only-skin", on);
+    this.namesButton.disabled = this.slider.disabled = on;
+  }
+
   /** 0 to 1. */
   get skinOpacity(): number {
     return Number(this.slider.value) / 100;

@@ -64,12 +64,15 @@ export class WhatIsSeen {
 
   /** What is done from now on; its state follows. */
   begin(exercise: ExerciseMessage): void {
-    const { arm, bottom, steps, top, tray, wrist } = this.panels;
+    const { arm, bottom, steps, top, tray, views, wrist } = this.panels;
     this.exercise = exercise;
     this.snapshot = undefined;
     this.theatre.setInstruments(exercise.instruments);
     this.theatre.setTracks([]);
-    top.showProcedure(exercise.procedure.title);
+    const assessed = exercise.mode === "assessed";
+    this.theatre.showOnlySkin(assessed);
+    views.showOnlySkin(assessed);
+    top.showProcedure(exercise.procedure.title, assessed);
     steps.setSteps(exercise);
     arm.setViews(exercise.views);
     tray.setTray(exercise);
