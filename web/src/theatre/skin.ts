@@ -6,6 +6,7 @@
 import * as THREE from "three";
 import type { Vec3 } from "../protocol";
 import { makeHittable } from "./bone_rays";
+import { scanEnds } from "./scan_ends_model";
 import { closedSkinMaterial, depthOnlyMaterial, skinMaterial } from "./materials";
 import {
   blendedPoint,
@@ -87,7 +88,8 @@ export class Skin {
     this.depth.renderOrder = 5;
     this.shell = new THREE.Mesh(surface, skinMaterial(VERTEX));
     this.shell.renderOrder = 6;
-    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX));
+    const ends = scanEnds(surface.getAttribute("position").array, surface.getIndex()?.array ?? []);
+    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX, ends));
     this.closed.visible = false;
     for (const mesh of [this.depth, this.shell, this.closed]) {
       Object.assign(mesh.material.uniforms, this.motion);
