@@ -3,7 +3,6 @@
 //
 // How bone, skin and steel look. Colours: docs/ui.md's tokens.
 import * as THREE from "three";
-import type { Box } from "./scan_ends_model";
 import { CUT_GLSL, TRACKS_GLSL, type TrackUniforms } from "./track_shader";
 
 export const BONE_COLOR = "#e9dfc7";
@@ -192,8 +191,7 @@ export function skinMaterial(vertexShader: string): THREE.ShaderMaterial {
 
 const CLOSED_SKIN_FRAGMENT = /* glsl */ `
 uniform vec3 tint;
-uniform vec3 scanLow;
-uniform vec3 scanHigh;
+varying float vFromRim;
 varying vec3 vNormalView;
 varying vec3 vToEye;
 varying vec3 vBoneMm;
@@ -227,12 +225,10 @@ void main() {
   float edge = pow(1.0 - max(0.0, dot(n, eye)), 3.0);
   color *= 1.0 - 0.25 * edge;
   // Where the scan ends the limb is draped: a cuff of cloth with folds.
-  vec3 toEnd = min(vBoneMm - scanLow, scanHigh - vBoneMm);
-  float end = min(toEnd.x, min(toEnd.y, toEnd.z));
   float folds = 0.5 + 0.5 * sin(1.3 * (vBoneMm.x + vBoneMm.y + 0.6 * vBoneMm.z) + 3.0 * patches);
   vec3 cloth = vec3(0.055, 0.19, 0.20) * (0.35 + 0.75 * lit) * mix(0.72, 1.08, folds);
   float hem = 8.0 + 1.2 * patches;
-  color = mix(cloth, color * smoothstep(hem - 0.2, hem + 2.5, end + 0.9), smoothstep(hem - 0.35, hem, end));
+  color = mix(cloth, color * smoothstep(hem - 0.2, hem + 2.5, vFromRim + 0.9), smoothstep(hem - 0.35, hem, vFromRim));
   gl_FragColor = vec4(color, 1.0);
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
@@ -240,15 +236,11 @@ void main() {
 `;
 
 /** Skin that nothing is seen through, draped where the scan ends. */
-export function closedSkinMaterial(vertexShader: string, ends: Box): THREE.ShaderMaterial {
+export function closedSkinMaterial(vertexShader: string): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexShader,
     fragmentShader: CLOSED_SKIN_FRAGMENT,
-    uniforms: {
-      tint: { value: new THREE.Color(SKIN_COLOR) },
-      scanLow: { value: new THREE.Vector3(...ends.low) },
-      scanHigh: { value: new THREE.Vector3(...ends.high) },
-    },
+    uniforms: { tint: { value: new THREE.Color(SKIN_COLOR) } },
     side: THREE.DoubleSide,
   });
 }

@@ -6,7 +6,6 @@
 import * as THREE from "three";
 import type { Vec3 } from "../protocol";
 import { makeHittable } from "./bone_rays";
-import { scanEnds } from "./scan_ends_model";
 import { closedSkinMaterial, depthOnlyMaterial, skinMaterial } from "./materials";
 import {
   blendedPoint,
@@ -18,6 +17,7 @@ import {
   type RigidMotion,
   type SkinSide,
 } from "./skin_blend_model";
+import { distanceFromRim } from "./skin_rim_model";
 
 /** The bones whose motion is that of their side of the skin, the first that is there. */
 const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"] } as const;
@@ -25,6 +25,7 @@ const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"
 /** As blendedPoint() in skin_blend_model.ts. */
 const VERTEX = /* glsl */ `
 attribute float handWeight;
+attribute float fromRim;
 uniform vec4 forearmReal;
 uniform vec4 forearmDual;
 uniform vec4 handReal;
@@ -32,6 +33,7 @@ uniform vec4 handDual;
 varying vec3 vNormalView;
 varying vec3 vToEye;
 varying vec3 vBoneMm;
+varying float vFromRim;
 vec3 turnedBy(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
@@ -45,6 +47,7 @@ void main() {
   vec3 moved = turnedBy(real, position)
     + 2.0 * (real.w * dual.xyz - dual.w * real.xyz + cross(real.xyz, dual.xyz));
   vBoneMm = position;
+  vFromRim = fromRim;
   vec4 inView = modelViewMatrix * vec4(moved, 1.0);
   vNormalView = normalMatrix * turnedBy(real, normal);
   vToEye = -inView.xyz;
@@ -80,6 +83,11 @@ export class Skin {
     const nearest = handWeights(surface.getAttribute("position").array, points);
     const weights = evened(nearest, surface.getIndex()?.array ?? []);
     surface.setAttribute("handWeight", new THREE.BufferAttribute(weights, 1));
+    const fromRim = distanceFromRim(
+      surface.getAttribute("position").array,
+      surface.getIndex()?.array ?? [],
+    );
+    surface.setAttribute("fromRim", new THREE.BufferAttribute(fromRim, 1));
     const carriers = Object.values(CARRIERS).map((names) =>
       names.find((name) => bones.some((bone) => bone.name === name)),
     );
@@ -88,8 +96,7 @@ export class Skin {
     this.depth.renderOrder = 5;
     this.shell = new THREE.Mesh(surface, skinMaterial(VERTEX));
     this.shell.renderOrder = 6;
-    const ends = scanEnds(surface.getAttribute("position").array, surface.getIndex()?.array ?? []);
-    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX, ends));
+    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX));
     this.closed.visible = false;
     for (const mesh of [this.depth, this.shell, this.closed]) {
       Object.assign(mesh.material.uniforms, this.motion);
