@@ -30,7 +30,7 @@ TEST(OperationFiles, ScoreInAFileSaysOfWhichCaseItIs) {
     const auto json = nlohmann::json::parse(score_file(wrist(simulated), {}));
     EXPECT_EQ(json["case"], "demo wrist");
     EXPECT_EQ(json["case_simulated"], simulated);
-    EXPECT_EQ(json["score_version"], 1);
+    EXPECT_EQ(json["score_version"], 2);
   }
 }
 

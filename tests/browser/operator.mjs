@@ -306,6 +306,20 @@ export class Operator {
     return fitting.reduce((a, b) => (b.length_mm > a.length_mm ? b : a));
   }
 
+  /** The empty hand takes hold of the wire that is left in the bone and draws it out. */
+  async takeWireOut() {
+    await this.page.keyboard.press("g");
+    await this.until(
+      (s) => Operator.held(s)?.instrument === "guide_wire",
+      "the wire in the hand",
+    );
+    await this.holdKey(
+      "r",
+      (s) => Operator.held(s)?.body === "",
+      "the wire out",
+    );
+  }
+
   /** Drives what rides on the wire by short pushes until `holds` of it. */
   async driveOn(holds, what, pushMs = 60) {
     for (let push = 0; push < 250; ++push) {

@@ -277,7 +277,7 @@ async function operate(page, station, problems) {
     const screw = await operator.fittingScrew();
     await operator.take(screw.id);
   });
-  await check(page, "Space buries the screw, Q leaves it there", async () => {
+  await check(page, "Space buries the screw, Q leaves it there, the wire comes out", async () => {
     await operator.holdKey(
       "Space",
       (s) => Operator.held(s).buried_mm >= 1.5,
@@ -285,6 +285,7 @@ async function operate(page, station, problems) {
     );
     await page.keyboard.press("q");
     await operator.until((s) => s.hands[0].item < 0, "an empty hand");
+    await operator.takeWireOut();
     for (const key of ["1", "2", "3"]) await operator.shot(key);
     const { deviation } = await operator.picture();
     expect(deviation > LEAST_DEVIATION, "the last picture is blank");
@@ -313,6 +314,8 @@ async function operate(page, station, problems) {
     async () => {
       await page.keyboard.press("f");
       await page.locator("dialog.confirm[open]").waitFor();
+      const open = await page.textContent("dialog.confirm[open] .confirm-open");
+      expect(open.includes("Find the ring"), `what is open: '${open}'`);
       await page.keyboard.press("Enter");
       await page.locator(".score-table tbody tr").first().waitFor();
       const rows = await page.locator(".score-table tbody tr").count();
@@ -408,6 +411,7 @@ async function operateFromVolar(page, station) {
       "the screw buried",
     );
     await page.keyboard.press("q");
+    await operator.takeWireOut();
     for (const key of ["1", "2", "3", "6"]) await operator.shot(key);
     await page.keyboard.press("f");
     await page.locator("dialog.confirm[open]").waitFor();
