@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/study_validity_command.hpp"
 #include "cli/study_views_command.hpp"
 
 namespace carpus::cli {
@@ -13,6 +14,7 @@ void add_study_command(CLI::App& app) {
       app.add_subcommand("study", "Try what the trainer claims on many seeds and cases, in silico");
   study->require_subcommand(1);
   add_study_views_command(*study);
+  add_study_validity_command(*study);
 }
 
 }  // namespace carpus::cli

@@ -25,17 +25,6 @@ const Measure& measure_of(std::span<const Measure> measures, std::string_view id
                      "'; there are: " + known);
 }
 
-/// Share of the points that this value earns [1].
-double earned_share(const ScoreRule& rule, double value) {
-  if (rule.good.contain(value)) return 1.0;
-  if (!rule.fail.contain(value)) return 0.0;
-  const bool is_low = value < rule.good.low;
-  const double good = is_low ? rule.good.low : rule.good.high;
-  const double fail = is_low ? rule.fail.low : rule.fail.high;
-  if (!std::isfinite(fail)) return 1.0;  // nothing fails on this side
-  return (value - fail) / (good - fail);
-}
-
 ScoreItem graded(const ScoreRule& rule, const Measure& measure) {
   ScoreItem item;
   item.id = rule.id;
@@ -83,6 +72,16 @@ std::string good_text(const Limits& good, std::string_view unit) {
 }
 
 }  // namespace
+
+double earned_share(const ScoreRule& rule, double value) {
+  if (rule.good.contain(value)) return 1.0;
+  if (!rule.fail.contain(value)) return 0.0;
+  const bool is_low = value < rule.good.low;
+  const double good = is_low ? rule.good.low : rule.good.high;
+  const double fail = is_low ? rule.fail.low : rule.fail.high;
+  if (!std::isfinite(fail)) return 1.0;  // nothing fails on this side
+  return (value - fail) / (good - fail);
+}
 
 void grade(ScoreReport& report, const ScoreRules& rules, std::span<const Measure> measures) {
   report.must_haves.clear();

@@ -28,6 +28,9 @@ struct Measure {
 /// @throws InvalidInput when a rule names a measure that there is not.
 void grade(ScoreReport& report, const ScoreRules& rules, std::span<const Measure> measures);
 
+/// Share of a rule's points that a value earns by itself, whatever else was done [1].
+[[nodiscard]] double earned_share(const ScoreRule& rule, double value);
+
 /// "1.25 to 2.75 mm good; under 0.5 or over 6 mm fails".
 [[nodiscard]] std::string target_text(const ScoreRule& rule);
 

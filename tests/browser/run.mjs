@@ -314,7 +314,7 @@ async function operate(page, station, problems) {
     async () => {
       await page.keyboard.press("f");
       await page.locator("dialog.confirm[open]").waitFor();
-      const open = await page.textContent("dialog.confirm[open] .confirm-open");
+      const open = await page.textContent("dialog.confirm[open] .confirm-note");
       expect(open.includes("Find the ring"), `what is open: '${open}'`);
       await page.keyboard.press("Enter");
       await page.locator(".score-table tbody tr").first().waitFor();

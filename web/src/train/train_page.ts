@@ -306,7 +306,8 @@ export class TrainPage {
         break;
       case "exercise":
         this.seen.begin(message);
-        if (this.part.operates) this.panels.firstTouch.offer();
+        if (this.part.operates && this.seen.doing?.mode !== "assessed")
+          this.panels.firstTouch.offer();
         break;
       case "tissue":
         this.seen.takeTissue(message);

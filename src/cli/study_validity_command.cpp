@@ -1,0 +1,174 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/study_validity_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/operation_files.hpp"
+#include "cli/seed_option.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/version.hpp"
+#include "procedures/built_in.hpp"
+#include "records/atomic_file.hpp"
+#include "trainee/attempt.hpp"
+#include "trainee/validity.hpp"
+
+namespace carpus::cli {
+namespace {
+
+using trainee::ProcedureValidity;
+using trainee::ScoredOperation;
+using trainee::Skill;
+
+constexpr std::array kSkills{Skill::Expert, Skill::Middle, Skill::Novice};
+
+struct StudyValidityArguments {
+  std::vector<std::string> cases{kDefaultCase};
+  std::size_t seeds = 4;
+  std::uint64_t first_seed = 1;
+  std::string json;
+};
+
+/// Every skill on every seed, in parallel; the order is fixed beforehand.
+void operate_on(const cases::CaseData& data,
+                std::size_t case_index,
+                const procedure::Procedure& procedure,
+                const StudyValidityArguments& arguments,
+                std::vector<ScoredOperation>& operations) {
+  const std::size_t first = operations.size();
+  const std::size_t count = arguments.seeds * kSkills.size();
+  operations.resize(first + count);
+  std::atomic<std::size_t> done = 0;
+  parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      ScoredOperation& one = operations[first + i];
+      one.skill = kSkills[i % kSkills.size()];
+      one.case_index = case_index;
+      one.score = trainee::operate(data, procedure, one.skill,
+                                   arguments.first_seed + i / kSkills.size(), kProgramVersion)
+                      .score;
+      std::fprintf(stderr, "\r%s: %zu of %zu ", procedure.id.c_str(), ++done, count);
+    }
+  });
+  std::fprintf(stderr, "\n");
+}
+
+std::string in_columns(const trainee::Separation& separation) {
+  std::array<char, 64> text{};
+  if (separation.effect_size) {
+    std::snprintf(text.data(), text.size(), "%6.2f  %6.1f", separation.auc,
+                  *separation.effect_size);
+  } else {
+    std::snprintf(text.data(), text.size(), "%6.2f       -", separation.auc);
+  }
+  return text.data();
+}
+
+void print(const ProcedureValidity& validity, const std::vector<std::string>& names) {
+  std::printf("\n%s\n%-32s %8s %7s\n", validity.name.c_str(), "expert against novice", "AUC",
+              "effect");
+  std::printf("%-34s%s\n", "total", in_columns(validity.total).c_str());
+  for (const trainee::ItemValidity& item : validity.items) {
+    std::printf("%-34s%s%s\n", item.id.c_str(), in_columns(item.separation).c_str(),
+                item.counted ? "" : "  not counted");
+  }
+  std::printf("%-32s %8s %8s %8s   safe fixations\n", "mean total on", "novice", "middle",
+              "expert");
+  for (std::size_t c = 0; c < validity.cases.size(); ++c) {
+    const trainee::CaseMeans& means = validity.cases[c];
+    const auto of = [](const auto& by, Skill skill) { return by[static_cast<std::size_t>(skill)]; };
+    std::printf("%-32.32s %8.1f %8.1f %8.1f   %3.0f %% %3.0f %% %3.0f %%%s\n", names[c].c_str(),
+                of(means.total, Skill::Novice), of(means.total, Skill::Middle),
+                of(means.total, Skill::Expert), 100 * of(means.safe_share, Skill::Novice),
+                100 * of(means.safe_share, Skill::Middle),
+                100 * of(means.safe_share, Skill::Expert),
+                means.is_in_order() ? "" : "   NOT IN ORDER");
+  }
+}
+
+nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std::string>& names) {
+  const auto effect = [](const trainee::Separation& separation) {
+    return separation.effect_size ? nlohmann::json(*separation.effect_size) : nlohmann::json();
+  };
+  nlohmann::json json = {{"name", validity.name},
+                         {"auc_total", validity.total.auc},
+                         {"effect_size_total", effect(validity.total)},
+                         {"items", nlohmann::json::array()},
+                         {"cases", nlohmann::json::array()}};
+  for (const trainee::ItemValidity& item : validity.items) {
+    json["items"].push_back({{"id", item.id},
+                             {"auc", item.separation.auc},
+                             {"effect_size", effect(item.separation)},
+                             {"counted", item.counted}});
+  }
+  for (std::size_t c = 0; c < validity.cases.size(); ++c) {
+    nlohmann::json means = {{"case", names[c]}, {"in_order", validity.cases[c].is_in_order()}};
+    for (const Skill skill : kSkills) {
+      means["total"][trainee::name_of(skill)] =
+          validity.cases[c].total[static_cast<std::size_t>(skill)];
+      means["safe_share"][trainee::name_of(skill)] =
+          validity.cases[c].safe_share[static_cast<std::size_t>(skill)];
+    }
+    json["cases"].push_back(std::move(means));
+  }
+  return json;
+}
+
+void run(const StudyValidityArguments& arguments) {
+  const auto offered = procedures::built_in().all();
+  std::vector<std::vector<ScoredOperation>> operations(offered.size());
+  std::vector<std::string> names;
+  bool is_simulated = true;
+  for (std::size_t c = 0; c < arguments.cases.size(); ++c) {
+    const cases::CaseData data = load_case(arguments.cases[c]);
+    names.push_back(data.pseudonym);
+    is_simulated = is_simulated && data.provenance.simulated;
+    for (std::size_t p = 0; p < offered.size(); ++p) {
+      operate_on(data, c, *offered[p], arguments, operations[p]);
+    }
+  }
+  std::printf(
+      "Scripted trainees, %zu of each skill on each of %zu case%s%s: in silico, no people.\n",
+      arguments.seeds, names.size(), names.size() == 1 ? "" : "s",
+      is_simulated ? " (simulated)" : "");
+  nlohmann::json json = {{"in_silico", true},
+                         {"seeds", arguments.seeds},
+                         {"cases", names},
+                         {"cases_simulated", is_simulated},
+                         {"procedures", nlohmann::json::array()}};
+  for (std::size_t p = 0; p < offered.size(); ++p) {
+    const ProcedureValidity validity =
+        trainee::validity_of(*offered[p], operations[p], names.size());
+    print(validity, names);
+    json["procedures"].push_back(json_of(validity, names));
+  }
+  if (!arguments.json.empty()) {
+    records::write_file_atomically(arguments.json, json.dump(2) + "\n");
+  }
+}
+
+}  // namespace
+
+void add_study_validity_command(CLI::App& study) {
+  auto arguments = std::make_shared<StudyValidityArguments>();
+  CLI::App* command = study.add_subcommand(
+      "validity", "Whether each item of the score separates scripted experts from novices");
+  command->add_option("--cases", arguments->cases, "Case folders")->capture_default_str();
+  command->add_option("--seeds", arguments->seeds, "Operations of each skill on each case")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  add_seed_option(*command, arguments->first_seed, "Of the first operation; the next has the next");
+  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace carpus::cli

@@ -1,0 +1,68 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether a score separates scripted trainees of graded skill: in silico, never a study on people.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "procedure/procedure.hpp"
+#include "procedure/score.hpp"
+#include "trainee/skill.hpp"
+
+namespace carpus::trainee {
+
+/// One scored operation.
+struct ScoredOperation {
+  Skill skill = Skill::Expert;
+  std::size_t case_index = 0;
+  procedure::ScoreReport score;
+};
+
+/// How well one figure tells experts from novices.
+struct Separation {
+  /// That a random expert does better than a random novice, equals counting half: the area under
+  /// the ROC curve [hanley1982auc]; 0.5 is chance.
+  double auc = 0.5;
+  /// Difference of the means by the pooled deviation (Cohen's d); none where nothing varies.
+  std::optional<double> effect_size;
+};
+
+struct ItemValidity {
+  std::string id;
+  bool counted = false;  ///< it has a weight
+  Separation separation;
+};
+
+/// Mean total of each skill on one case, and the share of safe fixations.
+struct CaseMeans {
+  std::array<double, kSkillCount> total{};
+  std::array<double, kSkillCount> safe_share{};
+  /// Novice < middle < expert.
+  [[nodiscard]] bool is_in_order() const noexcept;
+};
+
+struct ProcedureValidity {
+  std::string name;
+  Separation total;
+  std::vector<ItemValidity> items;
+  std::vector<CaseMeans> cases;
+};
+
+/// @param better, worse  figures of which more is better; neither empty.
+[[nodiscard]] Separation separation_of(std::span<const double> better,
+                                       std::span<const double> worse);
+
+/// Items are compared by the share of their points that the value earns by itself; what was not
+/// measured earns none.
+/// @param cases  number of them; every skill has operated on each.
+[[nodiscard]] ProcedureValidity validity_of(const procedure::Procedure& procedure,
+                                            std::span<const ScoredOperation> operations,
+                                            std::size_t cases);
+
+}  // namespace carpus::trainee

@@ -1,0 +1,68 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "trainee/validity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace carpus::trainee {
+namespace {
+
+TEST(Validity, TheAreaUnderTheCurveCountsPairs) {
+  const std::array<double, 3> better{3, 5, 7};
+  const std::array<double, 2> worse{5, 1};
+  // Of six pairs: 3 > 1, 5 = 5, 5 > 1, 7 > 5, 7 > 1, 3 < 5.
+  EXPECT_DOUBLE_EQ(separation_of(better, worse).auc, 4.5 / 6.0);
+  EXPECT_DOUBLE_EQ(separation_of(worse, better).auc, 1.5 / 6.0);
+}
+
+TEST(Validity, TheEffectSizeIsTheDifferenceByThePooledDeviation) {
+  const std::array<double, 2> better{8, 12};  // mean 10, variance 8
+  const std::array<double, 2> worse{3, 5};    // mean 4, variance 2
+  EXPECT_NEAR(*separation_of(better, worse).effect_size, 6.0 / std::sqrt(5.0), 1e-12);
+  const std::array<double, 2> same{4, 4};
+  EXPECT_FALSE(separation_of(same, same).effect_size.has_value());
+  EXPECT_DOUBLE_EQ(separation_of(same, same).auc, 0.5);
+}
+
+procedure::Procedure one_rule() {
+  procedure::Procedure procedure;
+  procedure.id = "test";
+  procedure::ScoreRule rule;
+  rule.id = "offset_mm";
+  rule.good.high = 1.0;
+  rule.fail.high = 3.0;
+  rule.weight = 1.0;
+  procedure.rules.items = {rule};
+  return procedure;
+}
+
+ScoredOperation operation(Skill skill, std::optional<double> offset, double overall) {
+  ScoredOperation one;
+  one.skill = skill;
+  one.score.overall = overall;
+  procedure::ScoreItem item;
+  item.id = "offset_mm";
+  item.value = offset;
+  one.score.items = {item};
+  return one;
+}
+
+TEST(Validity, ItemsCountByWhatTheirValueEarns) {
+  const std::array operations{operation(Skill::Expert, 0.5, 90), operation(Skill::Expert, 2.0, 80),
+                              operation(Skill::Novice, 2.5, 0),
+                              operation(Skill::Novice, std::nullopt, 0),
+                              operation(Skill::Middle, 1.5, 60)};
+  const ProcedureValidity validity = validity_of(one_rule(), operations, 1);
+  EXPECT_DOUBLE_EQ(validity.total.auc, 1.0);
+  ASSERT_EQ(validity.items.size(), 1U);
+  EXPECT_TRUE(validity.items[0].counted);
+  EXPECT_DOUBLE_EQ(validity.items[0].separation.auc, 1.0);
+  EXPECT_TRUE(validity.cases[0].is_in_order());
+  EXPECT_DOUBLE_EQ(validity.cases[0].total[static_cast<std::size_t>(Skill::Expert)], 85.0);
+}
+
+}  // namespace
+}  // namespace carpus::trainee
