@@ -33,7 +33,7 @@ constexpr std::array kSkills{Skill::Expert, Skill::Middle, Skill::Novice};
 
 struct StudyValidityArguments {
   std::vector<std::string> cases{kDefaultCase};
-  std::size_t seeds = 4;
+  std::size_t seeds = 6;
   std::uint64_t first_seed = 1;
   std::string json;
 };
