@@ -121,13 +121,16 @@ export class Operator {
     await this.page.waitForTimeout(120);
   }
 
-  async start(url, trainee, procedure) {
+  /** @param mode  "practice" or "assessed"; what was chosen last where it is not said */
+  async start(url, trainee, procedure, mode) {
     await this.page.goto(url);
     await this.page
       .locator("dialog.start button[type=submit]:not([disabled])")
       .waitFor();
     if (procedure !== undefined)
       await this.page.check(`input[name=procedure][value=${procedure}]`);
+    if (mode !== undefined)
+      await this.page.check(`input[name=mode][value=${mode}]`);
     await this.page.fill("#trainee-name", trainee);
     await this.page.click("dialog.start button[type=submit]");
     // Where another operation waits, the page asks; until this one begins, that is what is seen.

@@ -6,6 +6,7 @@
 // the list. Then what goes wrong: a second page, broken messages, a lost connection. Last the way in by
 // a link.
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
+import { operateAssessed } from "./assessed.mjs";
 import { expectAccessible } from "./accessibility.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
 import { check, counted, expect } from "./checks.mjs";
@@ -607,6 +608,7 @@ try {
   await byKeysAlone(browser, station);
   await byFinger(browser, station);
   await withPictures(browser, station);
+  await operateAssessed(browser, station);
   await firstMinutes(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
