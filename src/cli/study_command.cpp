@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/study_axes_command.hpp"
 #include "cli/study_validity_command.hpp"
 #include "cli/study_views_command.hpp"
 
@@ -15,6 +16,7 @@ void add_study_command(CLI::App& app) {
   study->require_subcommand(1);
   add_study_views_command(*study);
   add_study_validity_command(*study);
+  add_study_axes_command(*study);
 }
 
 }  // namespace carpus::cli
