@@ -282,6 +282,7 @@ void NetworkServer::stop_on_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) implementation_->signals.add(signal);
   // A reader that goes away, of a log or a socket, is an error of that write and no more.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is a write that fails, as on a full disk
   implementation_->signals.async_wait([this](error_code error, int) {
     if (!error) implementation_->stop();
   });
