@@ -108,7 +108,8 @@ std::vector<TakenShot> pictures_of(const procedure::Procedure& procedure,
 void Exercise::add_news(const EventfulTick& tick, ExerciseNews& news) const {
   for (std::size_t i = 0; i < tick.snapshot.event_count; ++i) {
     news.events.push_back(session_.describe(tick.snapshot.events[i]));
-    if (auto told = session_.tell(tick.snapshot.events[i])) news.told.push_back(std::move(*told));
+    if (auto told = session_.tell(tick.snapshot.events[i], tick.snapshot))
+      news.told.push_back(std::move(*told));
   }
   for (const TakenShot& shot : pictures_of(*setup_.procedure, tick)) news.shots.push_back(shot);
 }

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/session.hpp"
 
+#include <string>
 #include <utility>
 
 #include "session/action_list.hpp"
 #include "session/descriptions.hpp"
+#include "session/entry_hint.hpp"
 #include "session/event_text.hpp"
 
 namespace carpus::session {
@@ -95,8 +97,33 @@ protocol::LoggedEvent Session::describe(const simulation::Event& event) const {
   return session::describe(event, procedure_, bodies_);
 }
 
-std::optional<protocol::LoggedEvent> Session::tell(const simulation::Event& event) const {
-  if (latest_.mode == procedure::Mode::Practice) return describe(event);
+/// Of a wire that went into what is operated on; empty for all else. Asked a few times in an
+/// operation, so the aim is found anew.
+std::string Session::hint_on(const simulation::Event& event,
+                             const simulation::Snapshot& then) const {
+  const auto body = static_cast<std::size_t>(event.detail);
+  if (event.item >= simulation::kMaxItems || body >= data_.bones.size() ||
+      data_.bones[body].bone != procedure_.target) {
+    return {};
+  }
+  const simulation::ItemView& item = then.items[event.item];
+  const auto all = instruments::catalogue();
+  if (item.instrument >= all.size() || all[item.instrument].work != instruments::Work::Drill ||
+      !item.in_target) {
+    return {};
+  }
+  const procedure::Aim aim = procedure_.opening(data_).aim;
+  if (!(aim.length_mm > 0.0)) return {};  // this procedure has none
+  return ". " + entry_hint(data_, aim, then, body, item);
+}
+
+std::optional<protocol::LoggedEvent> Session::tell(const simulation::Event& event,
+                                                   const simulation::Snapshot& then) const {
+  if (then.mode == procedure::Mode::Practice) {
+    protocol::LoggedEvent told = describe(event);
+    if (event.kind == simulation::EventKind::EnteredBone) told.text += hint_on(event, then);
+    return told;
+  }
   return describe_blind(event, procedure_, bodies_);
 }
 

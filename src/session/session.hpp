@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cases/case_data.hpp"
@@ -52,11 +53,16 @@ class Session {
   void forget_what_was_sent() noexcept;
   /// For the records: everything.
   [[nodiscard]] protocol::LoggedEvent describe(const simulation::Event& event) const;
-  /// For the page: in an assessed operation only what it would notice; empty where that is nothing.
-  [[nodiscard]] std::optional<protocol::LoggedEvent> tell(const simulation::Event& event) const;
+  /// For the page: in practice with a hint, in an assessed operation only what it would notice;
+  /// empty where that is nothing. @param then  state that the event's tick left.
+  [[nodiscard]] std::optional<protocol::LoggedEvent> tell(const simulation::Event& event,
+                                                          const simulation::Snapshot& then) const;
 
  private:
   using BonePose = Pose<frame::Patient, frame::Bone>;
+
+  [[nodiscard]] std::string hint_on(const simulation::Event& event,
+                                    const simulation::Snapshot& then) const;
 
   const cases::CaseData& data_;
   const procedure::Procedure& procedure_;

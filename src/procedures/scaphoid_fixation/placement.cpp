@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "anatomy/bone_words.hpp"
+#include "cases/direction_words.hpp"
 #include "core/units.hpp"
 #include "procedures/scaphoid_fixation/screw_envelope.hpp"
 
@@ -17,26 +18,6 @@ namespace {
 
 double angle_between_deg(const Vec3& a, const Vec3& b) {
   return degrees_from_radians(std::atan2(length(cross(a, b)), dot(a, b)));
-}
-
-/// "volar and radial", from the larger part on; what is less than a third of it is not named.
-std::string direction_in_words(const cases::CaseData& data, const Vec3& in_patient) {
-  const Vec3 v = (data.wrist_from_patient * Direction<frame::Patient>{in_patient}).v;
-  // Frame Wrist: +x proximal, +z volar, +y ulnar on the left.
-  const double ulnar = data.side == Side::Left ? v.y : -v.y;
-  std::array<std::pair<double, std::string_view>, 3> parts{{
-      {v.z, v.z > 0 ? "volar" : "dorsal"},
-      {ulnar, ulnar > 0 ? "ulnar" : "radial"},
-      {v.x, v.x > 0 ? "proximal" : "distal"},
-  }};
-  std::sort(parts.begin(), parts.end(),
-            [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
-  std::string words(parts[0].second);
-  if (std::abs(parts[1].first) * 3.0 >= std::abs(parts[0].first)) {
-    words += " and ";
-    words += parts[1].second;
-  }
-  return words;
 }
 
 Offset offset_at(const BoneSolid& scaphoid,
@@ -62,7 +43,7 @@ Offset offset_at(const BoneSolid& scaphoid,
     const Vec3 away = entry + direction * t - middle;
     offset.distance_mm = length(away);
     offset.local_width_mm = 2.0 * std::sqrt(section.area_mm2 / kPi);
-    offset.towards = direction_in_words(data, away);
+    offset.towards = cases::direction_in_words(data, away);
   }
   return offset;
 }
