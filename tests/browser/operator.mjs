@@ -311,6 +311,8 @@ export class Operator {
 
   /** The empty hand takes hold of the wire that is left in the bone and draws it out. */
   async takeWireOut() {
+    await this.until((s) => s.hands[0].item < 0, "an empty hand");
+    await this.settle();
     await this.page.keyboard.press("g");
     await this.until(
       (s) => Operator.held(s)?.instrument === "guide_wire",
