@@ -61,8 +61,9 @@ class ActionList {
   }
 
   [[nodiscard]] std::string where(const simulation::ItemView& item) const {
-    return item.body == simulation::kNoBody ? std::string()
-                                            : ", in the " + bodies_.words(item.body);
+    if (item.body == simulation::kNoBody) return {};
+    if (now_.mode == procedure::Mode::Assessed) return ", in bone";
+    return ", in the " + bodies_.words(item.body);
   }
 
   protocol::Action& add(ActionId id, const Command& command, std::string label) {

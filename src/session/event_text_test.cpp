@@ -24,7 +24,7 @@ protocol::LoggedEvent described(Event event) {
 
 TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   std::set<std::string> kinds;
-  constexpr int kLast = static_cast<int>(EventKind::WristStopped);
+  constexpr int kLast = static_cast<int>(EventKind::LiveEnded);
   for (int i = 1; i <= kLast; ++i) {
     Event event;
     event.kind = static_cast<EventKind>(i);
@@ -48,6 +48,26 @@ TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
                                        " entered the radius, which is not to be entered");
 }
 
+TEST(EventText, AnAssessedOperationIsToldWhatAHandFeelsAlone) {
+  const auto told = [](EventKind kind) {
+    Event event;
+    event.kind = kind;
+    event.instrument = 0;
+    event.detail = simulation::test::body_of(BoneId::Scaphoid);
+    return describe_blind(event, exercise(), BodyNames(wrist()));
+  };
+  for (const EventKind kind : {EventKind::LeftFarSide, EventKind::WrongBone, EventKind::Seated,
+                               EventKind::StepCompleted}) {
+    EXPECT_FALSE(told(kind).has_value()) << name_of(kind);
+  }
+  for (const EventKind kind :
+       {EventKind::TouchedBone, EventKind::EnteredBone, EventKind::Slipped}) {
+    ASSERT_TRUE(told(kind).has_value());
+    EXPECT_EQ(told(kind)->text.find("scaphoid"), std::string::npos) << told(kind)->text;
+    EXPECT_FALSE(told(kind)->text.empty());
+  }
+}
+
 TEST(EventText, NamesStepsByTheirTitles) {
   Event event;
   event.kind = EventKind::StepCompleted;
@@ -57,7 +77,7 @@ TEST(EventText, NamesStepsByTheirTitles) {
 
 TEST(RefusalText, EveryRefusalHasItsOwnReason) {
   std::set<std::string> reasons;
-  constexpr int kLast = static_cast<int>(simulation::Refusal::NothingToUndo);
+  constexpr int kLast = static_cast<int>(simulation::Refusal::NoUndoWhenAssessed);
   for (int i = 1; i <= kLast; ++i) {
     reasons.insert(std::string(text_of(static_cast<simulation::Refusal>(i))));
   }

@@ -53,14 +53,21 @@ protocol::Item message_of(const simulation::ItemView& item,
   return message;
 }
 
+/// A hand feels bone, not which.
+constexpr const char* kSomeBone = "bone";
+
 /// Takes out what only the simulation knows: in which bone a tip is, how deep a tail lies, what is
 /// done rightly. What a hand feels stays, and how far an instrument went in: it can be seen on it.
 void blind(protocol::Snapshot& message) {
   message.step = 0;
   message.completed_steps.clear();
   message.holding_share = 1.0;
-  for (protocol::HandState& hand : message.hands) hand.touched_body.clear();
+  for (protocol::HandState& hand : message.hands) {
+    if (!hand.touched_body.empty()) hand.touched_body = kSomeBone;
+  }
   for (protocol::Item& item : message.items) {
+    if (!item.body.empty()) item.body = kSomeBone;
+    item.in_target = false;
     item.tip_body.clear();
     item.tip_hu = 0.0;
     item.buried_mm = 0.0;

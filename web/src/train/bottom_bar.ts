@@ -154,7 +154,9 @@ export class BottomBar {
       const { touched_body, touching } = s.hands[hand];
       return touching ? `touches the ${this.label(touched_body)}` : "free";
     }
-    if (!this.isScrew(item)) return `depth ${item.depth_mm.toFixed(1)} mm`;
+    // How deep a tail lies is for the pictures to tell in an assessed operation.
+    if (!this.isScrew(item) || this.exercise?.mode === "assessed")
+      return `depth ${item.depth_mm.toFixed(1)} mm`;
     const mm = Math.abs(item.buried_mm).toFixed(1);
     return item.buried_mm < 0 ? `tail stands out ${mm} mm` : `tail buried ${mm} mm`;
   }
