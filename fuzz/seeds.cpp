@@ -1,8 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes the seeds that are not text: recordings, keyframes and journals of a small operation,
-// without the checksums that their targets put behind them. For when a format changes.
+// Makes the seeds of formats of our own: a case's text, recordings, keyframes and journals of a
+// small operation, without the checksums that their targets put behind them. Made for each run of
+// the targets, not kept, so that they are always of today's formats.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -145,7 +146,7 @@ void write_journal(const fs::path& folder, const Recording& recording, const Byt
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::fprintf(stderr, "usage: fuzz_seeds fuzz/corpus\n");
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
     return 2;
   }
   const fs::path corpus = argv[1];

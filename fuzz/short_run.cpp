@@ -153,7 +153,7 @@ int main(int argc, char** argv) {
   if (options.corpus.empty()) options.corpus.emplace_back();
   for (const std::string& seed : options.corpus) run(seed);
   if (carpus::fuzz::accepted == 0) {
-    std::fprintf(stderr, "no seed is accepted: the format has changed; see fuzz/seeds.cpp\n");
+    std::fprintf(stderr, "no seed is accepted: see fuzz/README.md\n");
     return 1;
   }
   Rng rng(1);
