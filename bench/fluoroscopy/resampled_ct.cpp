@@ -23,6 +23,9 @@ constexpr int kBoxMargin = 8;  // voxels around a bone
 constexpr double kFarMm = 1e3;
 constexpr std::int16_t kAirHu = -1000;
 constexpr std::int16_t kSoftTissueHu = 40;  // muscle; fills where a bent path would repeat a bone
+/// Voxels that are read between voxels blur what they hold once more, cortex most of all. Half as
+/// wide as the scan's they do so a quarter as much.
+constexpr int kVoxelsPerScanned = 2;
 constexpr std::size_t kGrain = 1U << 14U;
 
 /// Distance to one bone on the part of the scan around it.
@@ -69,8 +72,12 @@ std::vector<Pose<frame::Bone, frame::Patient>> inverses_of(std::span<const BoneP
   return back;
 }
 
-/// Holds the scan at each of the poses, in voxels of its size.
-GridGeometry grid_for(const GridGeometry& scan, std::span<const BonePose> poses) {
+/// Holds the scan at each of the poses.
+GridGeometry grid_for(GridGeometry scan, std::span<const BonePose> poses) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    scan.size[a] = (scan.size[a] - 1) * kVoxelsPerScanned + 1;
+    scan.spacing[a] /= kVoxelsPerScanned;
+  }
   Aabb voxels;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3 v;

@@ -90,6 +90,8 @@ struct Instrument {
   bool is_sleeve = false;           ///< a wire may be led through its bore
   bool is_gauge = false;            ///< reads how much of a wire is beyond its foot
   bool stays = false;               ///< let go in bone, it stays there
+  bool is_joystick = false;         ///< a fragment goes where a hand takes it by this
+  bool is_double_pointed = false;   ///< may be held and drawn by either end
   double gauge_step_mm = 0.0;       ///< of its scale
   std::vector<DrawnPart> parts;
   std::vector<BeamRod> rods;

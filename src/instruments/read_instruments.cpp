@@ -267,6 +267,8 @@ Instrument read_instrument(JsonFields& fields, const Holders& holders) {
     fields.refuse("bore_radius_mm is missing: a wire runs in it");
   }
   instrument.stays = fields.boolean_or("stays", false);
+  instrument.is_joystick = fields.boolean_or("joystick", false);
+  instrument.is_double_pointed = fields.boolean_or("double_pointed", false);
   instrument.parts = read_parts(fields);
   instrument.rods = read_rods(fields);
   if (fields.has("holder")) {

@@ -19,8 +19,9 @@ struct Pass {
   instruments::InstrumentIndex instrument = instruments::kNoInstrument;
   std::uint8_t first_body = kNoBody;
   std::uint32_t bodies_entered = 0;  ///< bit i: body i, deeper than a scratch
-  double far_exit_mm = 0.0;          ///< tip beyond the target's far surface, at most
+  double far_exit_mm = 0.0;          ///< the wire's tip beyond the target's far surface, at most
   std::uint32_t far_exits = 0;
+  double follower_exit_mm = 0.0;  ///< likewise, of what ran over the wire
   bool was_undone = false;
   bool operator==(const Pass&) const = default;
 };
@@ -33,6 +34,8 @@ struct OperationRecord {
   double gauge_reading_mm = -1.0;  ///< last reading, -1 for none
   double reamed_mm = 0.0;          ///< greatest depth of a reamer along its wire
   double holding_share = 1.0;      ///< of a screw in untouched bone [1] (instruments/…holding)
+  double most_bend_rad = 0.0;      ///< by which any wire was bent for good
+  std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;
   Tick ticks = 0;                     ///< duration
   std::uint32_t completed_steps = 0;  ///< bit i: step i

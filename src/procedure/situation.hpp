@@ -63,6 +63,9 @@ struct LineFacts {
   double depth_mm = 0.0;     ///< tip beyond the entry; of what rides, its own tip
   double chord_mm = 0.0;     ///< of the line inside the target, gap included; 0 outside it
   double buried_mm = 0.0;    ///< a screw's tail below the surface; negative while it stands out
+  /// Of a wire, beyond its entry towards the hand; negative when its near end is in the bone.
+  double near_end_out_mm = 0.0;
+  bool was_flush = false;  ///< it was drawn through until that end lay level with the bone
   bool operator==(const LineFacts&) const = default;
 };
 

@@ -84,7 +84,7 @@ struct Act {
   std::optional<std::int64_t> hand;
   /// of take: its id
   std::optional<std::string> instrument;
-  /// of pick_up 0 to 254
+  /// of pick_up and pick_up_far_end 0 to 254
   std::optional<std::int64_t> item;
   bool operator==(const Act&) const = default;
 };

@@ -290,6 +290,10 @@ void read(FieldReader& in, Item& out) {
   if (in.has("entry_mm")) out.entry_mm = in.vec3("entry_mm", 10000.0, 0.0);
   out.depth_mm = in.number("depth_mm", -1000.0, 1000.0);
   out.buried_mm = in.number("buried_mm", -1000.0, 1000.0);
+  out.by_far_end = in.boolean("by_far_end");
+  out.length_mm = in.number("length_mm", 0.0, 1000.0);
+  out.bent_at_mm = in.number("bent_at_mm", 0.0, 1000.0);
+  out.outer_shaft = in.vec3("outer_shaft", 2.0, 0.0);
 }
 
 void write(FieldWriter& out, const Item& in) {
@@ -310,6 +314,10 @@ void write(FieldWriter& out, const Item& in) {
   }
   out.value("depth_mm", in.depth_mm);
   out.value("buried_mm", in.buried_mm);
+  out.value("by_far_end", in.by_far_end);
+  out.value("length_mm", in.length_mm);
+  out.value("bent_at_mm", in.bent_at_mm);
+  out.vec3("outer_shaft", in.outer_shaft);
 }
 
 void read(FieldReader& in, Track& out) {

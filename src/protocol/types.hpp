@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 7;
+inline constexpr std::int64_t kProtocolVersion = 8;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -55,9 +55,18 @@ inline constexpr std::array<std::string_view, 2> kGuidanceNames{"direct", "plann
 }
 
 /// Things done once rather than held.
-enum class ActionId : std::uint8_t { Take, PickUp, PutDown, ReadGauge, TakeShot, Undo, Finish };
-inline constexpr std::array<std::string_view, 7> kActionIdNames{
-    "take", "pick_up", "put_down", "read_gauge", "take_shot", "undo", "finish"};
+enum class ActionId : std::uint8_t {
+  Take,
+  PickUp,
+  PickUpFarEnd,
+  PutDown,
+  ReadGauge,
+  TakeShot,
+  Undo,
+  Finish
+};
+inline constexpr std::array<std::string_view, 8> kActionIdNames{
+    "take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish"};
 [[nodiscard]] constexpr std::string_view name_of(ActionId value) noexcept {
   return kActionIdNames[static_cast<std::size_t>(value)];
 }
@@ -382,6 +391,15 @@ struct Item {
   double depth_mm = 0.0;
   /// of a screw: tail below the surface [mm] -1000 to 1000
   double buried_mm = 0.0;
+  /// its hand holds the end that went in first, beyond the bone
+  bool by_far_end = false;
+  /// tip to tail, of what is left of it [mm] 0 to 1000
+  double length_mm = 0.0;
+  /// behind the tip, where a bent wire's outer part begins; its length while it is straight [mm] 0
+  /// to 1000
+  double bent_at_mm = 0.0;
+  /// of that part, as shaft
+  Vec3 outer_shaft;
   bool operator==(const Item&) const = default;
 };
 
@@ -404,7 +422,7 @@ struct Action {
   std::int64_t hand = 0;
   /// of take, else empty
   std::string instrument;
-  /// of pick_up, else -1 -1 to 254
+  /// of pick_up and pick_up_far_end, else -1 -1 to 254
   std::int64_t item = 0;
   /// for people
   std::string label;

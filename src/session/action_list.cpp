@@ -48,6 +48,10 @@ class ActionList {
       add(ActionId::PickUp, {CommandKind::PickUp, hand, i},
           "Take hold of: " + all[item.instrument].name + where(item))
           .item = i;
+      if (!all[item.instrument].is_double_pointed || item.body == simulation::kNoBody) continue;
+      add(ActionId::PickUpFarEnd, {CommandKind::PickUpFarEnd, hand, i},
+          "Take hold of the other end of: " + all[item.instrument].name)
+          .item = i;
     }
   }
 

@@ -73,6 +73,10 @@ class Sentence {
         return "The wrist goes no further: its limit, or an instrument, holds it";
       case EventKind::LiveEnded:
         return "Looked live for " + seconds() + ": picture " + std::to_string(event_.detail);
+      case EventKind::WireBent:
+        return "The " + bone() + " bends the wire: the wrist moved over it";
+      case EventKind::WireBroke:
+        return "The wire broke at the bone";
       case EventKind::None:
         break;
     }
@@ -108,6 +112,8 @@ std::string_view felt(EventKind kind) {
       return "The tip bites into bone";
     case EventKind::Slipped:
       return "The tip slips along bone: hold it steeper to the surface";
+    case EventKind::WireBent:
+      return "Something bends the wire: the wrist moved over it";
     default:
       return {};
   }
@@ -116,11 +122,11 @@ std::string_view felt(EventKind kind) {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 18> kNames{
+  constexpr std::array<std::string_view, 20> kNames{
       "none",           "touched_bone",  "entered_bone", "left_far_side", "withdrawn",
       "shot_taken",     "gauge_read",    "taken",        "put_down",      "seated",
       "step_completed", "undone",        "finished",     "refused",       "wrong_bone",
-      "slipped",        "wrist_stopped", "live_ended"};
+      "slipped",        "wrist_stopped", "live_ended",   "wire_bent",     "wire_broke"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }
@@ -145,6 +151,7 @@ std::optional<protocol::LoggedEvent> describe_blind(const simulation::Event& eve
     case EventKind::TouchedBone:
     case EventKind::EnteredBone:
     case EventKind::Slipped:
+    case EventKind::WireBent:
       told.text = felt(event.kind);
       return told;
     default:

@@ -28,6 +28,8 @@ std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
       return CommandKind::Take;
     case protocol::ActionId::PickUp:
       return CommandKind::PickUp;
+    case protocol::ActionId::PickUpFarEnd:
+      return CommandKind::PickUpFarEnd;
     case protocol::ActionId::PutDown:
       return CommandKind::PutDown;
     case protocol::ActionId::ReadGauge:
@@ -105,7 +107,7 @@ Result<Command> command_of(const protocol::Act& message) {
     if (!index) return Refusal{"There is no instrument '" + *message.instrument + "'"};
     command.index = *index;
   }
-  if (*kind == CommandKind::PickUp) {
+  if (*kind == CommandKind::PickUp || *kind == CommandKind::PickUpFarEnd) {
     if (!message.item) return Refusal{"pick_up needs an item"};
     command.index = static_cast<std::uint8_t>(*message.item);
   }

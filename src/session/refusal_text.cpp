@@ -41,6 +41,10 @@ std::string_view text_of(simulation::Refusal refusal) noexcept {
       return "Nothing to undo";
     case Refusal::NoUndoWhenAssessed:
       return "In an assessed operation nothing is taken back, as with a patient";
+    case Refusal::EndIsInside:
+      return "That end of the wire is inside: it can be held only where it stands out of the skin";
+    case Refusal::WireIsBent:
+      return "The wire is bent: nothing runs over it any more. Take it out and lay another";
   }
   return "That is not possible now";
 }

@@ -50,6 +50,10 @@ protocol::Item message_of(const simulation::ItemView& item,
   if (item.body != simulation::kNoBody) message.entry_mm = item.entry_in_patient;
   message.depth_mm = item.depth_mm;
   message.buried_mm = item.buried_mm;
+  message.by_far_end = item.by_far_end;
+  message.length_mm = item.length_mm;
+  message.bent_at_mm = std::clamp(item.bent_at_mm, 0.0, item.length_mm);
+  message.outer_shaft = item.outer_shaft_in_patient;
   return message;
 }
 

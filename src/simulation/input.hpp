@@ -27,14 +27,15 @@ enum class CommandKind : std::uint8_t {
   None = 0,
   TakeShot = 1,   ///< one fluoroscopy image from `rotation_deg`, `tilt_deg`
   Take = 2,       ///< `hand` takes instrument `index` of the catalogue from the tray
-  PickUp = 3,     ///< `hand` takes hold of item `index`, which lies in bone
+  PickUp = 3,     ///< `hand` takes hold of item `index`, which lies in bone, where it went in
   PutDown = 4,    ///< `hand` lets go: what stays in bone stays, the rest goes back to the tray
   ReadGauge = 5,  ///< the gauge in `hand` is read
   Undo = 6,       ///< back to the last checkpoint; counted, time and shots stay spent
   Finish = 7,     ///< end the operation
   ForgetCheckpoints = 8,  ///< a host went on from a keyframe: undo does not reach back before now
+  PickUpFarEnd = 9,       ///< `hand` takes hold of item `index` at its other end, beyond the bone
 };
-inline constexpr std::uint8_t kCommandKinds = 9;
+inline constexpr std::uint8_t kCommandKinds = 10;
 
 struct Command {
   CommandKind kind = CommandKind::None;

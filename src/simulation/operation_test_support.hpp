@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cases/synthetic_case_test_support.hpp"
+#include "simulation/permission.hpp"
 #include "simulation/recording.hpp"
 #include "simulation/world.hpp"
 
@@ -148,6 +149,22 @@ inline Command shot(double rotation_deg, double tilt_deg = 0) {
   return {CommandKind::TakeShot, 0, 0, rotation_deg, tilt_deg};
 }
 inline Command simple(CommandKind kind, std::uint8_t hand = 0) { return {kind, hand, 0, 0, 0}; }
+
+inline bool has_event(const Snapshot& snapshot, EventKind kind) {
+  for (std::size_t i = 0; i < snapshot.event_count; ++i) {
+    if (snapshot.events[i].kind == kind) return true;
+  }
+  return false;
+}
+
+inline Refusal refusal_in(const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < snapshot.event_count; ++i) {
+    if (snapshot.events[i].kind == EventKind::Refused) {
+      return static_cast<Refusal>(snapshot.events[i].detail);
+    }
+  }
+  return Refusal::None;
+}
 
 /// Where and how a wire goes in, relative to the central axis.
 struct Aim {

@@ -11,6 +11,9 @@
 namespace carpus::simulation {
 namespace {
 
+/// A wire bent by more than this lets nothing with a bore run over it [E].
+constexpr double kStraightRad = 0.1;
+
 bool rides(const instruments::Instrument& kind) noexcept {
   return kind.bore_radius_mm > 0.0 && !kind.is_sleeve;
 }
@@ -54,9 +57,11 @@ Refusal why_not_take(const procedure::Procedure& procedure,
   if (wire_to_ride_on(catalogue, now, command.index) != kNoItem) return Refusal::None;
   for (std::size_t i = 0; i < kMaxItems; ++i) {
     const ItemView& item = now.items[i];
-    if (item.instrument != kNoInstrument && item.in_target && is_ridden(now, i)) {
-      return Refusal::WireIsTaken;
-    }
+    if (item.instrument == kNoInstrument || !item.in_target) continue;
+    if (is_ridden(now, i)) return Refusal::WireIsTaken;
+    if (catalogue[item.instrument].work != instruments::Work::Drill) continue;
+    if (!item.near_end_is_out) return Refusal::EndIsInside;
+    if (item.bend_rad > kStraightRad) return Refusal::WireIsBent;
   }
   return Refusal::NoWireToRideOn;
 }
@@ -72,7 +77,13 @@ Refusal why_not_pick_up(const Snapshot& now, const Command& command) noexcept {
   if (command.index >= kMaxItems) return Refusal::NothingThere;
   const ItemView& item = now.items[command.index];
   if (item.instrument == kNoInstrument || item.hand != kNoHand) return Refusal::NothingThere;
-  return is_ridden(now, command.index) ? Refusal::SomethingRidesOnIt : Refusal::None;
+  if (is_ridden(now, command.index)) return Refusal::SomethingRidesOnIt;
+  const instruments::Instrument& kind = instruments::catalogue()[item.instrument];
+  if (command.kind == CommandKind::PickUpFarEnd) {
+    return kind.is_double_pointed && item.far_end_is_out ? Refusal::None : Refusal::EndIsInside;
+  }
+  const bool is_wire = kind.work == instruments::Work::Drill && item.body != kNoBody;
+  return is_wire && !item.near_end_is_out ? Refusal::EndIsInside : Refusal::None;
 }
 
 Refusal why_not_read(const Snapshot& now, const Command& command) noexcept {
@@ -99,6 +110,7 @@ std::uint8_t wire_to_ride_on(std::span<const instruments::Instrument> catalogue,
     const bool fits = wire.work == instruments::Work::Drill &&
                       wire.shape.greatest_radius_mm() <= kind.bore_radius_mm;
     if (!fits || !(item.depth_mm > 0.0) || is_ridden(now, i)) continue;
+    if (!item.near_end_is_out || item.bend_rad > kStraightRad) continue;
     // The one that was laid last: others were left as references.
     best = i;
   }
@@ -119,6 +131,7 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::Take:
       return why_not_take(procedure, now, command);
     case CommandKind::PickUp:
+    case CommandKind::PickUpFarEnd:
       return why_not_pick_up(now, command);
     case CommandKind::PutDown:
       return why_not_put_down(now, command);
@@ -135,7 +148,7 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 17> kNames{"none",
+  static constexpr std::array<std::string_view, 19> kNames{"none",
                                                            "finished",
                                                            "unknown_command",
                                                            "no_such_hand",
@@ -151,7 +164,9 @@ std::string_view name_of(Refusal refusal) noexcept {
                                                            "something_rides_on_it",
                                                            "no_gauge_in_hand",
                                                            "nothing_to_undo",
-                                                           "no_undo_when_assessed"};
+                                                           "no_undo_when_assessed",
+                                                           "end_is_inside",
+                                                           "wire_is_bent"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

@@ -34,6 +34,8 @@ enum class Refusal : std::uint8_t {
   NoGaugeInHand,
   NothingToUndo,
   NoUndoWhenAssessed,
+  EndIsInside,  ///< that end of the wire is in the body, or was never double-pointed
+  WireIsBent,   ///< what has a bore does not run over it
 };
 
 /// Plain comparisons on what the last tick left: real-time.

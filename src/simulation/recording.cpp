@@ -388,11 +388,12 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   }
   const auto format = in.get(2);
   if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
-  if (format >= 1 && format <= 3) {
+  if (format >= 1 && format <= 4) {
     return carpus::Refusal{"recording: format " + std::to_string(format) +
                            (format == 1   ? ", of a wrist that did not move"
                             : format == 2 ? ", of a C-arm without a pedal"
-                                          : ", of a world that knew one way to operate") +
+                            : format == 3 ? ", of a world that knew one way to operate"
+                                          : ", of wires that did not bend") +
                            "; it cannot be replayed, its stored score can be shown"};
   }
   if (format != kRecordingFormat) {

@@ -30,7 +30,7 @@ namespace carpus::simulation {
 
 /// 1 was of a world of one wire, 2 of a C-arm without a pedal, 3 of one way to operate; such
 /// recordings show their stored score only.
-inline constexpr std::uint16_t kRecordingFormat = 4;
+inline constexpr std::uint16_t kRecordingFormat = 5;
 
 /// Longest exercise that is recorded: 4 hours. Bounds what decoding untrusted bytes may allocate.
 inline constexpr std::uint64_t kMaxRecordedTicks = 4ULL * 3600 * 1000;

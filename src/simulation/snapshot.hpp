@@ -39,6 +39,13 @@ struct ItemView {
   Vec3 entry_in_patient{};          ///< of its line, while it is fixed
   double depth_mm = 0.0;            ///< tip beyond the entry
   double buried_mm = 0.0;           ///< screw: tail below the surface
+  double length_mm = 0.0;           ///< tip to tail, of what is left of it
+  bool by_far_end = false;          ///< its hand holds it beyond the bone
+  bool near_end_is_out = false;     ///< of the skin, so that a hand can take it there
+  bool far_end_is_out = false;
+  double bend_rad = 0.0;                 ///< of what stands out where it went in ...
+  double bent_at_mm = 0.0;               ///< ... from so far behind its tip on
+  Vec3 outer_shaft_in_patient{0, 0, 1};  ///< unit, of that part; the shaft while it is straight
   bool operator==(const ItemView&) const = default;
 };
 
@@ -84,6 +91,8 @@ enum class EventKind : std::uint8_t {
   Slipped = 15,       ///< a turning tip slipped along a surface it met too flat; detail: body
   WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
   LiveEnded = 17,     ///< the pedal was let go; detail: number of the look, value: s
+  WireBent = 18,      ///< bone came against what stands out of it; detail: body, value: degrees
+  WireBroke = 19,     ///< likewise, too far; detail: body
 };
 
 struct Event {

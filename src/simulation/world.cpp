@@ -60,6 +60,10 @@ World::Model::Model(const cases::CaseData& case_data,
       opening(declared.opening(case_data)) {
   for (std::size_t b = 0; b < case_data.bones.size(); ++b) {
     groups[b] = anatomy::group_of(case_data.bones[b].bone);
+    Vec3 sum;
+    for (const Vec3& v : case_data.bones[b].surface.vertices) sum += v;
+    const auto count = static_cast<double>(case_data.bones[b].surface.vertices.size());
+    centres.push_back(count > 0 ? sum * (1.0 / count) : Vec3{});
   }
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
@@ -83,6 +87,7 @@ void World::State::open(const Model& model) noexcept {
   pose_bodies(model);
   Item& first = now.items[0];
   first.instrument = model.procedure.tray.front();
+  first.length_mm = model.catalogue[first.instrument].length_mm;
   first.hand = 0;
   const detail::BodyPose& target = poses[detail::first_of(model.kinds.target)];
   first.tip = (target * Point<frame::Bone>{model.opening.tip_in_target}).v;
@@ -224,12 +229,15 @@ procedure::OperationRecord World::operation_record() const {
   for (std::size_t i = 0; i < state.spent.pass_count && i < detail::kMaxPasses; ++i) {
     const detail::PassState& pass = state.spent.passes[i];
     record.passes.push_back({pass.instrument, pass.first_body, pass.bodies_entered,
-                             pass.far_exit_mm, pass.far_exits, pass.was_undone});
+                             pass.far_exit_mm, pass.far_exits, pass.follower_exit_mm,
+                             pass.was_undone});
   }
   record.shots.assign(state.shots.begin(), state.shots.begin() + state.spent.shot_count);
   record.gauge_reading_mm = state.now.gauge_reading_mm;
   record.reamed_mm = state.now.reamed_mm;
   record.holding_share = state.now.holding_share;
+  record.most_bend_rad = state_->spent.most_bend_rad;
+  record.broken_wires = state_->spent.broken_wires;
   record.undos = state.spent.undos;
   record.ticks = state.spent.tick;
   record.completed_steps = state.now.completed_steps;

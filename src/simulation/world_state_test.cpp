@@ -192,7 +192,7 @@ TEST(WorldState, ForgedBytesWithARightChecksumAreRefusedAndChangeNothing) {
       {"a driver that is none", [](Forged& f) { f.spent.hands[0].wish.driver = Driver{3}; }},
       {"a push of nobody", [](Forged& f) { f.spent.hands[0].wish.thrust_n = -5; }},
       {"touches no body", [](Forged& f) { f.spent.hands[1].touched_body = 40; }},
-      {"a fragment torn away", [](Forged& f) { f.now.shifted[0].x = 30; }},
+      {"a fragment torn away", [](Forged& f) { f.now.moved[0].w = 2; }},
       {"a track in no body", [](Forged& f) { f.now.tracks[0].body = 99; }},
       {"a track of no hole", [](Forged& f) { f.now.track_hole[0] = 40; }},
       {"a pass with no instrument", [](Forged& f) { f.spent.passes[0].instrument = 250; }},

@@ -18,27 +18,13 @@ namespace carpus::simulation {
 namespace {
 
 using test::body_of;
+using test::has_event;
 using test::Operator;
+using test::refusal_in;
 using test::shot;
 using test::simple;
 using test::take;
 using test::wrist;
-
-bool has_event(const Snapshot& snapshot, EventKind kind) {
-  for (std::size_t i = 0; i < snapshot.event_count; ++i) {
-    if (snapshot.events[i].kind == kind) return true;
-  }
-  return false;
-}
-
-Refusal refusal_in(const Snapshot& snapshot) {
-  for (std::size_t i = 0; i < snapshot.event_count; ++i) {
-    if (snapshot.events[i].kind == EventKind::Refused) {
-      return static_cast<Refusal>(snapshot.events[i].detail);
-    }
-  }
-  return Refusal::None;
-}
 
 bool is_done(const Snapshot& now, unsigned step) { return (now.completed_steps >> step & 1U) != 0; }
 
@@ -179,96 +165,6 @@ TEST(World, ATipBesideAnOldTrackIsDrawnIntoIt) {
   EXPECT_GT(drawn, 0.0);
 }
 
-/// The synthetic wrist with its scaphoid in two, 3 mm apart on their axis.
-const cases::CaseData& broken_wrist() {
-  static const cases::CaseData made = [] {
-    cases::CaseData data = wrist();
-    const cases::test::Ellipsoid whole = cases::test::synthetic_scaphoid();
-    const Vec3 towards_distal = normalized_or(
-        data.scaphoid.central_axis.distal - data.scaphoid.central_axis.proximal, {0, 0, 1});
-    std::erase_if(data.bones, [](const cases::Bone& b) { return b.bone == BoneId::Scaphoid; });
-    for (const BonePart part : {BonePart::Proximal, BonePart::Distal}) {
-      const double side = part == BonePart::Proximal ? -7.5 : 7.5;
-      cases::Bone bone;
-      bone.bone = BoneId::Scaphoid;
-      bone.part = part;
-      bone.surface = MeshIn<frame::Bone>(cases::test::surface_of(
-          {whole.centre + towards_distal * side, whole.rotation, {5.6, 4.8, 6.0}}, 4));
-      bone.hull = cases::test::polytope_of_convex(bone.surface);
-      bone.distance_field = fields::build_distance_field(bone.surface);
-      data.bones.push_back(std::move(bone));
-    }
-    return data;
-  }();
-  return made;
-}
-
-TEST(World, AFragmentGivesWayToAPushUntilItMeetsTheOtherAndUndoBringsItBack) {
-  const cases::CaseData& data = broken_wrist();
-  const std::size_t proximal = data.bones.size() - 2;
-  const std::size_t distal = data.bones.size() - 1;
-  World world(data, test::exercise(), 1);
-  Input input;
-  input.wrist = world.now().wrist;
-  input.hands[1].tip_in_patient = {0, 150, 0};
-  const auto apart = [&] {
-    return world.now().patient_from_bone[proximal].translation -
-           world.now().patient_from_bone[distal].translation;
-  };
-  const Vec3 as_scanned = apart();
-  const auto& pose = world.now().patient_from_bone[proximal];
-  const auto& axis = data.scaphoid.central_axis;
-  const Vec3 entry = (pose * Point<frame::Bone>{axis.proximal}).v;
-  const Vec3 inward =
-      (pose * Direction<frame::Bone>{normalized_or(axis.distal - axis.proximal, {})}).v;
-  HandInput& hand = input.hands[0];
-  hand.shaft_in_patient = -inward;
-  for (double away = 25.0; away > -0.4; away -= 0.05) {
-    hand.tip_in_patient = entry - inward * away;
-    world.step(input);
-  }
-  hand.driver = Driver::Forward;
-  hand.thrust_n = 12.0;
-  for (int i = 0; i < 1500; ++i) world.step(input);
-  const Vec3 pushed = apart() - as_scanned;
-  EXPECT_GT(dot(pushed, inward), 0.5) << "along the push";
-  EXPECT_LT(length(pushed), 2.01) << "ligaments hold it";
-  const std::uint64_t hash = world.now().state_hash;
-  World again(data, test::exercise(), 1);
-  ASSERT_TRUE(again.read_state(world.write_state()).has_value());
-  EXPECT_EQ(again.now().state_hash, hash);
-  EXPECT_EQ(again.now().patient_from_bone[proximal], world.now().patient_from_bone[proximal]);
-  hand.driver = Driver::Off;
-  input.command = simple(CommandKind::Undo);
-  world.step(input);
-  EXPECT_NEAR(distance(apart(), as_scanned), 0.0, 1e-12);
-}
-
-TEST(World, AHoleIsToldInEachBodyThatItMeets) {
-  World world(broken_wrist(), test::exercise(), 1);
-  Input input;
-  input.wrist = world.now().wrist;
-  input.hands[1].tip_in_patient = {0, 150, 0};
-  const auto& pose = world.now().patient_from_bone[broken_wrist().bones.size() - 2];
-  const auto& axis = broken_wrist().scaphoid.central_axis;
-  const Vec3 entry = (pose * Point<frame::Bone>{axis.proximal}).v;
-  const Vec3 inward =
-      (pose * Direction<frame::Bone>{normalized_or(axis.distal - axis.proximal, {})}).v;
-  HandInput& hand = input.hands[0];
-  hand.shaft_in_patient = -inward;
-  for (double away = 25.0; away > -0.4; away -= 0.05) {
-    hand.tip_in_patient = entry - inward * away;
-    world.step(input);
-  }
-  hand.driver = Driver::Forward;
-  hand.thrust_n = 40.0;
-  for (int i = 0; i < 20000 && world.now().items[0].depth_mm < 22.0; ++i) world.step(input);
-  ASSERT_GE(world.now().items[0].depth_mm, 22.0);
-  ASSERT_EQ(world.now().track_count, 2);
-  EXPECT_NE(world.now().tracks[0].body, world.now().tracks[1].body);
-  EXPECT_EQ(world.now().passes, 1U);
-}
-
 TEST(World, TellsOfTheFarSideAndOfWrongBones) {
   Operator op;
   op.place_on_entry({});
@@ -290,26 +186,6 @@ TEST(World, TellsOfTheFarSideAndOfWrongBones) {
   EXPECT_EQ(record.passes[0].bodies_entered,
             1U << body_of(BoneId::Scaphoid) | 1U << body_of(BoneId::Trapezium));
   EXPECT_GT(record.passes[0].far_exit_mm, 0.3);
-}
-
-TEST(World, AWireThroughTwoBonesHoldsTheWrist) {
-  Operator op;
-  op.place_on_entry({});
-  const WristPose open = op.now().wrist;
-  op.drive_to(12.0);
-  WristPose bent = open;
-  bent.flexion_rad -= 0.1;
-  EXPECT_FALSE(has_event(op.bend(bent, 1), EventKind::WristStopped));
-  EXPECT_NEAR(op.bend(bent, 300).wrist.flexion_rad, bent.flexion_rad, 1e-4);
-  while (!has_event(op.hold(Driver::Forward, 50.0, 1), EventKind::WrongBone)) {
-    ASSERT_LT(op.now().tick, 60000U);
-  }
-  const double held = op.now().wrist.flexion_rad;
-  EXPECT_TRUE(has_event(op.bend(open, 1), EventKind::WristStopped));
-  EXPECT_EQ(op.bend(open, 300).wrist.flexion_rad, held);
-  op.hold(Driver::Reverse, 0.0, 500);
-  EXPECT_GT(op.item().depth_mm, 0.0) << "it lies in the scaphoid still";
-  EXPECT_NE(op.bend(open, 300).wrist.flexion_rad, held) << "drawn back out of the second bone";
 }
 
 TEST(World, WhatIsFixedInBoneGoesWithIt) {

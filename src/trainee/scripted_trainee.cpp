@@ -27,6 +27,7 @@ constexpr double kFirstStandoffMm = 45.0;  // where the hand waits during the su
 constexpr double kPressMm = 0.5;           // hand beyond the surface, so that the tip rests on it
 constexpr Tick kMostTicks = 900000;        // 15 min: whoever has not finished by then gives up
 constexpr Tick kEngageTicks = 2500;
+constexpr Tick kWristTicks = 3000;  // in which the wrist comes to where it is wanted
 constexpr Tick kPhaseTicks = 60000;
 constexpr int kMostTries = 8;
 constexpr double kGreatestPushN = 58.0;
@@ -82,6 +83,9 @@ ScriptedTrainee::ScriptedTrainee(const cases::CaseData& data,
     has_screw = has_screw || kind_of(index).work == Work::Thread;
   }
   for (const procedure::Step& step : procedure.steps) {
+    const auto& actions = step.actions;
+    const bool asks = std::find(actions.begin(), actions.end(), "pick_up_far_end") != actions.end();
+    draws_through_ = draws_through_ || (asks && profile_.draws_wire_through);
     const bool is_known = step.instrument < instruments::catalogue().size();
     if (is_known && kind_of(step.instrument).work == Work::Ream) drill_ = step.instrument;
   }
@@ -182,9 +186,10 @@ void ScriptedTrainee::plan_shots(const Snapshot& now) {
     shots_ = {{0, 0}, {90, 0}};
     if (profile_.finds_ring) shots_.push_back(down_the_bone(now));
   }
-  if (phase_ == Phase::Check || phase_ == Phase::Verify) {
+  if (phase_ == Phase::Check || phase_ == Phase::LookExtended || phase_ == Phase::Verify) {
     shots_ = {{0, 0}, {90, 0}};
-    if (profile_.checks_oblique) shots_.insert(shots_.end(), {{45, 0}, {0, 30}});
+    if (phase_ != Phase::LookExtended && profile_.checks_oblique)
+      shots_.insert(shots_.end(), {{45, 0}, {0, 30}});
   }
   if (shots_.empty()) return;
   for (int i = 0; i < profile_.repeated_shots; ++i) {
@@ -233,7 +238,8 @@ void ScriptedTrainee::judge_line(const Snapshot& now) {
     error_scale_ *= profile_.learning;
     enter(Phase::Withdraw, now);
   } else {
-    enter(is_in ? Phase::Measure : Phase::Finish, now);
+    const bool goes_on = draws_through_ && is_in && is_way_out_free(now);
+    enter(goes_on ? Phase::DriveThrough : is_in ? Phase::Measure : Phase::Finish, now);
   }
 }
 
@@ -254,6 +260,11 @@ void ScriptedTrainee::think(const Snapshot& now) {
     case Phase::Judge:
     case Phase::Withdraw:
       return think_of_line(now);
+    case Phase::DriveThrough:
+    case Phase::DrawThrough:
+    case Phase::PushBack:
+    case Phase::DrawBack:
+      return think_of_drawing_through(now);
     case Phase::Ream:
       if (held(now).instrument == drill_ &&
           (held(now).depth_mm >= ream_depth_mm_ || in_phase_ > kPhaseTicks)) {
@@ -304,6 +315,110 @@ void ScriptedTrainee::think_of_line(const Snapshot& now) {
         hand_ = {wire.tip_in_patient, wire.shaft_in_patient};
         plan_line(now);
         enter(Phase::GoToStandoff, now);
+      }
+      return;
+    default:
+      return;
+  }
+}
+
+/// Whether no bone lies in the wire's way out of the skin: where one does, it is not driven on.
+bool ScriptedTrainee::is_way_out_free(const Snapshot& now) const {
+  constexpr double kBesideMm = 2.0;
+  constexpr double kWayMm = 60.0;
+  const ItemView wire = held(now);
+  const Vec3 along = -wire.shaft_in_patient;
+  for (std::size_t b = 0; b < case_.bones.size(); ++b) {
+    const BoneId bone = case_.bones[b].bone;
+    const auto& allowed = procedure_.allowed;
+    if (bone == procedure_.target ||
+        std::find(allowed.begin(), allowed.end(), bone) != allowed.end()) {
+      continue;
+    }
+    for (const Vec3& vertex : case_.bones[b].surface.vertices) {
+      const Vec3 w =
+          (now.patient_from_bone[b] * Point<frame::Bone>{vertex}).v - wire.tip_in_patient;
+      const double ahead = dot(w, along);
+      if (ahead > 0.0 && ahead < kWayMm && length(w - along * ahead) < kBesideMm) return false;
+    }
+  }
+  return true;
+}
+
+void ScriptedTrainee::think_of_drawing_through(const Snapshot& now) {
+  constexpr double kFlushMm = 0.0;
+  constexpr double kEnoughMm = 60.0;  // of the near end, to work over
+  constexpr Tick kBlockedTicks = 20000;
+  const ItemView wire = held(now);
+  const double out_mm = wire.length_mm - wire.depth_mm;
+  const bool is_blocked = in_phase_ > kBlockedTicks;
+  switch (phase_) {
+    case Phase::DriveThrough:
+      if (wire.far_end_is_out || is_blocked) enter(Phase::TakeFarEnd, now);
+      return;
+    case Phase::DrawThrough:
+      if (out_mm <= kFlushMm || is_blocked) {
+        wrist_.flexion_rad = 0.0;
+        enter(Phase::LookExtended, now);
+      }
+      return;
+    case Phase::PushBack:
+      if (out_mm >= kEnoughMm || is_blocked) enter(Phase::TakeNearEnd, now);
+      return;
+    case Phase::DrawBack:
+      if (wire.depth_mm <= stop_depth_mm_ || is_blocked) enter(Phase::Measure, now);
+      return;
+    default:
+      return;
+  }
+}
+
+/// Lets go, and takes the wire at its other end.
+void ScriptedTrainee::take_end(CommandKind end, Phase next, const Snapshot& now, Input& input) {
+  constexpr Tick kLetGoAt = 1;
+  constexpr Tick kTakeAt = 600;
+  if (in_phase_ == kLetGoAt) {
+    taken_item_ = now.hands[0].item;
+    input.command = of_hand(CommandKind::PutDown, 0);
+  }
+  if (in_phase_ == kTakeAt) {
+    input.command = of_hand(end, 0);
+    input.command.index = taken_item_;
+  }
+  if (in_phase_ <= kTakeAt + 1) return;
+  // Where it could not be taken there, it is taken where it went in, and the operation goes on.
+  if (held(now).instrument == instruments::kNoInstrument) {
+    input.command = of_hand(CommandKind::PickUp, 0);
+    input.command.index = taken_item_;
+    next = Phase::DrawBack;
+  }
+  enter(next, now);
+}
+
+void ScriptedTrainee::draw_through(const Snapshot& now, Input& input) {
+  constexpr double kThrustN = 30.0;
+  HandInput& hand = input.hands[0];
+  hand.thrust_n = kThrustN;
+  switch (phase_) {
+    case Phase::DriveThrough:
+    case Phase::PushBack:
+      hand.driver = Driver::Forward;
+      lean(held(now).depth_mm);
+      hand.thrust_n = std::min(kGreatestPushN, kThrustN + lean_n_);
+      if (phase_ == Phase::PushBack) wrist_ = opening_.wrist;
+      return;
+    case Phase::TakeFarEnd:
+      return take_end(CommandKind::PickUpFarEnd, Phase::DrawThrough, now, input);
+    case Phase::TakeNearEnd:
+      return take_end(CommandKind::PickUp, Phase::DrawBack, now, input);
+    case Phase::DrawThrough:
+    case Phase::DrawBack:
+      hand.driver = Driver::Reverse;
+      return;
+    case Phase::LookExtended:
+      if (in_phase_ > kWristTicks && shoot(input)) {
+        wrist_ = opening_.wrist;
+        if (in_phase_ > 2 * kWristTicks) enter(Phase::PushBack, now);
       }
       return;
     default:
@@ -439,6 +554,14 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
     case Phase::Check:
       if (shoot(input)) enter(Phase::Judge, now);
       return;
+    case Phase::DriveThrough:
+    case Phase::TakeFarEnd:
+    case Phase::DrawThrough:
+    case Phase::LookExtended:
+    case Phase::PushBack:
+    case Phase::TakeNearEnd:
+    case Phase::DrawBack:
+      return draw_through(now, input);
     case Phase::Withdraw:
     case Phase::DrillOut:
     case Phase::DrawWire:
@@ -474,9 +597,9 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
 
 Input ScriptedTrainee::next(const Snapshot& now) {
   Input input;
-  input.wrist = opening_.wrist;
   if (!has_begun_) {
     has_begun_ = true;
+    wrist_ = opening_.wrist;
     const Vec3 away = normalized_or(turned(now, near_end_ - far_end_), {0, 0, 1});
     hand_ = {to_patient(now, near_end_) + away * kFirstStandoffMm, away};
     enter(Phase::Survey, now);
@@ -495,6 +618,7 @@ Input ScriptedTrainee::next(const Snapshot& now) {
       act(now, input);
     }
   }
+  input.wrist = wrist_;
   // Once an instrument is in bone the hand rests on it; its tremor is held by the driver's guide.
   const ItemView item = held(now);
   const bool is_held = item.body != simulation::kNoBody;

@@ -48,6 +48,13 @@ class ScriptedTrainee {
     Drive,
     Check,
     Judge,
+    DriveThrough,
+    TakeFarEnd,
+    DrawThrough,
+    LookExtended,
+    PushBack,
+    TakeNearEnd,
+    DrawBack,
     Withdraw,
     Measure,
     Ream,
@@ -75,6 +82,13 @@ class ScriptedTrainee {
   void drill(const simulation::Snapshot& now, simulation::Input& input);
   void ream(const simulation::Snapshot& now, simulation::Input& input);
   void measure(const simulation::Snapshot& now, simulation::Input& input);
+  void think_of_drawing_through(const simulation::Snapshot& now);
+  void draw_through(const simulation::Snapshot& now, simulation::Input& input);
+  void take_end(simulation::CommandKind end,
+                Phase next,
+                const simulation::Snapshot& now,
+                simulation::Input& input);
+  [[nodiscard]] bool is_way_out_free(const simulation::Snapshot& now) const;
   void judge_line(const simulation::Snapshot& now);
   void choose_screw(const simulation::Snapshot& now, simulation::Input& input);
   void lean(double depth_mm);
@@ -108,6 +122,8 @@ class ScriptedTrainee {
   Tremor tremor_;
   BoneSolid scaphoid_;
 
+  bool draws_through_ = false;   ///< a step asks for it, and this trainee knows how
+  simulation::WristPose wrist_;  ///< as it is to be held
   Phase phase_ = Phase::Survey;
   bool has_begun_ = false;
   Tick in_phase_ = 0;  ///< ticks since the phase began
@@ -127,6 +143,7 @@ class ScriptedTrainee {
   double lean_n_ = 0.0;          ///< pushed on top of the usual thrust, because nothing moved
   double last_depth_mm_ = -1e9;  ///< when that was last looked at
   double bury_mm_ = 2.0;
+  std::uint8_t taken_item_ = simulation::kNoItem;  ///< let go of to take it at its other end
   std::vector<PlannedShot> shots_;
   std::size_t next_shot_ = 0;
 };

@@ -57,6 +57,7 @@ SkillProfile profile_of(Skill skill) noexcept {
   profile.drive_thrust_n = {24.0, 45.0};
   profile.checks_oblique = false;
   profile.finds_ring = false;
+  profile.draws_wire_through = false;
   profile.repeated_shots = 2;
   return profile;
 }

@@ -51,6 +51,7 @@ struct SkillProfile {
   Range drive_thrust_n;             ///< push while drilling
   bool checks_oblique = true;       ///< takes the oblique and the proximal pole views
   bool finds_ring = true;           ///< looks down the bone before it goes in
+  bool draws_wire_through = true;   ///< where a step asks for it
   int repeated_shots = 0;           ///< pictures taken again because they were not read
 };
 

@@ -240,7 +240,8 @@ TEST(Score, OneHarmAndTheFixationIsNotAcceptable) {
   };
   add("a capitate drilled and taken back").passes.push_back(pass_into(bit_of(BoneId::Capitate)));
   harmed.back().second.passes.back().was_undone = true;
-  add("a wire 9 mm out of the far cortex").passes.front().far_exit_mm = 9.0;
+  add("a drill 9 mm out of the far cortex").passes.front().follower_exit_mm = 9.0;
+  add("a wire broken").broken_wires = 1;
   add("a screw too long").lines.front().depth_mm = 28.0;
   LineFacts wire = screw_of(harmed.back().second);
   wire.instrument = index_of("guide_wire");
@@ -261,6 +262,17 @@ TEST(Score, ViewsCountOnlyOnceWireOrScrewAreIn) {
   const ScoreReport report = score(wrist(), record);
   EXPECT_EQ(*item_of(report, "views_with_wire").value, 0.0);
   EXPECT_EQ(*item_of(report, "views_with_screw").value, 0.0);
+}
+
+TEST(Score, AWireMayGoThroughAndABentOneCosts) {
+  OperationRecord record = perfect();
+  record.passes.front().far_exit_mm = 120.0;
+  const double through = score(wrist(), record).overall;
+  EXPECT_EQ(through, score(wrist(), perfect()).overall) << "it is meant to be drawn through";
+  record.most_bend_rad = 0.3;
+  const ScoreReport bent = score(wrist(), record);
+  EXPECT_NEAR(*item_of(bent, "wire_bend_deg").value, 17.2, 0.05);
+  EXPECT_LT(bent.overall, through);
 }
 
 TEST(Score, CountsPassesAndUndos) {

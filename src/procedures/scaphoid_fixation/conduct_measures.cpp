@@ -36,7 +36,7 @@ Measure beyond_far_cortex(const Facts& facts) {
   double deepest = 0.0;
   std::uint32_t times = 0;
   for (const procedure::Pass& pass : facts.record.passes) {
-    deepest = std::max(deepest, pass.far_exit_mm);
+    deepest = std::max({deepest, pass.far_exit_mm, pass.follower_exit_mm});
     times += pass.far_exits;
   }
   measure.value = deepest;
@@ -44,6 +44,33 @@ Measure beyond_far_cortex(const Facts& facts) {
                                : "Something came out at the far side " + std::to_string(times) +
                                      (times == 1 ? " time." : " times.");
   return measure;
+}
+
+/// What ran over the wire alone: a wire may be meant to go through.
+Measure follower_beyond_far_cortex(const Facts& facts) {
+  Measure measure{"follower_beyond_far_cortex_mm", std::nullopt, kNoWire};
+  if (facts.record.passes.empty()) return measure;
+  measure.value = 0.0;
+  for (const procedure::Pass& pass : facts.record.passes) {
+    measure.value = std::max(*measure.value, pass.follower_exit_mm);
+  }
+  measure.finding =
+      *measure.value > 0.0 ? "Drill or screw came out at the far side." : "Neither came out.";
+  return measure;
+}
+
+Measure wire_bend(const Facts& facts) {
+  Measure measure{"wire_bend_deg", std::nullopt, kNoWire};
+  if (facts.wire_passes == 0) return measure;
+  measure.value = degrees_from_radians(facts.record.most_bend_rad);
+  measure.finding = *measure.value > 0.0
+                        ? "The wrist was moved while the wire stood out over the radius."
+                        : "The wire stayed straight.";
+  return measure;
+}
+
+Measure wires_broken(const Facts& facts) {
+  return {"wires_broken", static_cast<double>(facts.record.broken_wires), ""};
 }
 
 Measure wrong_bones(const Facts& facts) {
@@ -145,6 +172,9 @@ std::vector<Measure> conduct_measures(const Facts& facts) {
   std::vector<Measure> all{
       wire_passes(facts),
       beyond_far_cortex(facts),
+      follower_beyond_far_cortex(facts),
+      wire_bend(facts),
+      wires_broken(facts),
       wrong_bones(facts),
       ream_short(facts),
       trapezium_cartilage(facts),

@@ -30,6 +30,10 @@ constexpr double kNextScrewMm = 2.6;    // to the next shorter screw of the tray
 constexpr double kBuriedLeastMm = 1.0;  // 2 are wanted [K, B1 step 9]
 constexpr double kBuriedMostMm = 4.0;
 constexpr double kTipCoverMm = 0.5;
+constexpr double kFlushMm = 1.0;        // a wire's near end, out of the bone …
+constexpr double kFlushDeepMm = 3.0;    // … or in it, when it is drawn through [K, B1 step 5]
+constexpr double kExtendedRad = 0.175;  // 10 degrees of flexion: the wrist is straight
+constexpr double kHeldAtMm = 20.0;      // of a wire out of the bone, to work over it
 
 const Instrument* kind_of(InstrumentIndex index) noexcept {
   const auto all = instruments::catalogue();
@@ -48,6 +52,11 @@ bool any_line(const Situation& now, Work work, Condition&& condition) noexcept {
     if (lies_in_target(line, work) && condition(line)) return true;
   }
   return false;
+}
+
+bool is_under_far_cortex(const LineFacts& line) noexcept {
+  return line.depth_mm >= line.chord_mm - kUnderCortexMm &&
+         line.depth_mm <= line.chord_mm + kBeyondMm;
 }
 
 unsigned views_in(std::span<const Shot> shots) noexcept {
@@ -96,9 +105,29 @@ bool is_line_long(const Situation& now) noexcept {
 }
 
 bool is_driven(const Situation& now) noexcept {
+  return any_line(now, Work::Drill, is_under_far_cortex);
+}
+
+bool is_flush(const Situation& now) noexcept {
   return any_line(now, Work::Drill, [](const LineFacts& line) {
-    return line.depth_mm >= line.chord_mm - kUnderCortexMm &&
-           line.depth_mm <= line.chord_mm + kBeyondMm;
+    return line.near_end_out_mm <= kFlushMm && line.near_end_out_mm >= -kFlushDeepMm;
+  });
+}
+
+bool is_seen_extended(const Situation& now) noexcept {
+  constexpr unsigned kWanted =
+      1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
+  unsigned seen = 0;
+  for (const Shot& shot : now.recent_shots) {
+    if (!shot.shows_wire || shot.wrist.flexion_rad > kExtendedRad) continue;
+    seen |= views_in({&shot, 1});
+  }
+  return has_all(seen, kWanted);
+}
+
+bool is_driven_back(const Situation& now) noexcept {
+  return any_line(now, Work::Drill, [](const LineFacts& line) {
+    return line.was_flush && line.near_end_out_mm >= kHeldAtMm && is_under_far_cortex(line);
   });
 }
 

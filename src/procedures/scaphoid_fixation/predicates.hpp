@@ -25,6 +25,12 @@ using procedure::Situation;
 [[nodiscard]] bool is_driven(const Situation& now) noexcept;
 /// The same, and since then it was seen in PA, lateral and the 45 degree pronated oblique.
 [[nodiscard]] bool is_checked(const Situation& now) noexcept;
+/// A wire's near end lies level with the bone, at most 3 mm in it: the wrist can be extended.
+[[nodiscard]] bool is_flush(const Situation& now) noexcept;
+/// Since then it was seen in PA and lateral with the wrist straight.
+[[nodiscard]] bool is_seen_extended(const Situation& now) noexcept;
+/// A wire that was drawn through stands out again where it went in, its tip under the far cortex.
+[[nodiscard]] bool is_driven_back(const Situation& now) noexcept;
 /// The gauge was read on a wire, within 1.5 mm of the way between the cortices.
 [[nodiscard]] bool is_measured(const Situation& now) noexcept;
 /// A drill stopped 0.5 to 4 mm before the far cortex.
@@ -50,6 +56,9 @@ using procedure::Situation;
       NamedPredicate{"is_line_long", is_line_long},
       NamedPredicate{"is_driven", is_driven},
       NamedPredicate{"is_checked", is_checked},
+      NamedPredicate{"is_flush", is_flush},
+      NamedPredicate{"is_seen_extended", is_seen_extended},
+      NamedPredicate{"is_driven_back", is_driven_back},
       NamedPredicate{"is_measured", is_measured},
       NamedPredicate{"is_reamed", is_reamed},
       NamedPredicate{"is_screw_chosen", is_screw_chosen},

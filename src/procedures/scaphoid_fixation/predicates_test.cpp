@@ -71,6 +71,38 @@ TEST(Predicates, ASurveyNeedsPaAndLateral) {
   EXPECT_TRUE(is_surveyed(scene.seen()));
 }
 
+TEST(Predicates, AWireIsDrawnThroughUntilItIsLevelAndSeenOnAStraightWrist) {
+  Scene scene;
+  scene.lines = {line("guide_wire", 60)};
+  scene.lines[0].near_end_out_mm = 90;
+  EXPECT_FALSE(is_flush(scene.seen()));
+  scene.lines[0].near_end_out_mm = -6;
+  EXPECT_FALSE(is_flush(scene.seen())) << "lost in the bone";
+  scene.lines[0].near_end_out_mm = -1;
+  EXPECT_TRUE(is_flush(scene.seen()));
+  scene.shoot(0, 0).wrist.flexion_rad = 0.7;
+  scene.shoot(90, 0).wrist.flexion_rad = 0.7;
+  EXPECT_FALSE(is_seen_extended(scene.seen())) << "flexed still";
+  scene.shoot(0, 0).wrist.flexion_rad = 0.1;
+  EXPECT_FALSE(is_seen_extended(scene.seen()));
+  scene.shoot(90, 0).wrist.flexion_rad = -0.2;
+  EXPECT_TRUE(is_seen_extended(scene.seen()));
+}
+
+TEST(Predicates, AWireIsDrivenBackOnceItStandsOutAgainAndItsTipIsUnderTheCortex) {
+  Scene scene;
+  scene.lines = {line("guide_wire", kChordMm - 1)};
+  scene.lines[0].near_end_out_mm = 120;
+  EXPECT_FALSE(is_driven_back(scene.seen())) << "it was never drawn through";
+  scene.lines[0].was_flush = true;
+  EXPECT_TRUE(is_driven_back(scene.seen()));
+  scene.lines[0].depth_mm = kChordMm + 5;
+  EXPECT_FALSE(is_driven_back(scene.seen()));
+  scene.lines[0].depth_mm = kChordMm - 1;
+  scene.lines[0].near_end_out_mm = 5;
+  EXPECT_FALSE(is_driven_back(scene.seen())) << "nothing to work over";
+}
+
 TEST(Predicates, TheRingIsSeenDownTheBoneAlone) {
   Scene scene;
   scene.shoot(0, 0).along_aim = 0.97;

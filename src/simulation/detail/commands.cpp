@@ -27,6 +27,8 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       return take(model, command.hand, command.index);
     case CommandKind::PickUp:
       return pick_up(command.hand, command.index);
+    case CommandKind::PickUpFarEnd:
+      return pick_up_far_end(command.hand, command.index);
     case CommandKind::PutDown:
       return put_down(model, command.hand);
     case CommandKind::ReadGauge:
@@ -60,6 +62,7 @@ void World::State::take(const Model& model,
   Item& item = now.items[place];
   item = Item{};
   item.instrument = instrument;
+  item.length_mm = kind.length_mm;
   item.hand = hand;
   now.held[hand] = place;
   item.shaft = normalized_or(shaft, {0, 0, 1});
@@ -93,6 +96,7 @@ void World::State::ride_on(const Model& /*model*/, Item& item, std::uint8_t wire
 void World::State::pick_up(std::uint8_t hand, std::uint8_t item) noexcept {
   if (Item* held = in_hand(hand)) {  // a free instrument goes back to the tray
     held->hand = kNoHand;
+    held->by_far_end = false;
     if (!held->is_fixed()) *held = Item{};
   }
   now.items[item].hand = hand;
@@ -107,6 +111,7 @@ void World::State::put_down(const Model& model, std::uint8_t hand) noexcept {
   const InstrumentIndex instrument = held->instrument;
   now.held[hand] = kNoItem;
   held->hand = kNoHand;
+  held->by_far_end = false;
   if (!held->is_fixed() || !kind_of(model, *held).stays) {
     *held = Item{};
   } else {

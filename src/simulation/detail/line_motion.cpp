@@ -125,6 +125,8 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
   const instruments::Instrument& kind = kind_of(model, item);
   HandView& view = snapshot.hands[hand];
   const detail::BodyPose& pose = poses[item.body];
+  if (item.by_far_end) return draw_by_far_end(model, hand);
+  if (kind.is_joystick && held.wish.driver == Driver::Off) lead_fragment(model, hand);
   if (kind.work != Work::None) {
     const double travel_before = item.travel_mm;
     const Vec3 ahead =
@@ -271,7 +273,9 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
     emit(EventKind::LeftFarSide, index, item.body, beyond);
   }
   if (beyond <= 0.0) item.has_left = false;
-  if (beyond > pass.far_exit_mm) pass.far_exit_mm = beyond;
+  double& most =
+      kind_of(model, item).work == Work::Drill ? pass.far_exit_mm : pass.follower_exit_mm;
+  if (beyond > most) most = beyond;
 }
 
 bool World::State::has_screw_in_target(const Model& model) const noexcept {
@@ -307,6 +311,7 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
     item.has_left = false;
     item.hole = kNoHole;
     item.crossing_count = 0;
+    item.press = {};
     if (!has_screw_in_target(model)) now.gauge_reading_mm = -1.0;  // of a line that is no more
     scene.forget();
   }

@@ -15,6 +15,7 @@
 #include "geometry/vec3.hpp"
 #include "haptics/virtual_coupling.hpp"
 #include "procedure/situation.hpp"
+#include "simulation/detail/displacement.hpp"
 #include "simulation/hand_planning.hpp"
 #include "simulation/snapshot.hpp"
 
@@ -23,6 +24,10 @@ namespace carpus::simulation::detail {
 inline constexpr std::uint8_t kNoHole = 255;
 inline constexpr std::size_t kMaxPasses = 64;
 inline constexpr std::size_t kMaxCheckpoints = 16;
+/// Farther from its place ligaments hold a fragment, and turned further than by 45 degrees (sine of
+/// half of it) [E].
+inline constexpr double kGreatestShiftMm = 5.0;
+inline constexpr double kGreatestTurn = 0.383;
 
 /// T, const or not.
 template <typename Some, typename T>
@@ -34,6 +39,14 @@ struct Crossing {
   double at_mm = 0.0;  ///< travel at which the tip came in
 };
 inline constexpr std::size_t kMaxCrossings = 4;
+
+/// Bone that came against what stands out of it.
+struct Press {
+  std::uint8_t body = kNoBody;
+  double lever_mm = 0.0;  ///< of the place on the wire, from the first bone of its line
+  Vec3 point_in_bone;     ///< of that body, where it touched
+  Vec3 normal_in_bone;    ///< unit, out of it
+};
 
 /// An instrument that is out of the tray. While `body` is set its line is fixed in that body:
 /// origin + direction * travel, frame Bone; else it is free and lies at tip, shaft.
@@ -47,14 +60,21 @@ struct Item {
   bool in_target = false;       ///< it entered the target on this line
   bool has_left = false;        ///< its tip is beyond the target's far surface
   bool told_seated = false;
-  Vec3 tip;                       ///< frame Patient, after contact [mm]
-  Vec3 shaft{0, 0, 1};            ///< unit, towards the hand
-  Vec3 origin_in_bone;            ///< where the tip was when the line was fixed
-  Vec3 direction_in_bone;         ///< unit, into the bone
-  double travel_mm = 0.0;         ///< tip from the origin
-  double entry_at_mm = 0.0;       ///< travel at which it entered the target, else the first bone
-  double chord_mm = 0.0;          ///< of this line inside the target, gap included
-  double cut_to_mm = 0.0;         ///< travel up to which bone was removed
+  bool by_far_end = false;   ///< its hand holds the end that went in first, beyond the bone
+  bool is_broken = false;    ///< what stood out where it went in is gone
+  bool was_flush = false;    ///< it was drawn through until its near end lay level with the bone
+  Vec3 tip;                  ///< frame Patient, after contact [mm]
+  Vec3 shaft{0, 0, 1};       ///< unit, towards the hand
+  Vec3 origin_in_bone;       ///< where the tip was when the line was fixed
+  Vec3 direction_in_bone;    ///< unit, into the bone
+  double travel_mm = 0.0;    ///< tip from the origin
+  double entry_at_mm = 0.0;  ///< travel at which it entered the target, else the first bone
+  double chord_mm = 0.0;     ///< of this line inside the target, gap included
+  double cut_to_mm = 0.0;    ///< travel up to which bone was removed
+  double length_mm = 0.0;    ///< tip to tail, of what is left
+  double bend_rad = 0.0;     ///< by which what stands out where it went in is bent for good …
+  Vec3 bend_in_bone;         ///< … this way: unit, across the line; zero while it is straight
+  Press press;               ///< that bends it now
   std::uint32_t told_bodies = 0;  ///< wrong bones told of on this line, bit by body
   std::array<Crossing, kMaxCrossings> crossings{};  ///< first `crossing_count`, as they came
   std::uint8_t crossing_count = 0;
@@ -62,6 +82,11 @@ struct Item {
   [[nodiscard]] bool is_there() const noexcept { return instrument != kNoInstrument; }
   [[nodiscard]] bool is_fixed() const noexcept { return body != kNoBody; }
   [[nodiscard]] double depth_mm() const noexcept { return travel_mm - entry_at_mm; }
+  /// Travel at which it came into the first bone of its line.
+  [[nodiscard]] double first_bone_at_mm() const noexcept {
+    return crossing_count > 0 && crossings[0].at_mm < entry_at_mm ? crossings[0].at_mm
+                                                                  : entry_at_mm;
+  }
 };
 
 template <Is<Item> SomeItem, typename Visitor>
@@ -75,6 +100,9 @@ void visit(SomeItem& item, Visitor&& v) noexcept {
   v(item.in_target);
   v(item.has_left);
   v(item.told_seated);
+  v(item.by_far_end);
+  v(item.is_broken);
+  v(item.was_flush);
   v(item.tip);
   v(item.shaft);
   v(item.origin_in_bone);
@@ -83,6 +111,13 @@ void visit(SomeItem& item, Visitor&& v) noexcept {
   v(item.entry_at_mm);
   v(item.chord_mm);
   v(item.cut_to_mm);
+  v(item.length_mm);
+  v(item.bend_rad);
+  v(item.bend_in_bone);
+  v(item.press.body);
+  v(item.press.lever_mm);
+  v(item.press.point_in_bone);
+  v(item.press.normal_in_bone);
   v(item.told_bodies);
   v(item.crossing_count);
   for (std::size_t i = 0; i < item.crossing_count && i < kMaxCrossings; ++i) {
@@ -99,8 +134,8 @@ struct Operated {
   std::array<std::uint8_t, kMaxTracks> track_hole{};  ///< a hole has a track in each body it meets
   std::uint8_t track_count = 0;
   std::uint8_t hole_count = 0;
-  /// A fragment's place beside where its bone's motion takes it [mm, frame Bone].
-  std::array<Vec3, kMaxBodies> shifted{};
+  std::array<Displacement, kMaxBodies> moved{};  ///< of fragments
+  Displacement carried;                          ///< of the target, by what it is pinned to
   double gauge_reading_mm = -1.0;
   double reamed_mm = 0.0;
   double holding_share = 1.0;
@@ -127,7 +162,8 @@ void visit(SomeOperated& now, Visitor&& v) noexcept {
     v(track.to_radius_mm);
     v(now.track_hole[i]);
   }
-  for (auto& shift : now.shifted) v(shift);
+  for (auto& moved : now.moved) visit_displacement(moved, v);
+  visit_displacement(now.carried, v);
   v(now.gauge_reading_mm);
   v(now.reamed_mm);
   v(now.holding_share);
@@ -143,6 +179,7 @@ struct PassState {
   std::uint32_t bodies_entered = 0;
   std::uint32_t far_exits = 0;
   double far_exit_mm = 0.0;
+  double follower_exit_mm = 0.0;  ///< likewise, of what ran over the wire
 };
 
 /// A hand between two ticks.
@@ -191,6 +228,8 @@ struct Spent {
   std::array<HandState, kHands> hands{};
   std::array<PassState, kMaxPasses> passes{};
   std::uint32_t pass_count = 0;  ///< may exceed what is kept
+  double most_bend_rad = 0.0;    ///< of any wire
+  std::uint32_t broken_wires = 0;
   std::uint32_t tissue_revision = 0;
   std::uint64_t hash = 0;
 };
@@ -224,7 +263,10 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
     v(pass.bodies_entered);
     v(pass.far_exits);
     v(pass.far_exit_mm);
+    v(pass.follower_exit_mm);
   }
+  v(spent.most_bend_rad);
+  v(spent.broken_wires);
   v(spent.tissue_revision);
   v(spent.hash);
 }

@@ -17,9 +17,6 @@ namespace {
 constexpr double kGreatest = 1e5;
 /// Rounding of a unit vector is far less.
 constexpr double kUnitTolerance = 1e-6;
-/// Ligaments hold a fragment 2 mm from its place (wrist_motion.cpp); beyond it, rounding.
-constexpr double kGreatestShiftMm = 2.01;
-
 bool is_in(std::uint8_t index, std::size_t count) noexcept { return index == 255 || index < count; }
 
 bool is_near(double value) noexcept { return absolute(value) <= kGreatest; }
@@ -37,7 +34,12 @@ bool is_line_possible(const Item& item, std::size_t bodies) noexcept {
   }
   return is_unit(item.direction_in_bone) && is_near(item.origin_in_bone) &&
          is_near(item.travel_mm) && is_near(item.entry_at_mm) && is_near(item.chord_mm) &&
-         is_near(item.cut_to_mm);
+         is_near(item.cut_to_mm) && item.length_mm >= 0.0 && is_near(item.length_mm) &&
+         item.bend_rad >= 0.0 && is_near(item.bend_rad) && is_unit_or_none(item.bend_in_bone) &&
+         (item.bend_rad == 0.0 || is_unit(item.bend_in_bone)) && is_in(item.press.body, bodies) &&
+         item.press.lever_mm >= 0.0 && is_near(item.press.lever_mm) &&
+         is_near(item.press.point_in_bone) && is_unit_or_none(item.press.normal_in_bone) &&
+         (item.press.body == kNoBody || item.press.lever_mm > 0.0);
 }
 
 bool is_item_possible(std::uint8_t index,
@@ -58,6 +60,12 @@ bool is_item_possible(std::uint8_t index,
   if (item.wire == kNoItem) return true;
   const Item& wire = now.items[item.wire];
   return wire.is_there() && wire.is_fixed() && wire.wire == kNoItem && item.is_fixed();
+}
+
+/// Turns about the scan's origin shift what lies far from it by much.
+bool is_displacement_possible(const Displacement& moved) noexcept {
+  const double size = moved.w * moved.w + squared_length(moved.turn);
+  return absolute(size - 1.0) <= kUnitTolerance && is_near(moved.shift);
 }
 
 bool is_hand_possible(const HandState& hand, const StateBounds& bounds) noexcept {
@@ -90,7 +98,7 @@ bool are_passes_possible(const Spent& spent, const StateBounds& bounds) noexcept
   for (std::size_t i = 0; i < kept; ++i) {
     const PassState& pass = spent.passes[i];
     if (pass.instrument >= bounds.instruments || pass.first_body >= bounds.bodies ||
-        !is_near(pass.far_exit_mm)) {
+        !is_near(pass.far_exit_mm) || !is_near(pass.follower_exit_mm)) {
       return false;
     }
   }
@@ -138,9 +146,10 @@ bool is_possible(const Operated& now, const Spent& spent, const StateBounds& bou
   for (const HandState& hand : spent.hands) {
     if (!is_hand_possible(hand, bounds)) return false;
   }
-  for (const Vec3& shift : now.shifted) {
-    if (!(length(shift) <= kGreatestShiftMm)) return false;
+  for (const Displacement& moved : now.moved) {
+    if (!is_displacement_possible(moved)) return false;
   }
+  if (!is_displacement_possible(now.carried)) return false;
   return are_held_items_possible(now) && are_tracks_possible(now, bounds.bodies) &&
          are_passes_possible(spent, bounds) && are_counts_possible(now, spent, bounds.steps) &&
          is_near(now.gauge_reading_mm) && is_near(now.reamed_mm) && is_near(now.holding_share) &&

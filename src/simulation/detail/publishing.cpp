@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/state_hash.hpp"
+#include "simulation/detail/wire_bend.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -41,10 +42,24 @@ void World::State::publish_item(const Model& model, std::size_t index) noexcept 
   view.wire = item.wire;
   view.tip_in_patient = item.tip;
   view.shaft_in_patient = item.shaft;
+  view.length_mm = item.length_mm;
+  view.bent_at_mm = item.length_mm;
+  view.outer_shaft_in_patient = item.shaft;
   if (!item.is_fixed()) return;
   view.in_target = item.in_target;
   view.entry_in_patient = (poses[item.body] * Point<frame::Bone>{entry_in_bone(item)}).v;
   view.depth_mm = item.depth_mm();
+  view.by_far_end = item.by_far_end;
+  if (kind_of(model, item).work == instruments::Work::Drill) {
+    view.near_end_is_out = is_near_end_out(model, item);
+    view.far_end_is_out = is_far_end_out(model, item);
+    view.bend_rad = item.bend_rad;
+    if (item.bend_rad > 0.0) {
+      view.bent_at_mm = item.travel_mm - item.first_bone_at_mm();
+      const Vec3 aside = (poses[item.body] * Direction<frame::Bone>{item.bend_in_bone}).v;
+      view.outer_shaft_in_patient = detail::bent(item.shaft, aside, item.bend_rad);
+    }
+  }
   if (kind_of(model, item).work == instruments::Work::Thread) {
     view.buried_mm = buried_mm(model, item);
   }

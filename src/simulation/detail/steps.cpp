@@ -22,6 +22,8 @@ procedure::LineFacts World::State::facts_of(const Model& model, const Item& item
   facts.direction_in_bone = item.direction_in_bone;
   facts.depth_mm = item.depth_mm();
   facts.chord_mm = item.chord_mm;
+  facts.was_flush = item.was_flush;
+  facts.near_end_out_mm = item.length_mm - item.depth_mm();
   if (kind_of(model, item).work == instruments::Work::Thread) {
     facts.buried_mm = buried_mm(model, item);
   }

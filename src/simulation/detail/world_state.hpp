@@ -39,6 +39,7 @@ struct World::Model {
   std::span<const instruments::Instrument> catalogue;
   std::vector<fields::ContactField> fields;  ///< by body
   std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
+  std::vector<Vec3> centres;      ///< of the bodies' surfaces, frame Bone
   std::vector<BoneSolid> target;  ///< one: the target's fragments as scanned, gap bridged
   procedure::Opening opening;
 };
@@ -53,8 +54,8 @@ struct World::State {
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
   std::array<detail::BodyPose, kMaxBodies> poses{};  ///< follow from wrist and shifts
   std::array<Pose<frame::Bone, frame::Patient>, kMaxBodies> inverses{};
-  std::array<Vec3, kMaxBodies> applied_shift{};  ///< that is in `poses`
-  WristPose wrist_before;                        ///< at the beginning of the tick
+  std::array<detail::BodyPose, kMaxBodies> bases{};  ///< without the fragments' displacements
+  WristPose wrist_before;                            ///< at the beginning of the tick
   Snapshot snapshot;
   TickFaults faults;
   std::array<procedure::Shot, kMaxShots> shots{};
@@ -81,6 +82,23 @@ struct World::State {
   void pick_up(std::uint8_t hand, std::uint8_t item) noexcept;
   void put_down(const Model& model, std::uint8_t hand) noexcept;
   void read_gauge(const Model& model, std::uint8_t hand) noexcept;
+
+  // wire_ends.cpp
+  void pick_up_far_end(std::uint8_t hand, std::uint8_t item) noexcept;
+  void draw_by_far_end(const Model& model, std::uint8_t hand) noexcept;
+  void come_out_at_far_side(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] bool is_near_end_out(const Model& model, const detail::Item& item) const noexcept;
+  [[nodiscard]] bool is_far_end_out(const Model& model, const detail::Item& item) const noexcept;
+  [[nodiscard]] bool is_in_air(const Model& model,
+                               const detail::Item& item,
+                               double travel_mm) const noexcept;
+
+  // wire_bending.cpp
+  void bend_wires(const Model& model) noexcept;
+  void note_press(const Model& model, detail::Item& item) const noexcept;
+  void bend_wire(const Model& model, std::uint8_t index) noexcept;
+  void break_wire(const Model& model, std::uint8_t index, std::uint8_t body) noexcept;
+  void let_go_of(const Model& model, std::uint8_t index) noexcept;
   void ride_on(const Model& model, detail::Item& item, std::uint8_t wire) noexcept;
 
   // fluoroscopy.cpp
@@ -101,7 +119,16 @@ struct World::State {
   void stop_wrist(const Model& model) noexcept;
   void pose_bodies(const Model& model) noexcept;
   void carry_fixed_items() noexcept;
+
+  // pins.cpp
+  [[nodiscard]] detail::BodySet bones_pinned(const Model& model) const noexcept;
+  [[nodiscard]] std::uint8_t carrier(const Model& model) const noexcept;
   [[nodiscard]] bool is_wrist_pinned(const Model& model) const noexcept;
+  [[nodiscard]] bool is_target_inside_another(const Model& model) const noexcept;
+  void carry_target(const Model& model,
+                    std::uint8_t with,
+                    const detail::InBone& with_from_target) noexcept;
+  void ease_carried(const Model& model) noexcept;
 
   // free_motion.cpp
   void move_free(const Model& model, std::uint8_t hand) noexcept;
@@ -145,11 +172,16 @@ struct World::State {
   void seat(const Model& model, std::uint8_t index) noexcept;
   [[nodiscard]] double holding_share_of(const Model& model,
                                         const detail::Item& item) const noexcept;
-  void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
-  [[nodiscard]] detail::BodyPose shifted_pose(std::uint8_t body, const Vec3& shift) const noexcept;
-  [[nodiscard]] bool is_fragment_inside_another(const Model& model,
-                                                std::uint8_t body) const noexcept;
   [[nodiscard]] double density_hu(const Model& model, const Vec3& point_in_patient) const noexcept;
+
+  // fragments.cpp
+  void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
+  void lead_fragment(const Model& model, std::uint8_t hand) noexcept;
+  void displace_fragment(const Model& model, std::uint8_t body, const detail::InBone& by) noexcept;
+  [[nodiscard]] bool is_fragment_held(const Model& model, std::uint8_t body) const noexcept;
+  [[nodiscard]] bool is_fragment_inside_another(const Model& model,
+                                                std::uint8_t body,
+                                                const detail::Displacement& moved) const noexcept;
 
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;

@@ -34,6 +34,7 @@ export type OnceAction =
         | "tray"
         | "put_down"
         | "pick_up"
+        | "pick_up_far_end"
         | "switch_hand"
         | "undo"
         | "finish"
@@ -179,5 +180,6 @@ export function onceAction(press: KeyPress): OnceAction | undefined {
       ? { kind: "turn_c_arm", rotationDeg: 0, tiltDeg: step }
       : { kind: "turn_c_arm", rotationDeg: step, tiltDeg: 0 };
   }
+  if (press.shift && press.code === "KeyG") return { kind: "pick_up_far_end" };
   return PLACES[press.code] ?? TYPED[press.key];
 }

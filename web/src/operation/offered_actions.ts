@@ -10,7 +10,7 @@ export interface Asked {
   readonly hand?: number;
   /** Of take. */
   readonly instrument?: string;
-  /** Of pick_up. */
+  /** Of pick_up and pick_up_far_end. */
   readonly item?: number;
 }
 
@@ -42,6 +42,11 @@ export class OfferedActions {
   /** What this hand can take hold of: what lies in bone and is in no hand. */
   pickUps(hand: number): readonly Action[] {
     return this.actions.filter((one) => one.id === "pick_up" && one.hand === hand);
+  }
+
+  /** What it can take hold of at its other end, beyond the bone. */
+  farEnds(hand: number): readonly Action[] {
+    return this.actions.filter((one) => one.id === "pick_up_far_end" && one.hand === hand);
   }
 
   /**

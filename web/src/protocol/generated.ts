@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 7;
+export const PROTOCOL_VERSION = 8;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -24,7 +24,7 @@ export type Driver = "off" | "forward" | "reverse";
 export type Guidance = "direct" | "planned";
 
 /** Things done once rather than held. */
-export type ActionId = "take" | "pick_up" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish";
+export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish";
 
 /** What angles of the C-arm are counted from: the forearm as it is held now, or as it was scanned, which is how the room stands. */
 export type AngleReference = "held_forearm" | "room";
@@ -290,6 +290,14 @@ export interface Item {
   readonly depth_mm: number;
   /** of a screw: tail below the surface [mm] -1000 to 1000 */
   readonly buried_mm: number;
+  /** its hand holds the end that went in first, beyond the bone */
+  readonly by_far_end: boolean;
+  /** tip to tail, of what is left of it [mm] 0 to 1000 */
+  readonly length_mm: number;
+  /** behind the tip, where a bent wire's outer part begins; its length while it is straight [mm] 0 to 1000 */
+  readonly bent_at_mm: number;
+  /** of that part, as shaft */
+  readonly outer_shaft: Vec3;
 }
 
 /** Bone that was removed: a round way, tapered, where it lay in the scan. */
@@ -310,7 +318,7 @@ export interface Action {
   readonly hand: number;
   /** of take, else empty */
   readonly instrument: string;
-  /** of pick_up, else -1 -1 to 254 */
+  /** of pick_up and pick_up_far_end, else -1 -1 to 254 */
   readonly item: number;
   /** for people */
   readonly label: string;
@@ -517,7 +525,7 @@ export interface ActMessage {
   readonly hand: number | null;
   /** of take: its id */
   readonly instrument: string | null;
-  /** of pick_up 0 to 254 */
+  /** of pick_up and pick_up_far_end 0 to 254 */
   readonly item: number | null;
 }
 

@@ -49,6 +49,24 @@ export function chains(parts: readonly InstrumentPart[]): Chain[] {
   return out;
 }
 
+/** What of the parts lies between two places along the shaft: a wire's piece up to its bend, or behind it. */
+export function partsBetween(
+  parts: readonly InstrumentPart[],
+  fromMm: number,
+  toMm: number,
+): InstrumentPart[] {
+  return parts.flatMap((part) => {
+    const from_mm = Math.max(part.from_mm, fromMm);
+    const to_mm = Math.min(part.to_mm, toMm);
+    if (!(to_mm > from_mm)) return part.from_mm === part.to_mm && from_mm === to_mm ? [part] : [];
+    const slope = (part.end_radius_mm - part.radius_mm) / (part.to_mm - part.from_mm);
+    const radiusAt = (mm: number): number => part.radius_mm + slope * (mm - part.from_mm);
+    return [
+      { ...part, from_mm, to_mm, radius_mm: radiusAt(from_mm), end_radius_mm: radiusAt(to_mm) },
+    ];
+  });
+}
+
 /** Turns of a thread from its beginning to `t` (0 to 1), where the pitch runs evenly [mm]. */
 export function threadTurns(
   t: number,

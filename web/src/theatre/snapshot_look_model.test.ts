@@ -29,6 +29,10 @@ const ITEM: Item = {
   entry_mm: null,
   depth_mm: 0,
   buried_mm: 0,
+  by_far_end: false,
+  length_mm: 150,
+  bent_at_mm: 150,
+  outer_shaft: [0, 0, 1],
 };
 const AT_REST: SnapshotMessage = {
   type: "snapshot",

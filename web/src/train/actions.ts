@@ -107,6 +107,9 @@ export class Actions {
       case "pick_up":
         this.pickUp();
         break;
+      case "pick_up_far_end":
+        this.pickUpFarEnd();
+        break;
       case "switch_hand":
         this.useHand(otherHand(hand.active));
         break;
@@ -174,6 +177,7 @@ export class Actions {
       undo: offered.whyNot({ id: "undo" }),
       finish: offered.whyNot({ id: "finish" }),
       canPickUp: offered.pickUps(hand).length > 0,
+      canPickUpFarEnd: offered.farEnds(hand).some((one) => one.allowed),
     };
   }
 
@@ -226,6 +230,15 @@ export class Actions {
     const offer = offers.find((one) => one.allowed) ?? offers[0];
     if (offer === undefined) this.room.say("Nothing lies in bone to take hold of.");
     else this.ask({ id: "pick_up", hand, item: offer.item });
+  }
+
+  /** As pickUp(), at the wire's other end. */
+  private pickUpFarEnd(): void {
+    const hand = this.room.hand.active;
+    const offers = this.room.offered().farEnds(hand);
+    const offer = offers.find((one) => one.allowed) ?? offers[0];
+    if (offer === undefined) this.room.say("No wire that is let go of lies in bone.");
+    else this.ask({ id: "pick_up_far_end", hand, item: offer.item });
   }
 
   private chooseNeighbour(by: number): void {

@@ -13,6 +13,7 @@ export interface BottomBarHandlers {
   tray(): void;
   measure(): void;
   pickUp(): void;
+  pickUpFarEnd(): void;
   putDown(): void;
   undo(): void;
   restart(): void;
@@ -27,6 +28,7 @@ export interface ClosedWays {
   readonly finish: string | undefined;
   /** Whether anything lies in bone that the hand could take hold of. */
   readonly canPickUp: boolean;
+  readonly canPickUpFarEnd: boolean;
 }
 
 /** Length of the force on a hand [N]. */
@@ -52,7 +54,7 @@ export class BottomBar {
   private readonly holding = make("span");
   private readonly sparkline = new Sparkline();
   private readonly ways: Readonly<
-    Record<"measure" | "putDown" | "pickUp" | "undo" | "finish", HTMLButtonElement>
+    Record<"measure" | "putDown" | "pickUp" | "pickUpFarEnd" | "undo" | "finish", HTMLButtonElement>
   >;
   private exercise: ExerciseMessage | undefined;
 
@@ -69,6 +71,7 @@ export class BottomBar {
       measure: button("Measure", "{KeyM}", handlers.measure, ".quiet"),
       putDown: button("Put down", "{KeyQ}", handlers.putDown, ".quiet"),
       pickUp: button("Take hold", "{KeyG}", handlers.pickUp, ".quiet"),
+      pickUpFarEnd: button("Other end", "Shift + {KeyG}", handlers.pickUpFarEnd, ".quiet"),
       undo: button("Undo", "{KeyZ}", handlers.undo, ".quiet"),
       finish: button("Finish", "{KeyF}", handlers.finish),
     };
@@ -98,6 +101,7 @@ export class BottomBar {
         button("Tray", "{KeyC}", handlers.tray, ".quiet"),
         this.ways.measure,
         this.ways.pickUp,
+        this.ways.pickUpFarEnd,
         this.ways.putDown,
         this.ways.undo,
         button("Restart", "", handlers.restart, ".quiet"),
@@ -138,6 +142,7 @@ export class BottomBar {
     show(this.ways.undo, ways.undo);
     show(this.ways.finish, ways.finish);
     this.ways.pickUp.hidden = !ways.canPickUp;
+    this.ways.pickUpFarEnd.hidden = !ways.canPickUpFarEnd;
   }
 
   private showHand(s: SnapshotMessage, hand: HandIndex, isActive: boolean): void {

@@ -80,6 +80,7 @@ export function makePanels(
       | "tray"
       | "measure"
       | "pick_up"
+      | "pick_up_far_end"
       | "put_down"
       | "undo"
       | "finish"
@@ -123,6 +124,7 @@ export function makePanels(
       tray: act("tray"),
       measure: act("measure"),
       pickUp: act("pick_up"),
+      pickUpFarEnd: act("pick_up_far_end"),
       putDown: act("put_down"),
       undo: act("undo"),
       restart: () => {

@@ -1,0 +1,146 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fragments of a broken bone move against each other: pushed by what is driven into them, and
+// turned and pulled by a joystick wire that a hand holds [clinical: B1 step 6]. They touch and do
+// not enter each other, and stay where they are left.
+#include <algorithm>
+#include <cstdint>
+
+#include "simulation/detail/world_state.hpp"
+
+namespace carpus::simulation {
+
+using detail::bit_of;
+using detail::Displacement;
+using detail::InBone;
+using detail::Item;
+
+namespace {
+
+constexpr double kStiffnessNPerMm = 5.0;   // of a nonunion's gap tissue [E]
+constexpr double kPushedMm = 2.0;          // by a push alone no farther [E]
+constexpr double kYieldMmPerTick = 0.005;  // a fragment moves at most 5 mm a second
+constexpr double kYieldRadPerTick = 0.0005;
+constexpr double kPressedMm = 0.1;  // a tip this near its surface presses a fragment
+constexpr double kSlackMm = 1.0;    // a hand's drift that a joystick does not pass on …
+constexpr double kSlackRad = 0.03;  // … nor its turning
+constexpr double kFirmMm = 1e-3;    // rounding of a corner that touched as scanned
+
+/// A turn about `centre` that takes `from` to `to`, unit vectors, by at most `most_rad`.
+InBone turn_about(const Vec3& centre, const Vec3& from, const Vec3& to, double most_rad) noexcept {
+  const Vec3 axis = cross(from, to);
+  const double sine = length(axis);
+  if (!(sine > 0.0)) return {};
+  // Half the angle, small: the quaternion (1, axis * half), normalised where it is used.
+  const double half = 0.5 * std::min(sine, most_rad);
+  const Vec3 turn = axis * (half / sine);
+  const Mat3 rotation = rotation_from_quaternion(1.0, turn.x, turn.y, turn.z);
+  return {rotation, centre - rotation * centre};
+}
+
+}  // namespace
+
+/// Whether the fragment, so displaced, would lie deeper in another than it did as scanned, told at
+/// the corners of its hull.
+bool World::State::is_fragment_inside_another(const Model& model,
+                                              std::uint8_t body,
+                                              const Displacement& moved) const noexcept {
+  const detail::BodyPose pose = bases[body] * moved.pose();
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    if (b == body || (model.kinds.fragments & bit_of(b)) == 0) continue;
+    for (const Vec3& corner : model.data.bones[body].hull.vertices) {
+      const Vec3 local = (inverses[b] * (pose * Point<frame::Bone>{corner})).v;
+      if (!tissue.is_near(b, local)) continue;
+      const double depth = -tissue.untouched_distance_mm(b, local);
+      if (!(depth > 0.0)) continue;
+      const double as_scanned = -tissue.untouched_distance_mm(b, corner);
+      if (depth > std::max(0.0, as_scanned) + kFirmMm) return true;
+    }
+  }
+  return false;
+}
+
+/// Whether an instrument lies in this fragment and in another: it holds them together.
+bool World::State::is_fragment_held(const Model& model, std::uint8_t body) const noexcept {
+  const detail::BodySet others = model.kinds.fragments & ~bit_of(body);
+  for (const Item& item : now.items) {
+    if (!item.is_there() || !item.is_fixed()) continue;
+    detail::BodySet entered = 0;
+    for (std::size_t i = 0; i < item.crossing_count; ++i) {
+      entered |= bit_of(item.crossings[i].body);
+    }
+    if ((entered & bit_of(body)) != 0 && (entered & others) != 0) return true;
+  }
+  return false;
+}
+
+/// As far as it goes without entering another fragment and within what ligaments allow.
+void World::State::displace_fragment(const Model& model,
+                                     std::uint8_t body,
+                                     const InBone& by) noexcept {
+  const Displacement wanted = Displacement::of(by * now.moved[body].pose());
+  const Vec3& centre = model.centres[body];
+  const Vec3 way = (wanted.pose() * Point<frame::Bone>{centre}).v - centre;
+  const bool is_far = squared_length(way) > detail::kGreatestShiftMm * detail::kGreatestShiftMm;
+  const bool is_turned_far =
+      squared_length(wanted.turn) > detail::kGreatestTurn * detail::kGreatestTurn;
+  if (is_far || is_turned_far || is_fragment_inside_another(model, body, wanted)) return;
+  now.moved[body] = wanted;
+}
+
+/// A fragment gives way along a push, against its gap tissue.
+void World::State::push_fragment(const Model& model, const Item& item, double force_n) noexcept {
+  bool has_moved = false;
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    if ((model.kinds.fragments & bit_of(b)) == 0) continue;
+    // Pushed is the fragment in which the tip works; a line through both holds them together.
+    const Vec3 tip = item.origin_in_bone + item.direction_in_bone * item.travel_mm;
+    const Vec3 local =
+        b == item.body ? tip : (inverses[b] * (poses[item.body] * Point<frame::Bone>{tip})).v;
+    if (!tissue.is_near(b, local) || tissue.untouched_distance_mm(b, local) > kPressedMm) continue;
+    if (item.body != b) break;
+    const InBone moved = now.moved[b].pose();
+    const Vec3 pushed = moved.rotation * item.direction_in_bone;
+    const Vec3 gone = (moved * Point<frame::Bone>{model.centres[b]}).v - model.centres[b];
+    Vec3 step = pushed * (std::min(kPushedMm, force_n / kStiffnessNPerMm) - dot(gone, pushed));
+    const double far = length(step);
+    if (far > kYieldMmPerTick) step *= kYieldMmPerTick / far;
+    displace_fragment(model, b, {Mat3::identity(), step});
+    has_moved = true;
+  }
+  if (has_moved) pose_bodies(model);
+}
+
+/// A joystick wire in a fragment: the fragment follows where the hand takes it, turned about the
+/// wire's tip and shifted, at a hand's slow speed.
+void World::State::lead_fragment(const Model& model, std::uint8_t hand) noexcept {
+  const Item& item = *in_hand(hand);
+  const std::uint8_t body = item.body;
+  if ((model.kinds.fragments & bit_of(body)) == 0 || is_fragment_held(model, body)) return;
+  const HandInput& wish = spent.hands[hand].wish;
+  const InBone back = now.moved[body].pose();
+  const auto base_from_patient = bases[body].inverse();
+  const Vec3 tip =
+      (back * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.travel_mm}).v;
+  const Vec3 shaft = -(back * Direction<frame::Bone>{item.direction_in_bone}).v;
+  const Vec3 wanted_tip = (base_from_patient * Point<frame::Patient>{wish.tip_in_patient}).v;
+  const Vec3 wanted_shaft =
+      (base_from_patient * Direction<frame::Patient>{wish.shaft_in_patient}).v;
+  InBone by;
+  const double turned = length(cross(shaft, wanted_shaft));
+  if (turned > kSlackRad && dot(shaft, wanted_shaft) > 0.0) {
+    by = turn_about(tip, shaft, wanted_shaft, std::min(kYieldRadPerTick, turned - kSlackRad));
+  }
+  const Vec3 way = wanted_tip - tip;
+  const double far = length(way);
+  if (far > kSlackMm) {
+    by.translation += way * (std::min(kYieldMmPerTick, far - kSlackMm) / far);
+  }
+  if (by == InBone{}) return;
+  displace_fragment(model, body, by);
+  pose_bodies(model);
+  carry_fixed_items();
+}
+
+}  // namespace carpus::simulation

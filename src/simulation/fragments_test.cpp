@@ -1,0 +1,214 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fragments of a broken bone: pushed, led by a joystick, held together.
+#include <gtest/gtest.h>
+
+#include "fields/distance_field.hpp"
+#include "simulation/operation_test_support.hpp"
+#include "simulation/world.hpp"
+
+namespace carpus::simulation {
+namespace {
+
+using test::Operator;
+using test::simple;
+using test::take;
+using test::wrist;
+
+/// The synthetic wrist with its scaphoid in two, 3 mm apart on their axis.
+const cases::CaseData& broken_wrist() {
+  static const cases::CaseData made = [] {
+    cases::CaseData data = wrist();
+    const cases::test::Ellipsoid whole = cases::test::synthetic_scaphoid();
+    const Vec3 towards_distal = normalized_or(
+        data.scaphoid.central_axis.distal - data.scaphoid.central_axis.proximal, {0, 0, 1});
+    std::erase_if(data.bones, [](const cases::Bone& b) { return b.bone == BoneId::Scaphoid; });
+    for (const BonePart part : {BonePart::Proximal, BonePart::Distal}) {
+      const double side = part == BonePart::Proximal ? -7.5 : 7.5;
+      cases::Bone bone;
+      bone.bone = BoneId::Scaphoid;
+      bone.part = part;
+      bone.surface = MeshIn<frame::Bone>(cases::test::surface_of(
+          {whole.centre + towards_distal * side, whole.rotation, {5.6, 4.8, 6.0}}, 4));
+      bone.hull = cases::test::polytope_of_convex(bone.surface);
+      bone.distance_field = fields::build_distance_field(bone.surface);
+      data.bones.push_back(std::move(bone));
+    }
+    return data;
+  }();
+  return made;
+}
+
+TEST(Fragments, AFragmentGivesWayToAPushUntilItMeetsTheOtherAndUndoBringsItBack) {
+  const cases::CaseData& data = broken_wrist();
+  const std::size_t proximal = data.bones.size() - 2;
+  const std::size_t distal = data.bones.size() - 1;
+  World world(data, test::exercise(), 1);
+  Input input;
+  input.wrist = world.now().wrist;
+  input.hands[1].tip_in_patient = {0, 150, 0};
+  const auto apart = [&] {
+    return world.now().patient_from_bone[proximal].translation -
+           world.now().patient_from_bone[distal].translation;
+  };
+  const Vec3 as_scanned = apart();
+  const auto& pose = world.now().patient_from_bone[proximal];
+  const auto& axis = data.scaphoid.central_axis;
+  const Vec3 entry = (pose * Point<frame::Bone>{axis.proximal}).v;
+  const Vec3 inward =
+      (pose * Direction<frame::Bone>{normalized_or(axis.distal - axis.proximal, {})}).v;
+  HandInput& hand = input.hands[0];
+  hand.shaft_in_patient = -inward;
+  for (double away = 25.0; away > -0.4; away -= 0.05) {
+    hand.tip_in_patient = entry - inward * away;
+    world.step(input);
+  }
+  hand.driver = Driver::Forward;
+  hand.thrust_n = 12.0;
+  for (int i = 0; i < 1500; ++i) world.step(input);
+  const Vec3 pushed = apart() - as_scanned;
+  EXPECT_GT(dot(pushed, inward), 0.5) << "along the push";
+  EXPECT_LT(length(pushed), 2.02) << "ligaments hold it";
+  const std::uint64_t hash = world.now().state_hash;
+  World again(data, test::exercise(), 1);
+  ASSERT_TRUE(again.read_state(world.write_state()).has_value());
+  EXPECT_EQ(again.now().state_hash, hash);
+  EXPECT_EQ(again.now().patient_from_bone[proximal], world.now().patient_from_bone[proximal]);
+  hand.driver = Driver::Off;
+  input.command = simple(CommandKind::Undo);
+  world.step(input);
+  EXPECT_NEAR(distance(apart(), as_scanned), 0.0, 1e-12);
+}
+
+TEST(Fragments, AHoleIsToldInEachBodyThatItMeets) {
+  World world(broken_wrist(), test::exercise(), 1);
+  Input input;
+  input.wrist = world.now().wrist;
+  input.hands[1].tip_in_patient = {0, 150, 0};
+  const auto& pose = world.now().patient_from_bone[broken_wrist().bones.size() - 2];
+  const auto& axis = broken_wrist().scaphoid.central_axis;
+  const Vec3 entry = (pose * Point<frame::Bone>{axis.proximal}).v;
+  const Vec3 inward =
+      (pose * Direction<frame::Bone>{normalized_or(axis.distal - axis.proximal, {})}).v;
+  HandInput& hand = input.hands[0];
+  hand.shaft_in_patient = -inward;
+  for (double away = 25.0; away > -0.4; away -= 0.05) {
+    hand.tip_in_patient = entry - inward * away;
+    world.step(input);
+  }
+  hand.driver = Driver::Forward;
+  hand.thrust_n = 40.0;
+  for (int i = 0; i < 20000 && world.now().items[0].depth_mm < 22.0; ++i) world.step(input);
+  ASSERT_GE(world.now().items[0].depth_mm, 22.0);
+  ASSERT_EQ(world.now().track_count, 2);
+  EXPECT_NE(world.now().tracks[0].body, world.now().tracks[1].body);
+  EXPECT_EQ(world.now().passes, 1U);
+}
+
+/// In the proximal fragment, beside the axis, and let go of by the driver.
+class Joystick {
+ public:
+  Joystick() : world_(broken_wrist(), test::exercise(), 1) {
+    input_.wrist = world_.now().wrist;
+    input_.hands[1].tip_in_patient = {0, 150, 0};
+    input_.command = take("joystick_wire");
+    world_.step(input_);
+    input_.command = {};
+    const auto& axis = broken_wrist().scaphoid.central_axis;
+    const auto& pose = world_.now().patient_from_bone[proximal()];
+    const Vec3 entry = (pose * Point<frame::Bone>{axis.proximal}).v;
+    inward_ = (pose * Direction<frame::Bone>{normalized_or(axis.distal - axis.proximal, {})}).v;
+    hand().shaft_in_patient = -inward_;
+    for (double away = 25.0; away > -0.4; away -= 0.05) {
+      hand().tip_in_patient = entry - inward_ * away;
+      world_.step(input_);
+    }
+    hand().driver = Driver::Forward;
+    hand().thrust_n = 40.0;
+    for (int i = 0; i < 20000 && item().depth_mm < 5.0; ++i) world_.step(input_);
+    hand().driver = Driver::Off;
+    rest();
+  }
+
+  /// The hand at its wire.
+  void rest() {
+    hand().tip_in_patient = item().tip_in_patient;
+    hand().shaft_in_patient = item().shaft_in_patient;
+    hold(50);
+  }
+  void hold(int ticks) {
+    for (int i = 0; i < ticks; ++i) world_.step(input_);
+  }
+  [[nodiscard]] static std::size_t proximal() { return broken_wrist().bones.size() - 2; }
+  [[nodiscard]] const ItemView& item() const {
+    return world_.now().items[world_.now().hands[0].item];
+  }
+  [[nodiscard]] HandInput& hand() { return input_.hands[0]; }
+  [[nodiscard]] const Vec3& inward() const { return inward_; }
+  [[nodiscard]] World& world() { return world_; }
+  [[nodiscard]] Pose<frame::Patient, frame::Bone> pose() const {
+    return world_.now().patient_from_bone[proximal()];
+  }
+
+ private:
+  World world_;
+  Input input_;
+  Vec3 inward_;
+};
+
+double turned_by(const Pose<frame::Patient, frame::Bone>& a,
+                 const Pose<frame::Patient, frame::Bone>& b) {
+  const Mat3 between = a.rotation.transposed() * b.rotation;
+  return 0.5 * (between.rows[0].x + between.rows[1].y + between.rows[2].z - 1.0);
+}
+
+TEST(Fragments, AJoystickTurnsTheFragmentAboutItsTip) {
+  Joystick joystick;
+  const auto before = joystick.pose();
+  const Vec3 tip = joystick.item().tip_in_patient;
+  const Vec3 shaft = joystick.item().shaft_in_patient;
+  joystick.hand().shaft_in_patient = normalized_or(shaft + any_perpendicular(shaft) * 0.2, shaft);
+  joystick.hold(3000);
+  EXPECT_LT(turned_by(before, joystick.pose()), 0.995) << "5.7 degrees at least";
+  EXPECT_GT(turned_by(before, joystick.pose()), 0.97) << "no further than the hand";
+  EXPECT_NEAR(distance(joystick.item().tip_in_patient, tip), 0.0, 1.1) << "but for its slack";
+  const auto turned = joystick.pose();
+  joystick.rest();
+  joystick.hold(500);
+  EXPECT_NEAR(turned_by(turned, joystick.pose()), 1.0, 1e-6) << "it stays where it is left";
+}
+
+TEST(Fragments, AJoystickPullsTheFragmentAndNeverIntoTheOther) {
+  Joystick joystick;
+  const auto before = joystick.pose().translation;
+  joystick.hand().tip_in_patient = joystick.item().tip_in_patient - joystick.inward() * 3.0;
+  joystick.hold(2000);
+  EXPECT_NEAR(dot(joystick.pose().translation - before, joystick.inward()), -2.0, 0.1)
+      << "a millimetre of the way is slack";
+  joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 15.0;
+  joystick.hold(4000);
+  const double forward = dot(joystick.pose().translation - before, joystick.inward());
+  EXPECT_GT(forward, 1.0);
+  EXPECT_LT(forward, 3.5) << "the other fragment is 3 mm away";
+  const auto bytes = joystick.world().write_state();
+  World again(broken_wrist(), test::exercise(), 1);
+  ASSERT_TRUE(again.read_state(bytes).has_value());
+  EXPECT_EQ(again.now().patient_from_bone[Joystick::proximal()], joystick.pose());
+}
+
+TEST(Fragments, WhatLiesInBothHoldsThem) {
+  Joystick joystick;
+  joystick.hand().driver = Driver::Forward;
+  for (int i = 0; i < 40000 && joystick.item().depth_mm < 18.0; ++i) joystick.hold(1);
+  ASSERT_GE(joystick.item().depth_mm, 18.0);
+  joystick.hand().driver = Driver::Off;
+  joystick.rest();
+  const auto before = joystick.pose();
+  joystick.hand().tip_in_patient -= joystick.inward() * 5.0;
+  joystick.hold(500);
+  EXPECT_EQ(joystick.pose(), before);
+}
+
+}  // namespace
+}  // namespace carpus::simulation
