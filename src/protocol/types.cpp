@@ -157,6 +157,7 @@ void read(FieldReader& in, Instrument& out) {
   out.drive = static_cast<Drive>(in.choice("drive", kDriveNames));
   out.rides_on_wire = in.boolean("rides_on_wire");
   out.is_gauge = in.boolean("is_gauge");
+  out.is_joystick = in.boolean("is_joystick");
   out.is_sleeve = in.boolean("is_sleeve");
   out.stays = in.boolean("stays");
   out.family = in.string("family", 64);
@@ -175,6 +176,7 @@ void write(FieldWriter& out, const Instrument& in) {
   out.name("drive", name_of(in.drive));
   out.value("rides_on_wire", in.rides_on_wire);
   out.value("is_gauge", in.is_gauge);
+  out.value("is_joystick", in.is_joystick);
   out.value("is_sleeve", in.is_sleeve);
   out.value("stays", in.stays);
   out.text("family", in.family, 64);

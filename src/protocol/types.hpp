@@ -268,6 +268,8 @@ struct Instrument {
   /// taken, it is put over the wire that lies in the target
   bool rides_on_wire = false;
   bool is_gauge = false;
+  /// a fragment goes where a hand takes it by this
+  bool is_joystick = false;
   /// a wire is led through its bore
   bool is_sleeve = false;
   /// let go in bone, it stays there

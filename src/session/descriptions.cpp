@@ -48,6 +48,7 @@ protocol::Instrument message_of(const instruments::Instrument& instrument) {
   message.drive = static_cast<protocol::Drive>(instrument.drive);
   message.rides_on_wire = instrument.bore_radius_mm > 0.0 && !instrument.is_sleeve;
   message.is_gauge = instrument.is_gauge;
+  message.is_joystick = instrument.is_joystick;
   message.is_sleeve = instrument.is_sleeve;
   message.stays = instrument.stays;
   message.family = instrument.family;

@@ -19,6 +19,9 @@ simulation::Snapshot with(std::string_view instrument, std::uint8_t hand) {
   item.hand = hand;
   item.tip_in_patient = {1, 2, 3};
   item.shaft_in_patient = {0, 1, 0};
+  item.outer_shaft_in_patient = {0, 1, 0};
+  item.length_mm = instruments::catalogue()[item.instrument].length_mm;
+  item.bent_at_mm = item.length_mm;
   return snapshot;
 }
 
@@ -47,6 +50,21 @@ TEST(MetalInBeam, WhatHoldsAScrewIsGoneOnceItIsLetGo) {
     EXPECT_LE(std::max(rod.start.y, rod.end.y), 2 + 20 + 1e-9) << "only the screw";
     EXPECT_EQ(rod.attenuation_per_mm, fluoroscopy::kTitaniumPerMm);
   }
+}
+
+TEST(MetalInBeam, ABentWireStandsOffBehindItsBendAndABrokenOneEndsThere) {
+  simulation::Snapshot snapshot = with("guide_wire", simulation::kNoHand);
+  simulation::ItemView& item = snapshot.items[3];
+  item.body = 0;
+  item.bent_at_mm = 20;
+  item.outer_shaft_in_patient = {1, 0, 0};
+  const auto bent = metal_in_beam(snapshot);
+  ASSERT_EQ(bent.size(), 2U);
+  EXPECT_EQ(bent[0].end, (Vec3{1, 22, 3}));
+  EXPECT_NEAR(distance(bent[1].start, bent[0].end), 0.0, 1e-12) << "they meet";
+  EXPECT_NEAR(distance(bent[1].end, {131, 22, 3}), 0.0, 1e-9);
+  item.length_mm = item.bent_at_mm = 20;
+  EXPECT_EQ(metal_in_beam(snapshot).size(), 1U);
 }
 
 TEST(MetalInBeam, EmptyHandsShowNothing) {

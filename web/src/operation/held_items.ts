@@ -17,14 +17,18 @@ export function heldItem(s: SnapshotMessage, hand: HandIndex): Item | undefined 
   return item < 0 ? undefined : s.items.find((one) => one.item === item);
 }
 
-/** @param label  what people call that body */
+/**
+ * @param label  what people call that body
+ * @param leads  a fragment of bone goes where a hand takes it by this
+ */
 export function whyItKeepsStill(
   item: Item | undefined,
   label: (body: string) => string,
+  leads: boolean,
 ): string | undefined {
   if (item === undefined)
     return "This hand is empty: {KeyC} opens the tray, {KeyH} moves the other hand.";
-  if (item.body === "") return undefined;
+  if (item.body === "" || leads) return undefined;
   const where = `the ${label(item.body)}`;
   return item.wire >= 0
     ? `It runs on its wire in ${where}: hold Space to drive it, {KeyR} to bring it back.`

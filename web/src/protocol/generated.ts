@@ -176,6 +176,8 @@ export interface Instrument {
   /** taken, it is put over the wire that lies in the target */
   readonly rides_on_wire: boolean;
   readonly is_gauge: boolean;
+  /** a fragment goes where a hand takes it by this */
+  readonly is_joystick: boolean;
   /** a wire is led through its bore */
   readonly is_sleeve: boolean;
   /** let go in bone, it stays there */

@@ -91,6 +91,7 @@ export const SCHEMA: Schema = {
       drive: {"type": "drive"},
       rides_on_wire: {"type": "boolean"},
       is_gauge: {"type": "boolean"},
+      is_joystick: {"type": "boolean"},
       is_sleeve: {"type": "boolean"},
       stays: {"type": "boolean"},
       family: {"type": "string", "max_length": 64},

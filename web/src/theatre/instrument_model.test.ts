@@ -4,7 +4,7 @@
 // Parts that go on from each other become one surface, others do not; a thread's pitch runs evenly.
 import { describe, expect, it } from "vitest";
 import type { InstrumentPart } from "../protocol";
-import { chains, threadTurns } from "./instrument_model";
+import { chains, partsBetween, threadTurns } from "./instrument_model";
 
 function part(more: Partial<InstrumentPart> = {}): InstrumentPart {
   return {
@@ -64,5 +64,24 @@ describe("threadTurns", () => {
       const turns = threadTurns(t + step, 20, 1.4, 0.9) - threadTurns(t, 20, 1.4, 0.9);
       expect((20 * step) / turns).toBeCloseTo(1.4 + t * (0.9 - 1.4), 4);
     }
+  });
+});
+
+describe("partsBetween", () => {
+  const tip = part({ to_mm: 2, radius_mm: 0, end_radius_mm: 1 });
+  const shaft = part({ from_mm: 2, to_mm: 150, radius_mm: 1, end_radius_mm: 1 });
+
+  it("leaves what lies between as it is", () => {
+    expect(partsBetween([tip, shaft], 0, 150)).toEqual([tip, shaft]);
+  });
+
+  it("cuts a cone where its radius then is", () => {
+    expect(partsBetween([tip, shaft], 0, 1)).toEqual([{ ...tip, to_mm: 1, end_radius_mm: 0.5 }]);
+  });
+
+  it("gives the two pieces of a bent wire, without a gap", () => {
+    const [inner, outer] = [partsBetween([tip, shaft], 0, 30), partsBetween([tip, shaft], 30, 150)];
+    expect(inner.at(-1)?.to_mm).toBe(30);
+    expect(outer).toEqual([{ ...shaft, from_mm: 30 }]);
   });
 });

@@ -75,6 +75,8 @@ export interface HandHandlers {
   /** What people call a body. */
   label(body: string): string;
   say(hint: string): void;
+  /** Whether a fragment goes where a hand takes it by this instrument. */
+  isJoystick(instrument: string): boolean;
   snapshot(): SnapshotMessage | undefined;
 }
 
@@ -162,7 +164,11 @@ export class Hand {
       const item = heldItem(s, hand);
       const had = before === undefined ? undefined : heldItem(before, hand);
       const isFreed = item?.body === "" && had?.item === item.item && had.body !== "";
-      if (item === undefined ? !this.isPlaced : anew || isFreed) this.takeOver(hand, item, isFreed);
+      // What is driven goes its own way: a fragment is led from where it ends.
+      const isDriven =
+        this.leads(item) && (hand !== this.moved || this.driver !== "off" || had?.body === "");
+      if (item === undefined ? !this.isPlaced : anew || isFreed || isDriven)
+        this.takeOver(hand, item, isFreed);
     }
     this.isPlaced = true;
   }
@@ -312,7 +318,15 @@ export class Hand {
     if (snapshot === undefined || kind === "orbit" || kind === "move_wrist") return undefined;
     const item = heldItem(snapshot, this.moved);
     if (kind === "drive" && item !== undefined) return undefined;
-    return whyItKeepsStill(item, (body) => this.handlers.label(body));
+    return whyItKeepsStill(item, (body) => this.handlers.label(body), this.leads(item));
+  }
+
+  private leadsNow(): boolean {
+    return this.last !== undefined && this.leads(heldItem(this.last, this.moved));
+  }
+
+  private leads(item: Item | undefined): boolean {
+    return item !== undefined && item.body !== "" && this.handlers.isJoystick(item.instrument);
   }
 
   private walk(key: Held, nowMs: number): void {
@@ -378,7 +392,7 @@ export class Hand {
   private slide(delta: Vec3): void {
     const moved = movedBy(this.pose, delta);
     this.pose = moved;
-    if (moved.approachMm > 0) return;
+    if (moved.approachMm > 0 || this.leadsNow()) return;
     const onBone = this.theatre.bonePointBehind(moved.anchorMm);
     if (onBone === undefined) return;
     if (length(subtract(onBone, moved.anchorMm)) > FOLLOW_SURFACE_MM + length(delta)) return;
@@ -396,7 +410,7 @@ export class Hand {
     if (this.pointer === undefined) return;
     const { x, y } = this.pointer;
     this.pointer = undefined;
-    const bone = this.theatre.bonePointAt(x, y);
+    const bone = this.leadsNow() ? undefined : this.theatre.bonePointAt(x, y);
     const anchorMm = bone ?? this.theatre.planePointAt(x, y, this.pose.anchorMm);
     this.pose = { ...this.pose, anchorMm, approachMm: 0 };
     this.changed = true;

@@ -197,6 +197,8 @@ export class TrainPage {
       say: (hint) => {
         this.panels.notice.say(hint);
       },
+      isJoystick: (id) =>
+        this.panels.tray.instruments.some((one) => one.id === id && one.is_joystick),
       snapshot: () => this.seen.latest,
     });
   }
