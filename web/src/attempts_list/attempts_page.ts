@@ -18,7 +18,12 @@ export function mountAttempts(app: HTMLElement): () => void {
         "header.page-head",
         {},
         make("div", {}, make("p.secondary", {}, "Carpus"), make("h1", {}, "Past attempts")),
-        make("a.button-link", { href: "#/" }, "Operate"),
+        make(
+          "nav.page-ways",
+          { "aria-label": "Where to" },
+          make("a.button-link", { href: "#/review" }, "Learning curve"),
+          make("a.button-link.primary", { href: "#/" }, "Operate"),
+        ),
       ),
       body,
     ),

@@ -78,6 +78,7 @@ function show(
       button("Print", "", () => {
         window.print();
       }),
+      make("a.button-link", { href: "#/review" }, "Learning curve"),
       make("a.button-link", { href: "#/attempts" }, "Past attempts"),
       make("a.button-link.primary", { href: "#/" }, "Operate again"),
     ),
