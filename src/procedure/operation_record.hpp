@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "geometry/pose.hpp"
 #include "procedure/situation.hpp"
 
 namespace carpus::procedure {
@@ -34,7 +35,10 @@ struct OperationRecord {
   double gauge_reading_mm = -1.0;  ///< last reading, -1 for none
   double reamed_mm = 0.0;          ///< greatest depth of a reamer along its wire
   double holding_share = 1.0;      ///< of a screw in untouched bone [1] (instruments/…holding)
-  double most_bend_rad = 0.0;      ///< by which any wire was bent for good
+  FractureFacts fracture;          ///< at the end
+  /// By body, where it lies beside where the wrist's motion takes it; empty while none was moved.
+  std::vector<Pose<frame::Bone, frame::Bone>> displacements;
+  double most_bend_rad = 0.0;  ///< by which any wire was bent for good
   std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;
   Tick ticks = 0;                     ///< duration

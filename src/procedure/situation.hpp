@@ -86,6 +86,15 @@ struct Aim {
   double entry_within_mm = 0.0;  ///< of `entry` an entry is right
 };
 
+/// How the fragments of a target in two pieces lie (anatomy/reduction.hpp); whole bones have none.
+struct FractureFacts {
+  bool is_apart = false;  ///< the target is in two pieces
+  double gap_mm = 0.0;    ///< between the middles of their faces, along the first one's normal
+  double step_mm = 0.0;   ///< across it
+  double cosine_angle = 1.0;
+  bool operator==(const FractureFacts&) const = default;
+};
+
 /// Everything so far; spans live as long as the call. Predicates are noexcept, allocate nothing and
 /// use only + - * / and sqrt: they run in every tick.
 struct Situation {
@@ -101,6 +110,7 @@ struct Situation {
   double gauge_reading_mm = -1.0;
   double reamed_mm = 0.0;  ///< greatest depth of a reamer along its wire, from the entry
   WristPose wrist;
+  FractureFacts fracture;
   Aim aim;
   bool is_finishing = false;  ///< this is the tick of Finish
 };

@@ -182,10 +182,16 @@ TEST(Fragments, AJoystickTurnsTheFragmentAboutItsTip) {
 TEST(Fragments, AJoystickPullsTheFragmentAndNeverIntoTheOther) {
   Joystick joystick;
   const auto before = joystick.pose().translation;
+  const auto as_scanned = joystick.world().operation_record().fracture;
   joystick.hand().tip_in_patient = joystick.item().tip_in_patient - joystick.inward() * 3.0;
   joystick.hold(2000);
   EXPECT_NEAR(dot(joystick.pose().translation - before, joystick.inward()), -2.0, 0.1)
       << "a millimetre of the way is slack";
+  const auto record = joystick.world().operation_record();
+  EXPECT_TRUE(record.fracture.is_apart);
+  EXPECT_NEAR(record.fracture.gap_mm, as_scanned.gap_mm + 2.0, 0.15);
+  ASSERT_EQ(record.displacements.size(), broken_wrist().bones.size());
+  EXPECT_NEAR(length(record.displacements[Joystick::proximal()].translation), 2.0, 0.15);
   joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 15.0;
   joystick.hold(4000);
   const double forward = dot(joystick.pose().translation - before, joystick.inward());

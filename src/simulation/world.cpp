@@ -6,6 +6,7 @@
 // off steps -> force, limited last -> snapshot and hash.
 #include "simulation/world.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -65,6 +66,7 @@ World::Model::Model(const cases::CaseData& case_data,
     const auto count = static_cast<double>(case_data.bones[b].surface.vertices.size());
     centres.push_back(count > 0 ? sum * (1.0 / count) : Vec3{});
   }
+  fracture = detail::fracture_in(case_data, kinds);
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
     throw InvalidInput("simulation: the procedure " + declared.id +
@@ -236,6 +238,12 @@ procedure::OperationRecord World::operation_record() const {
   record.gauge_reading_mm = state.now.gauge_reading_mm;
   record.reamed_mm = state.now.reamed_mm;
   record.holding_share = state.now.holding_share;
+  record.fracture = state.fracture_now(*model_);
+  const bool has_moved = std::any_of(state.now.moved.begin(), state.now.moved.end(),
+                                     [](const auto& moved) { return !moved.is_none(); });
+  for (std::size_t b = 0; has_moved && b < state.snapshot.body_count; ++b) {
+    record.displacements.push_back(state.now.moved[b].pose());
+  }
   record.most_bend_rad = state_->spent.most_bend_rad;
   record.broken_wires = state_->spent.broken_wires;
   record.undos = state.spent.undos;

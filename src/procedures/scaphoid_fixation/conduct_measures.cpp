@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -67,6 +68,17 @@ Measure wire_bend(const Facts& facts) {
                         ? "The wrist was moved while the wire stood out over the radius."
                         : "The wire stayed straight.";
   return measure;
+}
+
+/// How the fragments lie at the end, of a bone in two pieces.
+Measure of_fracture(const Facts& facts, const char* id, double value) {
+  Measure measure{id, value, ""};
+  measure.applies = facts.record.fracture.is_apart;
+  return measure;
+}
+
+double angle_deg(const procedure::FractureFacts& fracture) {
+  return degrees_from_radians(std::acos(std::clamp(fracture.cosine_angle, -1.0, 1.0)));
 }
 
 Measure wires_broken(const Facts& facts) {
@@ -175,6 +187,9 @@ std::vector<Measure> conduct_measures(const Facts& facts) {
       follower_beyond_far_cortex(facts),
       wire_bend(facts),
       wires_broken(facts),
+      of_fracture(facts, "fracture_gap_mm", std::max(0.0, facts.record.fracture.gap_mm)),
+      of_fracture(facts, "fracture_step_mm", facts.record.fracture.step_mm),
+      of_fracture(facts, "fracture_angle_deg", angle_deg(facts.record.fracture)),
       wrong_bones(facts),
       ream_short(facts),
       trapezium_cartilage(facts),

@@ -100,6 +100,21 @@ procedure::PlacementPicture picture_of(const Facts& facts) {
   return picture;
 }
 
+/// The fragments as they lie at the end, in the frame of the one in which the line is fixed.
+std::vector<MeshIn<frame::Bone>> fragments_seen_from(const cases::CaseData& data,
+                                                     const procedure::OperationRecord& record,
+                                                     std::size_t body) {
+  std::vector<MeshIn<frame::Bone>> fragments;
+  const auto& moved = record.displacements;
+  const bool has_moved = moved.size() == data.bones.size() && body < moved.size();
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone != BoneId::Scaphoid) continue;
+    const MeshIn<frame::Bone>& surface = data.bones[b].surface;
+    fragments.push_back(has_moved ? moved[body].inverse() * moved[b] * surface : surface);
+  }
+  return fragments;
+}
+
 }  // namespace
 
 const std::optional<LineFacts>& fixed_line(const Facts& facts) noexcept {
@@ -113,8 +128,9 @@ Facts facts_of(const cases::CaseData& data,
   find_lines(facts);
   find_passes(facts);
   if (const auto& lain = fixed_line(facts)) {
+    const std::vector<MeshIn<frame::Bone>> lie = fragments_seen_from(data, record, lain->body);
     std::vector<const MeshIn<frame::Bone>*> fragments;
-    for (const cases::Bone* part : cases::scaphoid_parts(data)) fragments.push_back(&part->surface);
+    for (const MeshIn<frame::Bone>& fragment : lie) fragments.push_back(&fragment);
     const OuterBone scaphoid(fragments);
     facts.line =
         place_line(scaphoid, data, fixation.approach, lain->entry_in_bone, lain->direction_in_bone);

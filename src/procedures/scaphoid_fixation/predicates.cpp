@@ -30,10 +30,13 @@ constexpr double kNextScrewMm = 2.6;    // to the next shorter screw of the tray
 constexpr double kBuriedLeastMm = 1.0;  // 2 are wanted [K, B1 step 9]
 constexpr double kBuriedMostMm = 4.0;
 constexpr double kTipCoverMm = 0.5;
-constexpr double kFlushMm = 1.0;        // a wire's near end, out of the bone …
-constexpr double kFlushDeepMm = 3.0;    // … or in it, when it is drawn through [K, B1 step 5]
-constexpr double kExtendedRad = 0.175;  // 10 degrees of flexion: the wrist is straight
-constexpr double kHeldAtMm = 20.0;      // of a wire out of the bone, to work over it
+constexpr double kAlignedMm =
+    1.5;  // 1 is displaced [K, B1 step 1]; faces are found to half of that
+constexpr double kAlignedCosine = 0.985;  // 10 degrees [E]
+constexpr double kFlushMm = 1.0;          // a wire's near end, out of the bone …
+constexpr double kFlushDeepMm = 3.0;      // … or in it, when it is drawn through [K, B1 step 5]
+constexpr double kExtendedRad = 0.175;    // 10 degrees of flexion: the wrist is straight
+constexpr double kHeldAtMm = 20.0;        // of a wire out of the bone, to work over it
 
 const Instrument* kind_of(InstrumentIndex index) noexcept {
   const auto all = instruments::catalogue();
@@ -82,6 +85,19 @@ bool is_surveyed(const Situation& now) noexcept {
   constexpr unsigned kWanted =
       1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
   return has_all(views_in(now.shots), kWanted);
+}
+
+bool is_displaced(const Situation& now) noexcept {
+  const procedure::FractureFacts& fracture = now.fracture;
+  return fracture.is_apart && (fracture.gap_mm > kAlignedMm || fracture.step_mm > kAlignedMm ||
+                               fracture.cosine_angle < kAlignedCosine);
+}
+
+bool is_reduced(const Situation& now) noexcept {
+  if (!now.fracture.is_apart) return is_surveyed(now);
+  constexpr unsigned kWanted =
+      1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
+  return !is_displaced(now) && has_all(views_in(now.recent_shots), kWanted);
 }
 
 bool is_ring_seen(const Situation& now) noexcept {

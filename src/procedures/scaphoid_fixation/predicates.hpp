@@ -17,6 +17,11 @@ using procedure::Situation;
 [[nodiscard]] bool is_surveyed(const Situation& now) noexcept;
 /// A picture looked down the bone within 12 degrees: the ring.
 [[nodiscard]] bool is_ring_seen(const Situation& now) noexcept;
+/// A bone in one piece, surveyed; or its two pieces lie within 1.5 mm and 10 degrees of each
+/// other's faces, and were seen so in PA and lateral since the survey.
+[[nodiscard]] bool is_reduced(const Situation& now) noexcept;
+/// The pieces lie farther from each other.
+[[nodiscard]] bool is_displaced(const Situation& now) noexcept;
 /// A wire lies in the scaphoid that went in where the aim's entry is.
 [[nodiscard]] bool is_entry_right(const Situation& now) noexcept;
 /// A wire is 4 mm deep on a line that is at least 85 % as long as the longest.
@@ -51,6 +56,8 @@ using procedure::Situation;
   using procedure::NamedPredicate;
   return std::array{
       NamedPredicate{"is_surveyed", is_surveyed},
+      NamedPredicate{"is_reduced", is_reduced},
+      NamedPredicate{"is_displaced", is_displaced},
       NamedPredicate{"is_ring_seen", is_ring_seen},
       NamedPredicate{"is_entry_right", is_entry_right},
       NamedPredicate{"is_line_long", is_line_long},

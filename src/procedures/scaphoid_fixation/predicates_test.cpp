@@ -103,6 +103,22 @@ TEST(Predicates, AWireIsDrivenBackOnceItStandsOutAgainAndItsTipIsUnderTheCortex)
   EXPECT_FALSE(is_driven_back(scene.seen())) << "nothing to work over";
 }
 
+TEST(Predicates, AWholeBoneIsReducedOnceSurveyedAPieceOnceItLiesRightAndWasSeenSo) {
+  Scene scene;
+  scene.shoot(0, 0);
+  scene.shoot(90, 0);
+  EXPECT_TRUE(is_reduced(scene.seen()));
+  scene.now.fracture = {true, 1.8, 2.4, 0.99};
+  EXPECT_FALSE(is_reduced(scene.seen()));
+  EXPECT_TRUE(is_displaced(scene.seen()));
+  scene.now.fracture = {true, 0.5, 0.6, 0.90};
+  EXPECT_FALSE(is_reduced(scene.seen())) << "flexed by 26 degrees";
+  scene.now.fracture = {true, 0.5, 0.6, 0.99};
+  EXPECT_TRUE(is_reduced(scene.seen()));
+  scene.shots.pop_back();
+  EXPECT_FALSE(is_reduced(scene.seen())) << "not seen in lateral since";
+}
+
 TEST(Predicates, TheRingIsSeenDownTheBoneAlone) {
   Scene scene;
   scene.shoot(0, 0).along_aim = 0.97;

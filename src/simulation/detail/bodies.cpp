@@ -39,4 +39,15 @@ BodyKinds kinds_of(const cases::CaseData& data, const procedure::Procedure& proc
   return kinds;
 }
 
+std::optional<FragmentFaces> fracture_in(const cases::CaseData& data, const BodyKinds& kinds) {
+  const BodySet pieces = kinds.target & kinds.fragments;
+  const BodySet others = pieces & (pieces - 1U);
+  if (others == 0 || (others & (others - 1U)) != 0) return std::nullopt;
+  const std::uint8_t first = first_of(pieces);
+  const std::uint8_t second = first_of(others);
+  const auto faces = anatomy::reduction_of(data.bones[first].surface, data.bones[second].surface);
+  if (!faces) return std::nullopt;
+  return FragmentFaces{first, second, *faces};
+}
+
 }  // namespace carpus::simulation::detail

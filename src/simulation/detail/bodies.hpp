@@ -8,9 +8,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "anatomy/reduction.hpp"
 #include "cases/case_data.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
@@ -39,6 +41,17 @@ struct BodyKinds {
 ///     a distance field.
 [[nodiscard]] BodyKinds kinds_of(const cases::CaseData& data,
                                  const procedure::Procedure& procedure);
+
+/// A target in two pieces, and where they broke.
+struct FragmentFaces {
+  std::uint8_t first = kNoBody;
+  std::uint8_t second = kNoBody;
+  anatomy::Reduction faces;
+};
+
+/// Nothing for a whole bone, one in more pieces, or pieces without a face.
+[[nodiscard]] std::optional<FragmentFaces> fracture_in(const cases::CaseData& data,
+                                                       const BodyKinds& kinds);
 
 /// The first of a set, which must not be empty.
 [[nodiscard]] constexpr std::uint8_t first_of(BodySet bodies) noexcept {

@@ -41,6 +41,39 @@ InBone turn_about(const Vec3& centre, const Vec3& from, const Vec3& to, double m
 
 }  // namespace
 
+procedure::FractureFacts World::State::fracture_now(const Model& model) const noexcept {
+  if (!model.fracture) return {};
+  const auto& [first, second, faces] = *model.fracture;
+  const anatomy::FractureOffset offset = faces.offset(inverses[first] * poses[second]);
+  return {true, offset.gap_mm, offset.step_mm, offset.cosine_angle};
+}
+
+/// Of an item's line in the target, from its entry to where it leaves it for good, the gap
+/// included: of the fragments as they lie now.
+double World::State::way_in_target_mm(const Model& model, const Item& item) const noexcept {
+  constexpr double kStepMm = 0.1;
+  constexpr double kLongestMm = 60.0;
+  const Vec3 entry = entry_in_bone(item);
+  bool has_moved = false;
+  for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+    const bool is_fragment = (model.kinds.target & model.kinds.fragments & bit_of(b)) != 0;
+    has_moved = has_moved || (is_fragment && !now.moved[b].is_none());
+  }
+  if (!has_moved) return model.target.front().way_inside_mm(entry, item.direction_in_bone);
+  double last_inside = 0.0;
+  for (double at = 0.0; at < kLongestMm && at - last_inside < kBridgedGapMm; at += kStepMm) {
+    const Vec3 p = (poses[item.body] * Point<frame::Bone>{entry + item.direction_in_bone * at}).v;
+    for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
+      if ((model.kinds.target & bit_of(b)) == 0) continue;
+      const Vec3 local = (inverses[b] * Point<frame::Patient>{p}).v;
+      if (tissue.is_near(b, local) && tissue.untouched_distance_mm(b, local) <= 0.0) {
+        last_inside = at;
+      }
+    }
+  }
+  return last_inside;
+}
+
 /// Whether the fragment, so displaced, would lie deeper in another than it did as scanned, told at
 /// the corners of its hull.
 bool World::State::is_fragment_inside_another(const Model& model,

@@ -115,7 +115,7 @@ void World::State::enter_target(const Model& model,
   }
   item.in_target = true;
   item.entry_at_mm = entry_at_mm;
-  item.chord_mm = model.target.front().way_inside_mm(entry_in_bone(item), item.direction_in_bone);
+  item.chord_mm = way_in_target_mm(model, item);
 }
 
 void World::State::drive(const Model& model, std::uint8_t hand) noexcept {

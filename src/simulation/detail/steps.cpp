@@ -50,6 +50,7 @@ void World::State::gather(const Model& model, Facts& facts) const noexcept {
   situation.gauge_reading_mm = now.gauge_reading_mm;
   situation.reamed_mm = now.reamed_mm;
   situation.wrist = spent.wrist;
+  situation.fracture = fracture_now(model);
   situation.aim = model.opening.aim;
   situation.is_finishing = is_finishing;
 }

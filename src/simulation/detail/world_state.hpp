@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,7 +40,8 @@ struct World::Model {
   std::span<const instruments::Instrument> catalogue;
   std::vector<fields::ContactField> fields;  ///< by body
   std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
-  std::vector<Vec3> centres;      ///< of the bodies' surfaces, frame Bone
+  std::optional<detail::FragmentFaces> fracture;  ///< of a target in two pieces
+  std::vector<Vec3> centres;                      ///< of the bodies' surfaces, frame Bone
   std::vector<BoneSolid> target;  ///< one: the target's fragments as scanned, gap bridged
   procedure::Opening opening;
 };
@@ -178,6 +180,9 @@ struct World::State {
   void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
   void lead_fragment(const Model& model, std::uint8_t hand) noexcept;
   void displace_fragment(const Model& model, std::uint8_t body, const detail::InBone& by) noexcept;
+  [[nodiscard]] procedure::FractureFacts fracture_now(const Model& model) const noexcept;
+  [[nodiscard]] double way_in_target_mm(const Model& model,
+                                        const detail::Item& item) const noexcept;
   [[nodiscard]] bool is_fragment_held(const Model& model, std::uint8_t body) const noexcept;
   [[nodiscard]] bool is_fragment_inside_another(const Model& model,
                                                 std::uint8_t body,
