@@ -8,9 +8,18 @@ import { withKeys } from "../key_caps";
 import type { CArmPicture, CArmStand, NamedView } from "../protocol";
 import "./c_arm.css";
 import { Monitor } from "./monitor";
+import { DoseByView, dosesText } from "./dose_by_view_model";
 import { drawPicture } from "./picture_canvas";
 import { Pedal, type PedalHandlers } from "./pedal";
-import { rulerMm, rulerText, withPoint, type Ruler } from "./ruler_model";
+import {
+  keyStep,
+  nudgedPoint,
+  rulerMm,
+  rulerText,
+  withPoint,
+  type PicturePoint,
+  type Ruler,
+} from "./ruler_model";
 import { savePicture } from "./save_picture";
 import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
@@ -25,6 +34,7 @@ export interface CArmHandlers extends PedalHandlers {
 }
 
 const HISTORY = 6;
+const RULER_KEYS = "move the cross by arrows (with Shift far) and set a point by Enter.";
 const MAX_TILT_DEG = 60;
 /** What a mini C-arm shows for a wrist; the host's spectrum is one of about 40 keV. */
 const KV_TEXT = "60 kV";
@@ -58,6 +68,10 @@ export class CArmPanel {
   private live: CArmPicture | undefined;
   private kept: CArmPicture | undefined;
   private ruler: Ruler = [];
+  /** Where the ruler's cross is, once keys have moved it. */
+  private cross: PicturePoint | undefined;
+  private readonly doses = new DoseByView();
+  private readonly doseList = make("p.c-arm-doses.secondary");
   private rules = false;
   private isEnlarged = false;
   private beamIsShown = false;
@@ -92,7 +106,8 @@ export class CArmPanel {
     this.rulerButton = toggle("Ruler", "{Quote}", () => {
       this.toggleRuler();
     });
-    this.rulerButton.title = "Two clicks on the picture: millimetres at the isocentre";
+    this.rulerButton.title =
+      "Two points of the picture, by clicks or by arrows and Enter: millimetres at the isocentre";
     this.beamButton = toggle("Beam", "{Semicolon}", () => {
       this.toggleBeam();
     });
@@ -107,9 +122,10 @@ export class CArmPanel {
     this.monitor.sayWhileEmpty("No picture yet.");
     this.monitor.onPoint = (point) => {
       if (!this.rules) return;
-      this.ruler = withPoint(this.ruler, point);
-      this.redraw();
+      this.cross = undefined;
+      this.setPoint(point);
     };
+    this.monitor.onKey = (event) => this.rules && this.ruleByKey(event);
     this.element = make(
       "section.c-arm",
       { "aria-label": "C-arm" },
@@ -120,6 +136,7 @@ export class CArmPanel {
       this.pictureRow(),
       this.ruled,
       this.count,
+      this.doseList,
       make("div.c-arm-earlier", {}, this.referenceBox, this.strip),
     );
     this.showStand();
@@ -272,10 +289,32 @@ export class CArmPanel {
   toggleRuler(): void {
     this.rules = !this.rules;
     this.ruler = [];
+    this.cross = undefined;
     this.rulerButton.setAttribute("aria-pressed", String(this.rules));
     this.element.classList.toggle("ruling", this.rules);
-    if (this.rules) this.handlers.say("Ruler: click two points of the picture.");
+    this.monitor.takeKeys(this.rules ? RULER_KEYS : undefined);
+    if (this.rules) this.handlers.say(`Ruler: click two points of the picture, or ${RULER_KEYS}`);
     this.redraw();
+  }
+
+  private setPoint(point: PicturePoint): void {
+    this.ruler = withPoint(this.ruler, point);
+    this.redraw();
+  }
+
+  private ruleByKey({ key, shiftKey }: KeyboardEvent): boolean {
+    const { picture } = this;
+    if (picture === undefined) return false;
+    const cross = this.cross ?? { x: 0.5, y: 0.5 };
+    if (key === "Enter") {
+      this.setPoint(cross);
+      return true;
+    }
+    const step = keyStep(key, shiftKey);
+    if (step === undefined) return false;
+    this.cross = nudgedPoint(cross, step.right / picture.width, step.down / picture.height);
+    this.redraw();
+    return true;
   }
 
   toggleBeam(): void {
@@ -328,6 +367,8 @@ export class CArmPanel {
     this.pictures.length = 0;
     this.live = this.kept = undefined;
     this.shown = -1;
+    this.doses.clear();
+    setText(this.doseList, "");
     this.redraw();
     this.redrawStrip();
   }
@@ -335,6 +376,10 @@ export class CArmPanel {
   showCount(shots: number, doseCgyCm2: number): void {
     const pictures = shots === 1 ? "1 shot" : `${shots} shots`;
     setText(this.count, `${pictures} · ${doseCgyCm2.toFixed(1)} cGy cm²`);
+    const before = this.doses.list.length;
+    this.doses.see(doseCgyCm2, viewName(this.views, this.rotationDeg, this.tiltDeg));
+    if (this.doses.list.length > 0 || before > 0)
+      setText(this.doseList, `By view: ${dosesText(this.doses.list)}`);
   }
 
   private showStand(): void {
@@ -359,7 +404,8 @@ export class CArmPanel {
   private redraw(): void {
     const { inverted, kept, picture, ruler } = this;
     const view = picture === undefined ? "" : this.nameOf(picture);
-    this.monitor.show({ picture, inverted, overlay: { view, kv: KV_TEXT }, ruler });
+    const { cross } = this;
+    this.monitor.show({ picture, inverted, overlay: { view, kv: KV_TEXT }, ruler, cross });
     const mm = picture === undefined ? undefined : rulerMm(ruler, picture);
     setText(this.ruled, mm === undefined ? "" : rulerText(mm));
     setText(this.name, picture === undefined ? "" : `${view}, ${this.whenTaken(picture)}`);

@@ -4,7 +4,7 @@
 // One fluoroscopy picture on a canvas: round field, soft edge, text in the corners as a mini C-arm
 // writes it. The grey is the host's; here it is only turned over on request.
 import type { CArmPicture } from "../protocol";
-import { rulerMm, rulerText, type Ruler } from "./ruler_model";
+import { rulerMm, rulerText, type PicturePoint, type Ruler } from "./ruler_model";
 
 export interface Overlay {
   readonly view: string;
@@ -106,6 +106,23 @@ function write(
   context.fillText(overlay.kv, margin, side - margin);
   context.textAlign = "right";
   context.fillText(`${picture.doseCgyCm2.toFixed(2)} cGy cm²`, side - margin, side - margin);
+}
+
+/** Draws where the next point of the ruler goes: a cross through the whole field. */
+export function drawCross(canvas: HTMLCanvasElement, { x, y }: PicturePoint): void {
+  const context = canvas.getContext("2d");
+  if (context === null) return;
+  const side = canvas.width;
+  context.strokeStyle = RULER_COLOR;
+  context.lineWidth = Math.max(1, side / 700);
+  context.setLineDash([side / 80, side / 80]);
+  context.beginPath();
+  context.moveTo(0, y * side);
+  context.lineTo(side, y * side);
+  context.moveTo(x * side, 0);
+  context.lineTo(x * side, side);
+  context.stroke();
+  context.setLineDash([]);
 }
 
 /** Draws what is measured over the picture. */

@@ -3,7 +3,7 @@
 //
 // Lengths at the isocentre: the 80 mm field of the receptor is 64 mm there, whatever its pixels.
 import { describe, expect, it } from "vitest";
-import { rulerMm, withPoint, type Ruler } from "./ruler_model";
+import { rulerMm, withPoint, type Ruler, keyStep, nudgedPoint } from "./ruler_model";
 
 const left = { x: 0, y: 0.5 };
 const right = { x: 1, y: 0.5 };
@@ -23,5 +23,14 @@ describe("rulerMm", () => {
     const picture = { width: 512, mmPerPixel: 80 / 512 };
     expect(rulerMm(withPoint([], left), picture)).toBeUndefined();
     expect(withPoint(whole, left)).toEqual([left]);
+  });
+});
+
+describe("the ruler by keys", () => {
+  it("goes by pixels, with Shift far, and stays on the picture", () => {
+    expect(keyStep("ArrowLeft", false)).toEqual({ right: -1, down: 0 });
+    expect(keyStep("ArrowDown", true)).toEqual({ right: 0, down: 20 });
+    expect(keyStep("a", false)).toBeUndefined();
+    expect(nudgedPoint({ x: 0.5, y: 0.99 }, 0.1, 0.1)).toEqual({ x: 0.6, y: 1 });
   });
 });

@@ -15,6 +15,7 @@ interface Told {
   readonly mouse: string;
   readonly finger: string;
   readonly keys: string;
+  readonly gamepad: string;
 }
 
 const TOLD: Readonly<Record<Task, Told>> = {
@@ -23,36 +24,42 @@ const TOLD: Readonly<Record<Task, Told>> = {
     mouse: "Drag with the right button.",
     finger: "Drag with two fingers.",
     keys: "Ctrl + arrows",
+    gamepad: "The cross turns it; the right stick pressed goes to the next view.",
   },
   move: {
     name: "Move the tip",
     mouse: "Drag it onto a bone with the left button.",
     finger: "Drag with one finger: it pushes the tip along.",
     keys: "Arrows, {KeyA} {KeyD}",
+    gamepad: "The left stick; RB brings it nearer, LB back.",
   },
   aim: {
     name: "Aim",
     mouse: "Shift + drag turns the shaft, or look along the way and press Enter.",
     finger: "Choose Shaft below and drag, or look along the way and touch Aim.",
     keys: "Shift + arrows, Enter",
+    gamepad: "The right stick, or look along the way and press B.",
   },
   drive: {
     name: "Push and drive",
     mouse: "With the tip on bone hold Drive. Less push where bone is soft.",
     finger: "With the tip on bone hold Drive. Less push where bone is soft.",
     keys: "hold Space, {BracketLeft} {BracketRight}",
+    gamepad: "With the tip on bone: the right trigger, as deep as you push.",
   },
   shot: {
     name: "Take a picture",
     mouse: "Choose a view of the C-arm.",
     finger: "Touch a view of the C-arm.",
     keys: "1 … 6, hold {KeyE}",
+    gamepad: "A; Y takes the next view, X held looks live.",
   },
   undo: {
     name: "Undo",
     mouse: "Back to before the bone was entered.",
     finger: "Back to before the bone was entered.",
     keys: "{KeyZ}",
+    gamepad: "Back.",
   },
 };
 
@@ -65,19 +72,16 @@ export class FirstTouchCard {
   private readonly anewButton: HTMLButtonElement;
   private touch: FirstTouch | undefined;
   private beganMs = 0;
+  private readonly byFinger = window.matchMedia("(pointer: coarse)").matches;
+  private readonly ways = new Map<Task, HTMLElement>();
 
   /** @param startAnew  asks, then begins an operation in earnest */
   constructor(startAnew: () => void) {
-    const byFinger = window.matchMedia("(pointer: coarse)").matches;
     this.rows = new Map(
       TASKS.map((task) => {
-        const { finger, keys, mouse, name } = TOLD[task];
-        const row = make(
-          "li",
-          {},
-          make("span.first-touch-name", {}, name),
-          make("p", {}, byFinger ? finger : mouse, " ", keyCap(keys)),
-        );
+        const way = make("p");
+        this.ways.set(task, way);
+        const row = make("li", {}, make("span.first-touch-name", {}, TOLD[task].name), way);
         return [task, row];
       }),
     );
@@ -103,6 +107,16 @@ export class FirstTouchCard {
       this.anewButton,
     );
     this.element.hidden = true;
+    this.useGamepad(false);
+  }
+
+  /** Says how by gamepad, while one is plugged in. */
+  useGamepad(on: boolean): void {
+    for (const [task, way] of this.ways) {
+      const { finger, gamepad, keys, mouse } = TOLD[task];
+      if (on) way.replaceChildren(gamepad);
+      else way.replaceChildren(this.byFinger ? finger : mouse, " ", keyCap(keys));
+    }
   }
 
   /** With the first operation on this device. */

@@ -3,7 +3,7 @@
 //
 // The first gamepad of the standard mapping, asked once a frame, moves the hand.
 import type { HeldAction, OnceAction } from "../operation";
-import { padWish, type PadState, type PadWish } from "./pad_model";
+import { DRIVES, padWish, type PadState, type PadWish } from "./pad_model";
 
 /** After a pause nothing jumps [s]. */
 const LONGEST_FRAME_S = 0.1;
@@ -21,6 +21,8 @@ export interface PadRoom {
   act(action: OnceAction): void;
   /** Takes the picture of the next named view. */
   nextShot(): void;
+  /** One was plugged in, or is gone. @param wasDriving  its trigger was pressed then */
+  plugged(on: boolean, wasDriving: boolean): void;
 }
 
 export class GamepadHand {
@@ -28,11 +30,17 @@ export class GamepadHand {
   private lastMs = 0;
   private held: ReadonlySet<string> = new Set();
   private pedalIsDown = false;
+  private isPlugged = false;
 
   constructor(private readonly room: PadRoom) {}
 
+  get isConnected(): boolean {
+    return this.isPlugged;
+  }
+
   frame(nowMs: number): void {
     const pad = standardPad();
+    if ((pad !== undefined) !== this.isPlugged) this.plug(pad !== undefined);
     const seconds = Math.min(LONGEST_FRAME_S, (nowMs - this.lastMs) / 1000);
     this.lastMs = nowMs;
     if (pad === undefined || !this.room.isFree()) {
@@ -52,6 +60,14 @@ export class GamepadHand {
       if (action.kind === "next_shot") this.room.nextShot();
       else this.room.act(action);
     }
+  }
+
+  /** What a pad held that is gone is let go before anything is said. */
+  private plug(on: boolean): void {
+    const wasDriving = [...this.held].some((holder) => DRIVES.includes(holder));
+    if (!on) this.rest();
+    this.isPlugged = on;
+    this.room.plugged(on, wasDriving);
   }
 
   private hold({ held, pedal }: PadWish): void {

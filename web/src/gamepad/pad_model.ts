@@ -33,6 +33,9 @@ export interface PadWish {
 /** A worn stick rests as far off its middle as this; a trigger is pressed from here. */
 const DEAD_ZONE = 0.15;
 const TRIGGER_FROM = 0.08;
+/** Names under which the triggers are held. */
+export const DRIVES: readonly string[] = ["pad drive", "pad reverse"];
+
 const TIP_MM_PER_S = 30;
 const SHAFT_RAD_PER_S = (70 * Math.PI) / 180;
 

@@ -68,7 +68,7 @@ export const HELP: readonly HelpGroup[] = [
       { keys: "7", text: "enlarge: pictures and theatre change places" },
       { keys: "8", text: "keep the picture as reference, on the second monitor" },
       { keys: "{KeyI}", text: "invert black and white" },
-      { keys: "{Quote}", text: "ruler: two clicks on the picture, mm at the isocentre" },
+      { keys: "{Quote}", text: "ruler: two clicks, or arrows and Enter: mm at the isocentre" },
       { keys: "{Semicolon}", text: "draw the beam in the theatre" },
       { keys: "{Backslash}", text: "save the picture" },
     ],

@@ -10,6 +10,13 @@ import type { TakingPart } from "./taking_part";
 
 const HOLDER = "gamepad";
 
+function pluggedText(on: boolean, wasDriving: boolean): string {
+  if (on) return "Gamepad: sticks move and turn, right trigger drives, left reverses. ? shows all.";
+  return wasDriving
+    ? "The gamepad is gone: the driver is off. Plug it in again, or go on by mouse and keys."
+    : "The gamepad is gone: go on by mouse and keys.";
+}
+
 export function padRoom(panels: Panels, hand: Hand, actions: Actions, part: TakingPart): PadRoom {
   return {
     isFree: () => part.operates && document.querySelector("dialog[open]") === null,
@@ -34,6 +41,11 @@ export function padRoom(panels: Panels, hand: Hand, actions: Actions, part: Taki
     },
     act: (action) => {
       actions.act(action);
+    },
+    plugged: (on, wasDriving) => {
+      panels.firstTouch.useGamepad(on);
+      panels.top.showGamepad(on);
+      panels.notice.say(pluggedText(on, wasDriving));
     },
     nextShot: () => {
       panels.arm.shootNext();

@@ -20,6 +20,8 @@ export interface ExerciseRoom {
   readonly seen: WhatIsSeen;
   /** Where the keys belong while one operates. */
   readonly canvas: HTMLCanvasElement;
+  /** Whether one is plugged in: with what an operation was begun is kept with it. */
+  hasGamepad(): boolean;
   /** @return whether it was sent */
   tell(message: PageMessage): boolean;
 }
@@ -66,7 +68,7 @@ export class TakingPart {
       trainee: choice.trainee,
       procedure: choice.procedure,
       mode: choice.mode,
-      input_device: "mouse",
+      input_device: this.room.hasGamepad() ? "gamepad" : "mouse",
       seed: crypto.getRandomValues(new Uint32Array(1))[0] ?? 1,
     });
     if (!sent) return;

@@ -21,6 +21,7 @@ export class TopBar {
   private readonly rate = make("span", {}, "– Hz");
   private readonly p99 = make("span", {}, "p99 –");
   private readonly late = make("span", {}, "late –");
+  private readonly device = make("span", {}, "mouse and keys");
   private readonly link = make("span.link-state", { role: "status" });
   private readonly procedure = make("span.secondary.procedure");
   private readonly mode = make("span.badge.mode", { hidden: "" });
@@ -36,14 +37,7 @@ export class TopBar {
     this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet.sound");
     const patient = make("span.patient", {}, description.pseudonym);
     if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
-    const timing = make(
-      "span.timing",
-      {},
-      this.rate,
-      this.p99,
-      this.late,
-      make("span", {}, "mouse and keys"),
-    );
+    const timing = make("span.timing", {}, this.rate, this.p99, this.late, this.device);
     timing.title =
       "Ticks of the simulation per second; time that 99 of 100 ticks stay under; ticks that came late; input";
     this.element = make(
@@ -60,6 +54,11 @@ export class TopBar {
       button("Help", "?", handlers.help, ".quiet"),
       button("Full screen", "", handlers.fullScreen, ".quiet"),
     );
+  }
+
+  /** With what one operates. */
+  showGamepad(on: boolean): void {
+    setText(this.device, on ? "gamepad" : "mouse and keys");
   }
 
   showTiming(s: SnapshotMessage): void {

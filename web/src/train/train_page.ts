@@ -60,6 +60,7 @@ export class TrainPage {
       hand: this.hand,
       seen: this.seen,
       canvas: this.theatre.canvas,
+      hasGamepad: () => this.gamepad.isConnected,
       tell: (message) => this.connection.tell(message),
     });
     this.sound = this.makeSound();
