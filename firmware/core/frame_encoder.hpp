@@ -18,16 +18,22 @@ inline uint16_t frame_crc(const uint8_t* from_kind, uint8_t length) {
   return crc;
 }
 
+struct NoStart {
+  void operator()(uint8_t) const {}
+};
+
 /// Writes the frame, at most kMaxFrameBytes. @return its length.
-template <typename Frame>
-uint8_t encode_frame(const Frame& frame, uint8_t sequence, uint8_t* to) {
+/// @param start  is told the length when all but the checksum is there: a slow board sends already.
+template <typename Frame, typename Start = NoStart>
+uint8_t encode_frame(const Frame& frame, uint8_t sequence, uint8_t* to, Start start = Start()) {
+  const uint8_t payload = payload_bytes_of(frame);
   to[0] = kSync;
   to[1] = kind_of(frame);
   to[2] = sequence;
   write_payload(frame, to + 3);
-  const uint8_t length = payload_bytes_of(frame);
-  write(frame_crc(to + 1, static_cast<uint8_t>(length + 2)), to + 3 + length);
-  return static_cast<uint8_t>(length + kFrameOverhead);
+  start(static_cast<uint8_t>(payload + kFrameOverhead));
+  write(frame_crc(to + 1, static_cast<uint8_t>(payload + 2)), to + 3 + payload);
+  return static_cast<uint8_t>(payload + kFrameOverhead);
 }
 
 }  // namespace firmware

@@ -72,14 +72,14 @@ inline void write(int32_t value, uint8_t* to) {
   to[3] = static_cast<uint8_t>(static_cast<uint32_t>(value) >> 24);
 }
 
-/// held: closed on both sides
-enum class LegStopSide : uint8_t { Free = 0, NotBelow = 1, NotAbove = 2, Held = 3 };
+/// free: the slot follows the leg; off: no pulses
+enum class LegStopSide : uint8_t { Free = 0, NotBelow = 1, NotAbove = 2, Off = 3 };
 
 /// Where one leg of drive A may not go: its angle, and which side of it is closed.
 struct LegStop {
   /// of the leg, in the straight-line calibration that the device was given [pi/8192 rad]
   int16_t angle = 0;
-  /// held: closed on both sides
+  /// free: the slot follows the leg; off: no pulses
   LegStopSide side = LegStopSide::Free;
 };
 
@@ -207,6 +207,31 @@ void visit_fields_leg_config(Frame& frame, Visitor&& v) {
   v("gap", frame.gap);
   v("least_pulse_us", frame.least_pulse_us);
   v("most_pulse_us", frame.most_pulse_us);
+}
+
+/// Drive B: the encoders' counts at angle 0 of each leg. Answered by `motion`. While it drives,
+/// refused.
+struct Home {
+  /// [counts] -1000000 to 1000000
+  int32_t zero_counts[3] = {};
+};
+constexpr uint8_t kind_of(const Home&) { return 6; }
+constexpr uint8_t kPayloadBytesOfHome = 12;
+/// False where a field is out of its range.
+inline bool read_payload(const uint8_t* payload, Home& out) {
+  for (uint8_t i = 0; i < 3; ++i) {
+    read(payload + 0 + 4 * i, out.zero_counts[i]);
+    if (out.zero_counts[i] < -1000000 || out.zero_counts[i] > 1000000) return false;
+  }
+  return true;
+}
+inline void write_payload(const Home& frame, uint8_t* payload) {
+  for (uint8_t i = 0; i < 3; ++i) write(frame.zero_counts[i], payload + 0 + 4 * i);
+}
+constexpr uint8_t payload_bytes_of(const Home&) { return 12; }
+template <typename Frame, typename Visitor>
+void visit_fields_home(Frame& frame, Visitor&& v) {
+  v("zero_counts", frame.zero_counts, 3);
 }
 
 /// Drive A: the stops of all legs. Answered by `sensors`.
@@ -444,6 +469,8 @@ inline uint8_t host_to_device_payload_bytes(uint8_t kind) {
       return 0;
     case 3:
       return 15;
+    case 6:
+      return 12;
     case 4:
       return 6;
     case 5:
@@ -479,6 +506,7 @@ void visit_frames(Visitor&& v) {
   v("hello", Hello{});
   v("release", Release{});
   v("leg_config", LegConfig{});
+  v("home", Home{});
   v("stop", Stop{});
   v("contact", Contact{});
   v("identity", Identity{});
@@ -499,6 +527,11 @@ void visit_fields(Release& frame, Visitor&& v) {
 template <typename Visitor>
 void visit_fields(LegConfig& frame, Visitor&& v) {
   visit_fields_leg_config(frame, v);
+}
+
+template <typename Visitor>
+void visit_fields(Home& frame, Visitor&& v) {
+  visit_fields_home(frame, v);
 }
 
 template <typename Visitor>

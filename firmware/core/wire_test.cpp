@@ -131,7 +131,7 @@ TEST(Wire, ReadsAndWritesEveryGoldenFrame) {
       ++seen;
     });
   }
-  EXPECT_EQ(seen, 16) << "two of each of eight frames";
+  EXPECT_EQ(seen, 18) << "two of each of nine frames";
 }
 
 TEST(Wire, RefusesEveryInvalidFrameForItsReason) {
