@@ -95,6 +95,7 @@ struct Instrument {
   double gauge_step_mm = 0.0;       ///< of its scale
   std::vector<DrawnPart> parts;
   std::vector<BeamRod> rods;
+  double closing_share = 0.0;     ///< of a screw's way by which it draws pieces together
   std::string family;             ///< of a screw: "acutrak_2_mini"; else empty
   double tip_diameter_mm = 0.0;   ///< of a screw, over its thread
   double tail_diameter_mm = 0.0;  ///< of a screw

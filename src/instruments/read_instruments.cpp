@@ -315,6 +315,7 @@ ScrewFamily read_family(JsonFields& fields, const Holders& holders) {
   family.tip_pitch_mm = thread.number("tip_pitch_mm", 0.1, 10.0);
   family.tail_pitch_mm = thread.number("tail_pitch_mm", 0.1, 10.0);
   thread.refuse_unknown_fields();
+  screw.closing_share = (family.tip_pitch_mm - family.tail_pitch_mm) / family.pitch_mm;
   screw.cut_tip_radius_mm = screw.tip_diameter_mm / 2 - family.depth_mm;
   screw.cut_tail_radius_mm = screw.tail_diameter_mm / 2 - family.depth_mm;
   screw.feed = read_feed(fields.object("feed"));

@@ -38,6 +38,8 @@ struct OperationRecord {
   FractureFacts fracture;          ///< at the end
   /// By body, where it lies beside where the wrist's motion takes it; empty while none was moved.
   std::vector<Pose<frame::Bone, frame::Bone>> displacements;
+  double compression_n = 0.0;  ///< of the pieces on each other, by the screw
+  bool is_stripped = false;    ///< its thread gave way
   double most_bend_rad = 0.0;  ///< by which any wire was bent for good
   std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;

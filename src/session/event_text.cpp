@@ -77,6 +77,8 @@ class Sentence {
         return "The " + bone() + " bends the wire: the wrist moved over it";
       case EventKind::WireBroke:
         return "The wire broke at the bone";
+      case EventKind::ScrewStripped:
+        return "The screw turns freely: its thread gave way";
       case EventKind::None:
         break;
     }
@@ -122,11 +124,12 @@ std::string_view felt(EventKind kind) {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 20> kNames{
+  constexpr std::array<std::string_view, 21> kNames{
       "none",           "touched_bone",  "entered_bone", "left_far_side", "withdrawn",
       "shot_taken",     "gauge_read",    "taken",        "put_down",      "seated",
       "step_completed", "undone",        "finished",     "refused",       "wrong_bone",
-      "slipped",        "wrist_stopped", "live_ended",   "wire_bent",     "wire_broke"};
+      "slipped",        "wrist_stopped", "live_ended",   "wire_bent",     "wire_broke",
+      "screw_stripped"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }

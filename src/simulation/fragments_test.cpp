@@ -11,6 +11,7 @@
 namespace carpus::simulation {
 namespace {
 
+using test::has_event;
 using test::Operator;
 using test::simple;
 using test::take;
@@ -214,6 +215,43 @@ TEST(Fragments, WhatLiesInBothHoldsThem) {
   joystick.hand().tip_in_patient -= joystick.inward() * 5.0;
   joystick.hold(500);
   EXPECT_EQ(joystick.pose(), before);
+}
+
+TEST(Compression, AScrewDrawsThePiecesTogetherThenPressesThem) {
+  Operator op({}, broken_wrist());
+  op.place_on_entry({});
+  op.drive_to(24.0);
+  const double gap = op.world().operation_record().fracture.gap_mm;
+  op.command(take("acutrak_standard_1994_20"));
+  op.bury(-11.0);
+  EXPECT_NEAR(op.world().operation_record().fracture.gap_mm, gap, 0.5)
+      << "not in both yet; the push alone brings them a little nearer";
+  op.bury(1.0);
+  const auto record = op.world().operation_record();
+  EXPECT_LT(record.fracture.gap_mm, gap - 0.8);
+  EXPECT_GE(record.compression_n, 0.0);
+  EXPECT_FALSE(record.is_stripped);
+}
+
+TEST(Compression, InAWholeBoneAScrewIsTightWhenSeatedAndStripsWhenTurnedOn) {
+  Operator op;
+  op.place_on_entry({});
+  op.drive_to(28.0);
+  op.command(take("acutrak_standard_1994_20"));
+  op.bury(2.0);
+  EXPECT_GT(op.now().compression_n, 50.0);
+  EXPECT_LT(op.now().compression_n, 100.0);
+  const double held = op.now().holding_share;
+  bool stripped = false;
+  for (int i = 0; i < 20000 && !stripped && op.item().buried_mm < 8.0; ++i) {
+    op.hold(Driver::Forward, 40.0, 1);
+    stripped = has_event(op.now(), EventKind::ScrewStripped);
+  }
+  EXPECT_TRUE(stripped);
+  EXPECT_GT(op.item().buried_mm, 3.0) << "not where it should be seated";
+  EXPECT_LT(op.now().holding_share, 0.5 * held);
+  EXPECT_EQ(op.now().compression_n, 0.0);
+  EXPECT_TRUE(op.world().operation_record().is_stripped);
 }
 
 }  // namespace

@@ -86,13 +86,14 @@ enum class EventKind : std::uint8_t {
   StepCompleted = 10,  ///< detail: step
   Undone = 11,
   Finished = 12,
-  Refused = 13,       ///< a command that makes no sense now; detail: Refusal
-  WrongBone = 14,     ///< a bone was entered that is neither target nor allowed; detail: body
-  Slipped = 15,       ///< a turning tip slipped along a surface it met too flat; detail: body
-  WristStopped = 16,  ///< the wrist came to its limit, or an instrument holds it
-  LiveEnded = 17,     ///< the pedal was let go; detail: number of the look, value: s
-  WireBent = 18,      ///< bone came against what stands out of it; detail: body, value: degrees
-  WireBroke = 19,     ///< likewise, too far; detail: body
+  Refused = 13,        ///< a command that makes no sense now; detail: Refusal
+  WrongBone = 14,      ///< a bone was entered that is neither target nor allowed; detail: body
+  Slipped = 15,        ///< a turning tip slipped along a surface it met too flat; detail: body
+  WristStopped = 16,   ///< the wrist came to its limit, or an instrument holds it
+  LiveEnded = 17,      ///< the pedal was let go; detail: number of the look, value: s
+  WireBent = 18,       ///< bone came against what stands out of it; detail: body, value: degrees
+  WireBroke = 19,      ///< likewise, too far; detail: body
+  ScrewStripped = 20,  ///< turned on when it was tight, its thread gave way
 };
 
 struct Event {
@@ -123,6 +124,7 @@ struct Snapshot {
   std::uint32_t tissue_revision = 0;  ///< changes whenever bone does
   double gauge_reading_mm = -1.0;     ///< last reading, -1 before any
   double holding_share = 1.0;         ///< of the screw in the target, of that in untouched bone
+  double compression_n = 0.0;         ///< of what the screw holds
   std::uint32_t passes = 0;           ///< how often bone was entered anew
   CArmInput c_arm;                    ///< as it stands; pedal_is_down while it is looked through
   std::uint32_t shots = 0;            ///< kept of all looks: OperationRecord::shots

@@ -244,6 +244,8 @@ procedure::OperationRecord World::operation_record() const {
   for (std::size_t b = 0; has_moved && b < state.snapshot.body_count; ++b) {
     record.displacements.push_back(state.now.moved[b].pose());
   }
+  record.compression_n = state.now.compression_n;
+  record.is_stripped = state.now.is_stripped;
   record.most_bend_rad = state_->spent.most_bend_rad;
   record.broken_wires = state_->spent.broken_wires;
   record.undos = state.spent.undos;

@@ -81,6 +81,7 @@ OperationRecord perfect() {
   record.gauge_reading_mm = 26.5;
   record.passes = {pass_into(bit_of(BoneId::Scaphoid))};
   record.reamed_mm = 25.0;
+  record.compression_n = 70.0;
   for (const bool of_screw : {false, true}) {
     for (const auto& [rotation, tilt] :
          {std::pair{0.0, 0.0}, {90.0, 0.0}, {45.0, 0.0}, {0.0, 30.0}}) {
@@ -242,6 +243,7 @@ TEST(Score, OneHarmAndTheFixationIsNotAcceptable) {
   harmed.back().second.passes.back().was_undone = true;
   add("a drill 9 mm out of the far cortex").passes.front().follower_exit_mm = 9.0;
   add("a wire broken").broken_wires = 1;
+  add("a screw turned on until it stripped").is_stripped = true;
   add("a screw too long").lines.front().depth_mm = 28.0;
   LineFacts wire = screw_of(harmed.back().second);
   wire.instrument = index_of("guide_wire");

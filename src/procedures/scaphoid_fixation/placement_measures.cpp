@@ -108,6 +108,19 @@ Measure hold(const Facts& facts) {
   return measure;
 }
 
+Measure compression(const Facts& facts) {
+  Measure measure{"compression_n", std::nullopt, kNoScrew};
+  if (!facts.placed) return measure;
+  measure.value = facts.record.compression_n;
+  measure.finding =
+      facts.record.is_stripped ? "The thread gave way: it was turned on too far." : "";
+  return measure;
+}
+
+Measure stripped(const Facts& facts) {
+  return {"screws_stripped", facts.record.is_stripped ? 1.0 : 0.0, ""};
+}
+
 }  // namespace
 
 std::vector<Measure> placement_measures(const Facts& facts) {
@@ -123,7 +136,9 @@ std::vector<Measure> placement_measures(const Facts& facts) {
           penetration(facts),
           in_smaller_fragment(facts),
           length_against_ideal(facts),
-          hold(facts)};
+          hold(facts),
+          compression(facts),
+          stripped(facts)};
 }
 
 }  // namespace carpus::procedures::scaphoid_fixation

@@ -154,7 +154,10 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
     }
     cut(model, item);
     note_tip(model, index);
-    if (kind.work == Work::Thread) seat(model, index);
+    if (kind.work == Work::Thread) {
+      seat(model, index);
+      compress(model, index, item.travel_mm - travel_before);
+    }
     if (kind.work == Work::Ream && item.depth_mm() > now.reamed_mm) {
       now.reamed_mm = item.depth_mm();
     }
@@ -296,6 +299,11 @@ void World::State::come_out(const Model& model, std::uint8_t hand) noexcept {
   const std::uint8_t wire = item.wire;
   spent.hands[hand].reverse_is_held = true;
   emit(EventKind::Withdrawn, index, item.instrument, 0.0);
+  if (kind_of(model, item).work == Work::Thread) {  // the next one begins anew
+    now.closure_mm = now.compression_n = 0.0;
+    now.is_stripped = false;
+    now.holding_share = 1.0;
+  }
   if (kind_of(model, item).work != Work::Drill) {
     item = Item{};
     const bool is_free = wire < kMaxItems && now.items[wire].hand == kNoHand;

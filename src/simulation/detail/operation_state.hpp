@@ -139,6 +139,9 @@ struct Operated {
   double gauge_reading_mm = -1.0;
   double reamed_mm = 0.0;
   double holding_share = 1.0;
+  double closure_mm = 0.0;     ///< by which the screw would have drawn together what touches
+  double compression_n = 0.0;  ///< of the pieces on each other
+  bool is_stripped = false;    ///< its thread gave way
   std::uint32_t completed_steps = 0;
   std::array<std::uint16_t, procedure::kMaxSteps> shots_at_completion{};
 };
@@ -167,6 +170,9 @@ void visit(SomeOperated& now, Visitor&& v) noexcept {
   v(now.gauge_reading_mm);
   v(now.reamed_mm);
   v(now.holding_share);
+  v(now.closure_mm);
+  v(now.compression_n);
+  v(now.is_stripped);
   v(now.completed_steps);
   for (auto& shots : now.shots_at_completion) v(shots);
 }

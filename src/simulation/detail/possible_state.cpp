@@ -153,7 +153,8 @@ bool is_possible(const Operated& now, const Spent& spent, const StateBounds& bou
   return are_held_items_possible(now) && are_tracks_possible(now, bounds.bodies) &&
          are_passes_possible(spent, bounds) && are_counts_possible(now, spent, bounds.steps) &&
          is_near(now.gauge_reading_mm) && is_near(now.reamed_mm) && is_near(now.holding_share) &&
-         is_wrist_possible(spent.wrist, bounds.wrist) &&
+         now.closure_mm >= 0.0 && is_near(now.closure_mm) && now.compression_n >= 0.0 &&
+         is_near(now.compression_n) && is_wrist_possible(spent.wrist, bounds.wrist) &&
          can_stand(spent.c_arm.rotation_deg, spent.c_arm.tilt_deg);
 }
 

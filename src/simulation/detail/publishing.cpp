@@ -114,6 +114,7 @@ void World::State::publish_state(const Model& model) noexcept {
   }
   snapshot.gauge_reading_mm = now.gauge_reading_mm;
   snapshot.holding_share = now.holding_share;
+  snapshot.compression_n = now.compression_n;
   snapshot.passes = spent.pass_count;
   snapshot.c_arm = spent.c_arm;
   snapshot.shots = spent.shot_count;

@@ -171,6 +171,12 @@ struct World::State {
   void steer(const Model& model, detail::Item& item, double advanced_mm) noexcept;
   void come_out(const Model& model, std::uint8_t hand) noexcept;
   [[nodiscard]] bool has_screw_in_target(const Model& model) const noexcept;
+  // compression.cpp
+  void compress(const Model& model, std::uint8_t index, double advanced_mm) noexcept;
+  [[nodiscard]] double close_gap(const Model& model,
+                                 detail::Item& screw,
+                                 double closing_mm) noexcept;
+
   void seat(const Model& model, std::uint8_t index) noexcept;
   [[nodiscard]] double holding_share_of(const Model& model,
                                         const detail::Item& item) const noexcept;
