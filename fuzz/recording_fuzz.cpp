@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "checksum.hpp"
 #include "refusals.hpp"
@@ -17,12 +16,19 @@ namespace {
 using namespace carpus;
 using simulation::Recording;
 
-/// Some 60 bytes of memory may come of one (recording.hpp).
-void require_bounded(const std::vector<simulation::InputRun>& runs, std::size_t bytes) {
-  fuzz::require(runs.size() <= bytes / 6);
+/// No more bytes come of some, and what is decoded in passing is what was counted.
+void require_bounded(const simulation::InputRuns& runs, std::size_t bytes) {
+  fuzz::require(runs.size() <= bytes / 6 && runs.encoded_size() <= bytes);
   std::uint64_t ticks = 0;
-  for (const simulation::InputRun& run : runs) ticks += run.ticks;
+  std::size_t count = 0;
+  for (const simulation::InputRun& run : runs) {
+    fuzz::require(run.ticks > 0 && run.input == simulation::quantised(run.input));
+    ticks += run.ticks;
+    ++count;
+  }
+  fuzz::require(count == runs.size() && ticks == runs.tick_count());
   fuzz::require(ticks <= simulation::kMaxRecordedTicks);
+  if (ticks > 0) fuzz::require(*runs.at(ticks - 1) == runs.back());
 }
 
 void require_comes_back(const Recording& recording) {
@@ -47,7 +53,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     fuzz::require(!recording.error().empty());
   }
-  const auto runs = simulation::decode_runs(bytes, size);
-  if (runs) require_bounded(*runs, size + 4);
+  simulation::InputRuns runs;
+  const auto read = runs.decode(bytes, size);
+  if (read) fuzz::require(*read <= size);
+  require_bounded(runs, size);
   return 0;
 }

@@ -104,16 +104,18 @@ void write_journal(const fs::path& folder, const Recording& recording, const Byt
   head.started_at = "2026-01-02T03:04:05Z";
   blocks.emplace_back(1, bytes_of(protocol::serialize_stored_exercise(head)));
   Recording begun = recording;
-  begun.runs.clear();
+  begun.runs = {};
   begun.keyframes.clear();
   blocks.emplace_back(5, encode(begun));
   blocks.emplace_back(4, bytes_of("a page's word"));
   RunEncoder encoder;
   Tick tick = 0;
-  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
-    encoder.put(recording.runs[i]);
-    tick += recording.runs[i].ticks;
-    if (i % 40 != 39 && i + 1 < recording.runs.size()) continue;
+  std::size_t i = 0;
+  for (const InputRun& run : recording.runs) {
+    encoder.put(run);
+    tick += run.ticks;
+    const bool is_last = ++i == recording.runs.size();
+    if (i % 40 != 0 && !is_last) continue;
     Bytes part;
     put(part, tick, 8);
     put(part, 4711, 8);
@@ -123,7 +125,7 @@ void write_journal(const fs::path& folder, const Recording& recording, const Byt
     put(part, bytes_of(protocol::serialize_stored_events(
                   {{static_cast<std::int64_t>(tick), "shot_taken", "A picture"}})));
     blocks.emplace_back(2, part);
-    if (i + 1 < recording.runs.size()) continue;
+    if (!is_last) continue;
     Bytes state;
     put(state, tick, 8);
     put(state, keyframe);
@@ -168,6 +170,10 @@ int main(int argc, char** argv) {
   Recording still = plain;
   still.runs = {{plain.runs.back().input, 60'000}};
   write_body(corpus / "recording" / "still", encode(still));
+  Recording bomb = Recorder("", 0, test::exercise(), 0).finished(0);
+  bomb.instruments.clear();
+  bomb.runs = {{Input{}, kMaxRecordedTicks}};
+  write_body(corpus / "recording" / "few_bytes_that_claim_hours", encode(bomb));
   RunEncoder encoder;
   for (const InputRun& run : plain.runs) encoder.put(run);
   write(corpus / "recording" / "runs", encoder.take());

@@ -19,10 +19,6 @@ namespace {
 
 using simulation::EventKind;
 
-/// A hand that moves in every tick fills it in a minute and a half; then it grows, off the 1 kHz
-/// thread.
-constexpr std::size_t kReservedRuns = 100'000;
-
 }  // namespace
 
 ExerciseStart begin_anew(const cases::CaseData& data,
@@ -83,9 +79,7 @@ Exercise::Exercise(const cases::CaseData& data, ExerciseSetup setup, ExerciseSta
           },
           world_.now(),
           session::resting(world_.now()),
-          start.paused) {
-  recorder_.reserve(kReservedRuns);
-}
+          start.paused) {}
 
 std::vector<TakenShot> pictures_of(const procedure::Procedure& procedure,
                                    const EventfulTick& tick) {
@@ -156,7 +150,7 @@ records::Attempt Exercise::end() {
   (void)collect();
   (void)update();
   if (journal_) journal_->hand_over_now(shadow_.now().state_hash);
-  const simulation::Recording recording = recorder_.finished(world_.now().state_hash);
+  const simulation::Recording recording = std::move(recorder_).finished(world_.now().state_hash);
   std::optional<procedure::ScoreReport> score;
   if (world_.now().finished) {
     score = setup_.procedure->score(data_, world_.operation_record());

@@ -156,7 +156,7 @@ Result<JournaledExercise> read_exercise(const records::JournalContent& journal) 
   if (!begun) return Refusal{begun.error()};
   simulation::Recording& recording = exercise.recording;
   recording = std::move(begun.value());
-  std::vector<std::byte> runs;
+  const auto whole_size = static_cast<std::size_t>(journal.sound_size);
   Tick tick = 0;
   for (const records::JournalBlock& block : journal.blocks) {
     const Bytes content = block.content;
@@ -171,15 +171,14 @@ Result<JournaledExercise> read_exercise(const records::JournalContent& journal) 
     if (!part) return Refusal{part.error()};
     tick = part->tick;
     recording.end_hash = part->state_hash;
-    put(runs, part->runs);
+    const auto read = recording.runs.decode(part->runs, whole_size);
+    if (!read) return Refusal{read.error()};
+    if (*read != part->runs.size()) return Refusal{"a part of it ends too early"};
     if (part->events.empty()) continue;
     auto log = protocol::parse_stored_events(text_of(part->events));
     if (!log) return Refusal{"its log cannot be read: " + log.error()};
     exercise.log.insert(exercise.log.end(), log->begin(), log->end());
   }
-  auto decoded = simulation::decode_runs(runs, static_cast<std::size_t>(journal.sound_size));
-  if (!decoded) return Refusal{decoded.error()};
-  recording.runs = std::move(decoded.value());
   // A part may tell of ticks whose inputs were to come with the next: they have not been.
   std::erase_if(exercise.log,
                 [tick](const auto& event) { return static_cast<Tick>(event.tick) > tick; });

@@ -41,12 +41,9 @@ struct WorldAtEnd {
 };
 
 bool is_undone_after(const simulation::Recording& recording, Tick tick) {
-  Tick end = 0;
-  for (const simulation::InputRun& run : recording.runs) {
-    end += run.ticks;
-    if (end > tick && run.input.command.kind == simulation::CommandKind::Undo) return true;
-  }
-  return false;
+  return std::any_of(recording.runs.at(tick), recording.runs.end(), [](const auto& run) {
+    return run.input.command.kind == simulation::CommandKind::Undo;
+  });
 }
 
 /// Proved by its hash; or why there is none. Where a keyframe is refused, or undo went back beyond
@@ -73,17 +70,13 @@ Result<WorldAtEnd> world_at_end(const cases::CaseData& data,
 }
 
 simulation::Input last_input(const simulation::Recording& recording) {
-  return recording.runs.empty() ? simulation::Input{} : recording.runs.back().input;
+  return recording.runs.back().input;
 }
 
-/// The input of the tick after this one; all runs are looked through.
+/// The input of the tick after this one.
 simulation::Input input_after(const simulation::Recording& recording, Tick tick) {
-  Tick end = 0;
-  for (const simulation::InputRun& run : recording.runs) {
-    end += run.ticks;
-    if (end > tick) return run.input;
-  }
-  return last_input(recording);
+  const auto run = recording.runs.at(tick);
+  return run == recording.runs.end() ? last_input(recording) : run->input;
 }
 
 /// The last pictures that were taken, oldest first: their ticks are stepped again.

@@ -423,14 +423,13 @@ constexpr const char* kDrill =
     R"("thrust_n":5,"driver":"forward","guidance":"direct"})";
 
 /// The inputs of the attempt that is stored when it is finished now.
-std::vector<simulation::InputRun> inputs_at_the_end(PageClient& page,
-                                                    records::AttemptKeeper& records) {
+simulation::InputRuns inputs_at_the_end(PageClient& page, records::AttemptKeeper& records) {
   page.send(R"({"type":"act","id":"finish"})");
   (void)page.wait_for_type("score");
   const auto attempt = records.find(1);
   const auto decoded = simulation::decode(attempt ? attempt->recording : std::vector<std::byte>{});
   EXPECT_TRUE(decoded.has_value());
-  return decoded ? decoded->runs : std::vector<simulation::InputRun>{};
+  return decoded ? decoded->runs : simulation::InputRuns{};
 }
 
 TEST_F(StationTest, PedalOfAPageThatDisappearsIsUpWhenItComesBack) {

@@ -11,12 +11,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace carpus::simulation::detail {
 
 class Writer {
  public:
+  Writer() = default;
+  /// Goes on behind these.
+  explicit Writer(std::vector<std::byte>&& begun) : bytes_(std::move(begun)) {}
+
   /// The low `size` bytes of a value.
   void put(std::uint64_t value, std::size_t size) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -87,6 +92,7 @@ class Reader {
   }
   [[nodiscard]] bool is_spoilt() const { return spoilt_; }
   [[nodiscard]] std::size_t at() const { return at_; }
+  [[nodiscard]] std::span<const std::byte> rest() const { return bytes_.subspan(at_); }
 
  private:
   bool take(std::size_t size) {
