@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench_journal_command.hpp"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -11,11 +12,13 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -43,6 +46,7 @@ struct BenchJournalArguments {
 
 /// As often as a station looks.
 constexpr milliseconds kCollect{16};
+constexpr Tick kHour = 3'600'000;
 
 double processor_s(::clockid_t clock) {
   timespec now{};
@@ -172,14 +176,35 @@ double share_of_a_core(const simulation::Recording& recording, const fs::path& f
   return (here + std::max(0.0, process - thread)) / wall;
 }
 
-/// How long it takes to read what an hour of such inputs left, up to where it can be gone on with
-/// from the last keyframe [s].
-double time_to_read_an_hour(const simulation::Recording& recording,
-                            std::vector<std::byte> keyframe,
-                            const fs::path& records) {
-  constexpr Tick kHour = 3'600'000;
-  server::ExerciseJournal journal(records::journal_path(records, "hour"),
-                                  protocol::RunningExercise{}, simulation::Recording{});
+/// What reading an hour back takes.
+struct HourRead {
+  double seconds = 0.0;
+  double file_mib = 0.0;
+  double kept_mib = 0.0;  ///< in memory by the exercise that comes back
+  double most_mib = 0.0;  ///< of memory that the whole process had at once
+};
+
+/// What the program has asked for and not given back. Resident memory would not tell: the
+/// allocator keeps what was given back.
+double allocated_mib() {
+  const auto held = ::mallinfo2();
+  return static_cast<double>(held.uordblks + held.hblkhd) / (1 << 20);
+}
+
+double most_memory_mib() {
+  constexpr std::string_view kName = "VmHWM:";
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(kName)) return std::stod(line.substr(kName.size())) / 1024;
+  }
+  return 0.0;
+}
+
+/// Writes what an hour of such inputs leaves, a keyframe every ten seconds.
+void write_an_hour(const simulation::Recording& recording,
+                   std::vector<std::byte> keyframe,
+                   const fs::path& file) {
+  server::ExerciseJournal journal(file, protocol::RunningExercise{}, simulation::Recording{});
   simulation::Keyframe state{0, std::move(keyframe)};
   for (Tick tick = 0; tick < kHour;) {
     for (const simulation::InputRun& run : recording.runs) {
@@ -195,16 +220,31 @@ double time_to_read_an_hour(const simulation::Recording& recording,
     }
   }
   (void)journal.wait_until_safe(milliseconds(5000));
+}
+
+/// Reads it as a station that is started again does, up to where it can be gone on with from the
+/// last keyframe.
+HourRead read_an_hour(const fs::path& records) {
+  HourRead read;
+  const fs::path file = records::journal_path(records, "hour");
+  read.file_mib = static_cast<double>(fs::file_size(file)) / (1 << 20);
+  std::ofstream("/proc/self/clear_refs") << 5;  // forgets the most that there was
+  const double before = allocated_mib();
   const auto begin = steady_clock::now();
-  const auto content = records::decode_journal(records::read_file(journal.file()));
-  const auto exercise = server::read_exercise(content);
-  const double seconds = std::chrono::duration<double>(steady_clock::now() - begin).count();
-  journal.remove();
-  if (!exercise || exercise->recording.tick_count() != kHour) {
-    throw IoError("bench journal: the journal of an hour does not come back" +
-                  (exercise ? std::string() : ": " + exercise.error()));
+  std::vector<std::string> problems;
+  std::optional<Result<server::JournaledExercise>> exercise;
+  for (records::FoundJournal& found : records::find_journals(records, problems)) {
+    if (found.place.file == file) exercise = server::read_exercise(found.content);
   }
-  return seconds;
+  read.seconds = std::chrono::duration<double>(steady_clock::now() - begin).count();
+  read.most_mib = most_memory_mib();
+  read.kept_mib = allocated_mib() - before;
+  fs::remove(file);
+  if (!exercise || !*exercise || (*exercise)->recording.tick_count() != kHour) {
+    throw IoError("bench journal: the journal of an hour does not come back" +
+                  (exercise && !*exercise ? ": " + exercise->error() : std::string()));
+  }
+  return read;
 }
 
 nlohmann::ordered_json row_of(const cases::CaseData& data,
@@ -223,6 +263,8 @@ nlohmann::ordered_json row_of(const cases::CaseData& data,
       with.recording, records.parent_path() / ("bench." + std::to_string(::getpid()) + ".journal"));
   const std::vector<std::byte> keyframe = simulation::World(data, procedure, 1).write_state();
   const auto one_keyframe = static_cast<double>(keyframe.size());
+  write_an_hour(with.recording, keyframe, records::journal_path(records, "hour"));
+  const HourRead hour = read_an_hour(records);
   return {{"input", who.name},
           {"simulated_s", simulated_s},
           {"bytes_per_s", static_cast<double>(with.journal_bytes - keyframe_bytes) / simulated_s},
@@ -230,7 +272,10 @@ nlohmann::ordered_json row_of(const cases::CaseData& data,
            one_keyframe / (static_cast<double>(simulation::kKeyframeTicks) * kTickSeconds)},
           {"share_of_a_core", share},
           {"most_behind_ms", with.most_behind_ticks},
-          {"read_an_hour_s", time_to_read_an_hour(with.recording, keyframe, records)},
+          {"read_an_hour_s", hour.seconds},
+          {"an_hour_mib", hour.file_mib},
+          {"an_hour_kept_mib", hour.kept_mib},
+          {"read_an_hour_process_mib", hour.most_mib},
           {"tick_p50_us", {without.timing.whole_p50_us, with.timing.whole_p50_us}},
           {"tick_p99_us", {without.timing.whole_p99_us, with.timing.whole_p99_us}},
           {"late_ticks", {without.timing.late_ticks, with.timing.late_ticks}}};
@@ -238,13 +283,15 @@ nlohmann::ordered_json row_of(const cases::CaseData& data,
 
 void print(const nlohmann::ordered_json& row) {
   std::printf(
-      "%-20s %9.0f %12.0f %9.2f %% %9llu ms %8.2f s   %6.1f / %-6.1f %6.1f / %-6.1f %5llu / %llu\n",
+      "%-20s %9.0f %12.0f %9.2f %% %9llu ms %7.2f s %5.0f / %3.0f / %-4.0f  %6.1f / %-6.1f %6.1f / "
+      "%-6.1f %5llu / %llu\n",
       row["input"].get<std::string>().c_str(), row["bytes_per_s"].get<double>(),
       row["keyframe_bytes_per_s"].get<double>(), 100.0 * row["share_of_a_core"].get<double>(),
       row["most_behind_ms"].get<unsigned long long>(), row["read_an_hour_s"].get<double>(),
-      row["tick_p50_us"][0].get<double>(), row["tick_p50_us"][1].get<double>(),
-      row["tick_p99_us"][0].get<double>(), row["tick_p99_us"][1].get<double>(),
-      row["late_ticks"][0].get<unsigned long long>(),
+      row["an_hour_mib"].get<double>(), row["an_hour_kept_mib"].get<double>(),
+      row["read_an_hour_process_mib"].get<double>(), row["tick_p50_us"][0].get<double>(),
+      row["tick_p50_us"][1].get<double>(), row["tick_p99_us"][0].get<double>(),
+      row["tick_p99_us"][1].get<double>(), row["late_ticks"][0].get<unsigned long long>(),
       row["late_ticks"][1].get<unsigned long long>());
 }
 
@@ -257,10 +304,11 @@ void run(const BenchJournalArguments& arguments) {
   const procedure::Procedure& procedure = *procedures::built_in().all().front();
   std::printf("the journal of a live exercise on %s, %s, at %s\n", in_words(data).c_str(),
               procedure.id.c_str(), arguments.folder.c_str());
-  std::printf("%-20s %9s %12s %11s %12s %10s   %-15s %-15s %s\n", "input", "bytes/s", "+ keyframes",
-              "of a core", "most behind", "an hour", "tick p50 us", "tick p99 us", "late ticks");
-  std::printf("%-20s %9s %12s %11s %12s %10s   %-15s %-15s %s\n", "", "", "", "", "", "read in",
-              "without / with", "without / with", "without / with");
+  constexpr const char* kHeads = "%-20s %9s %12s %11s %12s %9s %-18s  %-15s %-15s %s\n";
+  std::printf(kHeads, "input", "bytes/s", "+ keyframes", "of a core", "most behind", "an hour",
+              "disk/kept/process", "tick p50 us", "tick p99 us", "late ticks");
+  std::printf(kHeads, "", "", "", "", "", "read in", "MiB", "without / with", "without / with",
+              "without / with");
   auto rows = nlohmann::ordered_json::array();
   const fs::path records = fs::path(arguments.folder) / "bench.sqlite";
   for (const Operator& who : kOperators) {
