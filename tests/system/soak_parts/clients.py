@@ -22,6 +22,9 @@ class Page(threading.Thread):
         self.port, self.protocol, self.random = port, protocol, random.Random(seed)
         self.word = "soak" + str(seed)
         self.stopping = threading.Event()
+        self.exercise_ticks = EXERCISE_TICKS
+        self.lives_s = (5, 60)  # until it is killed, from and to
+        self.end_with_finish = threading.Event()
         self.finished = 0
         self.deaths = 0
         self.went_on = 0
@@ -45,7 +48,7 @@ class Page(threading.Thread):
     def operate(self, page):
         page.say("hello", protocol=self.protocol, page=self.word)
         begun_at = None
-        dies_at = time.monotonic() + self.random.uniform(5, 60)
+        dies_at = time.monotonic() + self.random.uniform(*self.lives_s)
         rate_from = None
         next_hand = 0.0
         sequence = 0
@@ -84,7 +87,8 @@ class Page(threading.Thread):
                         sequence += 1
                         self.move(page, sequence)
                         next_hand = now + 1 / 60
-                    if message["tick"] > EXERCISE_TICKS and now > begun_at + 1:
+                    is_done = message["tick"] > self.exercise_ticks or self.end_with_finish.is_set()
+                    if is_done and now > begun_at + 1:
                         page.say("act", id="finish")
                         begun_at = now
                     if now > dies_at:
@@ -130,18 +134,20 @@ class Visitors(threading.Thread):
         self.stopping = threading.Event()
         self.counts = {}
         self.answers = []       # of well behaved requests [s]
-        self.failures = 0
+        self.unanswered = 0     # of them, while the station was up
         self.is_down = threading.Event()
+        self.kills = 0          # of the station so far
 
     def run(self):
         deeds = (self.reads, self.half_request, self.garbage, self.busy_page, self.silent, self.bad_frames, self.leaves_while_reading)
         while not self.stopping.is_set():
             deed = self.random.choice(deeds)
             self.counts[deed.__name__] = self.counts.get(deed.__name__, 0) + 1
+            kills = self.kills
             try:
                 deed()
             except (ConnectionError, OSError, http.client.HTTPException, ValueError):
-                self.failures += not self.is_down.is_set()
+                self.unanswered += deed == self.reads and not self.is_down.is_set() and kills == self.kills
             time.sleep(self.random.uniform(0.05, 0.4))
 
     def connect(self):

@@ -5,6 +5,7 @@
 import os
 import pathlib
 import statistics
+import time
 
 
 def held_by(pid, folder):
@@ -13,6 +14,25 @@ def held_by(pid, folder):
     fields = dict(line.split(":\t", 1) for line in status.splitlines() if ":\t" in line)
     return {"memory, MiB": int(fields["VmRSS"].split()[0]) / 1024, "descriptors": len(os.listdir(f"/proc/{pid}/fd")),
             "threads": int(fields["Threads"]), "files": sum(not name.startswith("filler") for name in os.listdir(folder))}
+
+
+class MachineTime:
+    """How much others used this machine up: the share of time in which whoever was ready to run had to wait for a core
+    (the kernel's pressure stall information). Where the kernel does not tell, the machine has time."""
+
+    PRESSURE = pathlib.Path("/proc/pressure/cpu")
+
+    def __init__(self):
+        self.began, self.waited = time.monotonic(), self.waited_us()
+
+    def waited_us(self):
+        try:
+            return int(self.PRESSURE.read_text().split("\n")[0].rsplit("total=", 1)[1])
+        except (OSError, IndexError, ValueError):
+            return 0
+
+    def share_waited_for(self):
+        return (self.waited_us() - self.waited) / 1e6 / (time.monotonic() - self.began)
 
 
 class Samples:
