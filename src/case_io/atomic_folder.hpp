@@ -15,6 +15,7 @@ enum class Overwrite { Refuse, Replace };
 /// staging folder is removed and the target stays as it was.
 class AtomicFolder {
  public:
+  /// Clears what killed programs left beside the target first.
   /// @throws IoError where the target exists and is not empty (with Overwrite::Refuse), is a file,
   /// or its parent cannot be written to.
   explicit AtomicFolder(std::filesystem::path target, Overwrite overwrite = Overwrite::Refuse);
@@ -32,6 +33,7 @@ class AtomicFolder {
  private:
   std::filesystem::path target_;
   std::filesystem::path staging_;
+  int lock_ = -1;  ///< of the staging folder: somebody writes there
   bool is_committed_ = false;
 };
 
