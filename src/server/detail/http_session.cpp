@@ -150,7 +150,23 @@ void HttpSession::handle(const Guest& guest) {
   answer(response);
 }
 
+namespace {
+
+/// Sixteen bytes in base64, as RFC 6455 §4.1 has it.
+bool is_handshake_key(std::string_view key) {
+  constexpr std::size_t kCharacters = 22;
+  constexpr std::string_view kBase64 =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  return key.size() == kCharacters + 2 && key.ends_with("==") &&
+         key.find_first_not_of(kBase64) == kCharacters;
+}
+
+}  // namespace
+
 void HttpSession::upgrade(const Guest& guest) {
+  if (!head_.is_http_1_1 || !is_handshake_key(head_.find("sec-websocket-key").value_or(""))) {
+    return refuse({400, "The request for a WebSocket is malformed."});
+  }
   if (head_.target != "/ws") return answer(make_problem(404, "The WebSocket is at /ws."));
   if (!context_.guard.accepts_origin(head_.find("origin").value_or(""), head_.authority)) {
     return answer(make_problem(403, "Only this station's own page may operate."));
