@@ -56,6 +56,24 @@ std::ostream& operator<<(std::ostream& out, const Case& each) {
   return out << each.procedure << each.seed;
 }
 
+TEST(Keyframes, EachGoesOnToTheSameEnd) {
+  for (const char* id : {"dorsal_scaphoid_fixation", "volar_scaphoid_fixation"}) {
+    const simulation::Recording recording = operate(id, Skill::Novice, 3).recording;
+    ASSERT_GE(recording.keyframes.size(), 3U);
+    for (const simulation::Keyframe& keyframe : recording.keyframes) {
+      simulation::World world(wrist(), declared(id), 3);
+      ASSERT_TRUE(world.read_state(keyframe.state).has_value());
+      Tick tick = 0;
+      for (const simulation::InputRun& run : recording.runs) {
+        for (std::uint32_t i = 0; i < run.ticks; ++i) {
+          if (tick++ >= keyframe.tick) world.step(run.input);
+        }
+      }
+      EXPECT_EQ(world.now().state_hash, recording.end_hash) << id << " from " << keyframe.tick;
+    }
+  }
+}
+
 class EverySeed : public testing::TestWithParam<Case> {};
 
 TEST_P(EverySeed, BothFinishAndTheExpertScoresBetter) {

@@ -26,9 +26,9 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::Take:
       return take(model, command.hand, command.index);
     case CommandKind::PickUp:
-      return pick_up(command.hand, command.index);
+      return pick_up(model, command.hand, command.index);
     case CommandKind::PickUpFarEnd:
-      return pick_up_far_end(command.hand, command.index);
+      return pick_up_far_end(model, command.hand, command.index);
     case CommandKind::PutDown:
       return put_down(model, command.hand);
     case CommandKind::ReadGauge:
@@ -93,7 +93,7 @@ void World::State::ride_on(const Model& /*model*/, Item& item, std::uint8_t wire
   item.cut_to_mm = item.travel_mm;
 }
 
-void World::State::pick_up(std::uint8_t hand, std::uint8_t item) noexcept {
+void World::State::pick_up(const Model& model, std::uint8_t hand, std::uint8_t item) noexcept {
   if (Item* held = in_hand(hand)) {  // a free instrument goes back to the tray
     held->hand = kNoHand;
     held->by_far_end = false;
@@ -101,6 +101,7 @@ void World::State::pick_up(std::uint8_t hand, std::uint8_t item) noexcept {
   }
   now.items[item].hand = hand;
   now.held[hand] = item;
+  scene.set_instrument(hand, kind_of(model, now.items[item]).shape);  // it will be free again
   emit(EventKind::Taken, item, now.items[item].instrument, 0.0);
 }
 

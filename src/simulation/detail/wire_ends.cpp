@@ -44,8 +44,10 @@ bool World::State::is_far_end_out(const Model& model, const Item& item) const no
          is_in_air(model, item, item.travel_mm - kGraspMm);
 }
 
-void World::State::pick_up_far_end(std::uint8_t hand, std::uint8_t item) noexcept {
-  pick_up(hand, item);
+void World::State::pick_up_far_end(const Model& model,
+                                   std::uint8_t hand,
+                                   std::uint8_t item) noexcept {
+  pick_up(model, hand, item);
   now.items[item].by_far_end = true;
 }
 

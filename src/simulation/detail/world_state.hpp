@@ -81,12 +81,12 @@ struct World::State {
   // commands.cpp
   void obey(const Model& model, const Command& command) noexcept;
   void take(const Model& model, std::uint8_t hand, InstrumentIndex instrument) noexcept;
-  void pick_up(std::uint8_t hand, std::uint8_t item) noexcept;
+  void pick_up(const Model& model, std::uint8_t hand, std::uint8_t item) noexcept;
   void put_down(const Model& model, std::uint8_t hand) noexcept;
   void read_gauge(const Model& model, std::uint8_t hand) noexcept;
 
   // wire_ends.cpp
-  void pick_up_far_end(std::uint8_t hand, std::uint8_t item) noexcept;
+  void pick_up_far_end(const Model& model, std::uint8_t hand, std::uint8_t item) noexcept;
   void draw_by_far_end(const Model& model, std::uint8_t hand) noexcept;
   void come_out_at_far_side(const Model& model, std::uint8_t hand) noexcept;
   [[nodiscard]] bool is_near_end_out(const Model& model, const detail::Item& item) const noexcept;
