@@ -12,6 +12,7 @@
 #include "records/journals_left_behind.hpp"
 #include "records/utc_time.hpp"
 #include "session/score_message.hpp"
+#include "simulation/keyframe_due.hpp"
 
 namespace carpus::server {
 
@@ -125,7 +126,7 @@ ExerciseNews Exercise::collect() {
     recorder_.append(*input);
     shadow_.step(*input);
     if (journal_) journal_->append(*input);
-    if (recorder_.tick() % simulation::kKeyframeTicks == 0) {
+    if (simulation::is_keyframe_due(shadow_.now())) {
       const simulation::Keyframe keyframe{recorder_.tick(), shadow_.write_state()};
       if (journal_) journal_->append(keyframe, shadow_.now().state_hash);
       recorder_.append_keyframe(keyframe);

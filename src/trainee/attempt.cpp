@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trainee/attempt.hpp"
 
+#include "simulation/keyframe_due.hpp"
 #include "simulation/world.hpp"
 #include "trainee/scripted_trainee.hpp"
 
@@ -21,7 +22,7 @@ Attempt operate(const cases::CaseData& data,
     recorder.append(input);
     const simulation::Snapshot& now = world.step(input);
     for (std::size_t i = 0; i < now.event_count; ++i) attempt.events.push_back(now.events[i]);
-    if (recorder.tick() % simulation::kKeyframeTicks == 0) {
+    if (simulation::is_keyframe_due(now)) {
       recorder.append_keyframe({recorder.tick(), world.write_state()});
     }
   }
