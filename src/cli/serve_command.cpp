@@ -79,7 +79,7 @@ server::NetworkOptions network_options(const ServeArguments& arguments) {
   options.certificate = arguments.certificate;
   options.key = arguments.key;
   options.public_url = arguments.public_url;
-  options.is_slow = server::StationHttp::reads_records;
+  options.lane_of = server::StationHttp::lane_of;
   if (arguments.open) {
     if (is_for_this_machine(arguments)) return options;
     throw UsageError(

@@ -136,7 +136,7 @@ TEST_F(AccessDoorTest, FailuresAreCountedByTheAddressThatTheProxySaw) {
 }
 
 TEST_F(AccessDoorTest, SlowAnswersKeepNobodyElseWaiting) {
-  options_.is_slow = [](const HttpRequest& r) { return r.target == "/slow"; };
+  options_.lane_of = [](const HttpRequest& r) { return r.target == "/slow" ? 1U : 0U; };
   start();
   std::vector<std::unique_ptr<RawClient>> slow;
   for (int i = 0; i < 31; ++i) {
@@ -152,7 +152,7 @@ TEST_F(AccessDoorTest, SlowAnswersKeepNobodyElseWaiting) {
 }
 
 TEST_F(AccessDoorTest, StationStopsWhileSlowAnswersWait) {
-  options_.is_slow = [](const HttpRequest& r) { return r.target == "/slow"; };
+  options_.lane_of = [](const HttpRequest& r) { return r.target == "/slow" ? 1U : 0U; };
   start();
   RawClient client(port());
   client.send("GET /slow HTTP/1.1\r\nHost: " + host_of(port()) + "\r\n\r\n");

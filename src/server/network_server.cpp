@@ -185,8 +185,10 @@ struct NetworkServer::Implementation {
     session->accept(request);
   }
 
-  bool run_aside(std::function<HttpResponse()> work, std::function<void(HttpResponse)> done) {
-    return slow_thread.post([this, work = std::move(work), done = std::move(done)] {
+  bool run_aside(std::size_t lane,
+                 std::function<HttpResponse()> work,
+                 std::function<void(HttpResponse)> done) {
+    return lanes.at(lane - 1).post([this, work = std::move(work), done = std::move(done)] {
       asio::post(context, [done, response = work()]() mutable { done(std::move(response)); });
     });
   }
@@ -237,7 +239,9 @@ struct NetworkServer::Implementation {
       http,
       nullptr,
       budget,
-      [this](auto work, auto done) { return run_aside(std::move(work), std::move(done)); },
+      [this](std::size_t lane, auto work, auto done) {
+        return run_aside(lane, std::move(work), std::move(done));
+      },
       [this](auto&& stream, const auto& address, const auto& request, const auto& guest) {
         upgrade(std::move(stream), address, request, guest);
       }};
@@ -245,7 +249,9 @@ struct NetworkServer::Implementation {
   Sessions turned_away;
   std::unordered_map<detail::WebSocketSession*, std::shared_ptr<detail::WebSocketSession>> sockets;
   bool stopping = false;
-  WorkThread slow_thread{kMaxSlowRequests};  ///< last: it uses what is above
+  /// Last: they use what is above.
+  std::array<WorkThread, NetworkOptions::kLanes> lanes{
+      WorkThread{kMaxSlowRequests}, WorkThread{kMaxSlowRequests}, WorkThread{kMaxSlowRequests}};
 };
 
 NetworkServer::NetworkServer(const NetworkOptions& options, HttpHandler http, PageHandler& pages)

@@ -72,9 +72,11 @@ struct NetworkOptions {
   std::size_t max_per_address = 32;
   /// Of answers that are on their way together; one alone may be larger.
   std::size_t max_answer_bytes = std::size_t{48} << 20U;
-  /// Which requests are answered in a thread of their own, one after another: those that may have
-  /// to wait for a disk. None where it is empty.
-  std::function<bool(const HttpRequest&)> is_slow;
+  /// Which requests are answered in which of some threads of their own, one after another in each:
+  /// 1 to kLanes, for what may have to wait for a disk or takes long to make. 0 is the network's,
+  /// as is every request where this is empty.
+  std::function<std::size_t(const HttpRequest&)> lane_of;
+  static constexpr std::size_t kLanes = 3;
 
   /// Who may come in: those who have one of these. All, where there are none.
   std::optional<AccessLinks> links;

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <utility>
 
 #include "core/hexadecimal.hpp"
 #include "protocol/bodies.hpp"
 #include "server/attempt_messages.hpp"
+#include "server/query_number.hpp"
+#include "server/replay_desk.hpp"
 #include "session/descriptions.hpp"
 #include "simulation/recording.hpp"
 
@@ -18,26 +19,7 @@ namespace carpus::server {
 namespace {
 
 constexpr std::string_view kAttempts = "/api/attempts";
-
-/// The number that a target's query gives for a name: 0 where it does not, nothing where it is no
-/// number.
-std::optional<std::int64_t> number_in_query(std::string_view target, std::string_view name) {
-  const std::size_t begin = target.find('?');
-  if (begin == std::string_view::npos) return 0;
-  std::string_view query = target.substr(begin + 1);
-  query = query.substr(0, query.find('#'));
-  while (!query.empty()) {
-    const std::string_view pair = query.substr(0, query.find('&'));
-    query.remove_prefix(std::min(query.size(), pair.size() + 1));
-    if (!pair.starts_with(name) || pair.substr(name.size()).substr(0, 1) != "=") continue;
-    const std::string_view text = pair.substr(name.size() + 1);
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size() || number < 0) return std::nullopt;
-    return number;
-  }
-  return 0;
-}
+constexpr std::string_view kReplay = "/replay";
 
 HttpResponse no_such_attempt() { return make_problem(404, "There is no such attempt."); }
 
@@ -56,7 +38,12 @@ StationHttp::StationHttp(const cases::CaseData& data,
       scene_glb_(std::make_shared<const std::string>(std::move(scene_glb))),
       records_(records),
       owners_(owners),
-      files_(web_root) {}
+      files_(web_root),
+      replays_(std::make_unique<ReplayDesk>(data, procedures, [&records](std::int64_t id) {
+        return records.find(id);
+      })) {}
+
+StationHttp::~StationHttp() = default;
 
 HttpResponse StationHttp::answer(const HttpRequest& request) const {
   const auto path = decode_path(request.target);
@@ -65,9 +52,12 @@ HttpResponse StationHttp::answer(const HttpRequest& request) const {
   return files_.get(*path);
 }
 
-bool StationHttp::reads_records(const HttpRequest& request) {
+std::size_t StationHttp::lane_of(const HttpRequest& request) {
   const auto path = decode_path(request.target);
-  return path && path->starts_with(kAttempts);
+  if (!path || !path->starts_with(kAttempts)) return 0;
+  const std::size_t replay = path->find(kReplay);
+  if (replay == std::string::npos) return 1;
+  return path->substr(replay) == "/replay/states" ? 2 : 3;
 }
 
 HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& request) const {
@@ -82,7 +72,7 @@ HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& r
   }
   if (path == kAttempts) return answer_attempts(request);
   if (path.starts_with(kAttempts) && path[kAttempts.size()] == '/') {
-    return answer_attempt(path.substr(kAttempts.size() + 1), request.guest);
+    return answer_attempt(path.substr(kAttempts.size() + 1), request);
   }
   return make_problem(404, "There is no such thing here; protocol/README.md lists what there is.");
 }
@@ -102,14 +92,16 @@ HttpResponse StationHttp::answer_attempts(const HttpRequest& request) const {
       serialize(attempt_list(records_.page(*before, protocol::kMaxAttemptListAttempts, seen))));
 }
 
-HttpResponse StationHttp::answer_attempt(std::string_view rest, const Guest& guest) const {
+HttpResponse StationHttp::answer_attempt(std::string_view rest, const HttpRequest& request) const {
   std::int64_t id = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), id);
   const std::string_view what = rest.substr(static_cast<std::size_t>(end - rest.data()));
-  if (error != std::errc{} || id <= 0 || (!what.empty() && what != "/recording")) {
+  const bool is_replay = what.starts_with(kReplay);
+  if (error != std::errc{} || id <= 0 || (!what.empty() && what != "/recording" && !is_replay)) {
     return no_such_attempt();
   }
-  if (!may_see(guest, id)) return no_such_attempt();
+  if (!may_see(request.guest, id)) return no_such_attempt();
+  if (is_replay) return answer_replay(id, what.substr(kReplay.size()), request.target);
   const auto attempt = records_.find(id);
   if (!attempt) return no_such_attempt();
   if (what.empty()) {
@@ -121,6 +113,19 @@ HttpResponse StationHttp::answer_attempt(std::string_view rest, const Guest& gue
                                 attempt->recording.size()));
   response.download_name = "attempt-" + std::to_string(id) + ".carpus";
   return response;
+}
+
+HttpResponse StationHttp::answer_replay(std::int64_t id,
+                                        std::string_view what,
+                                        std::string_view target) const {
+  const auto number = [&](std::string_view name) {
+    return number_in_query(target, name).value_or(-1);
+  };
+  if (what == "/exercise") return replays_->exercise(id);
+  if (what == "/states")
+    return replays_->states(id, {number("from"), number("to"), number("every")});
+  if (what == "/picture") return replays_->picture(id, std::max<std::int64_t>(number("at"), 0));
+  return make_problem(404, "Of a replay there are exercise, states and picture.");
 }
 
 }  // namespace carpus::server

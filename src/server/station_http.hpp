@@ -19,6 +19,8 @@
 
 namespace carpus::server {
 
+class ReplayDesk;
+
 class StationHttp {
  public:
   /// Prepares what never changes. @param records  and owners must outlive it.
@@ -28,18 +30,24 @@ class StationHttp {
               const records::AttemptKeeper& records,
               const AttemptOwners& owners,
               const std::filesystem::path& web_root);
+  ~StationHttp();
 
   /// Never throws for a bad request; IoError when the records cannot be read.
   /// May be called from several threads.
   [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
 
-  /// Whether the answer may have to wait for the records' disk.
-  [[nodiscard]] static bool reads_records(const HttpRequest& request);
+  /// Who answers (NetworkOptions::lane_of): what is at hand at once, the records, the states and
+  /// the pictures of a replay each in a thread of their own.
+  [[nodiscard]] static std::size_t lane_of(const HttpRequest& request);
 
  private:
   [[nodiscard]] HttpResponse answer_api(std::string_view path, const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_attempts(const HttpRequest& request) const;
-  [[nodiscard]] HttpResponse answer_attempt(std::string_view rest, const Guest& guest) const;
+  [[nodiscard]] HttpResponse answer_attempt(std::string_view rest,
+                                            const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse answer_replay(std::int64_t id,
+                                           std::string_view what,
+                                           std::string_view target) const;
   [[nodiscard]] bool may_see(const Guest& guest, std::int64_t attempt) const;
 
   std::string case_fingerprint_;
@@ -50,6 +58,7 @@ class StationHttp {
   const records::AttemptKeeper& records_;
   const AttemptOwners& owners_;
   StaticFiles files_;
+  std::unique_ptr<ReplayDesk> replays_;
 };
 
 }  // namespace carpus::server

@@ -137,13 +137,14 @@ void HttpSession::handle(const Guest& guest) {
       return make_problem(500, error.what());
     }
   };
-  const auto& is_slow = context_.options.is_slow;
-  if (!is_slow || !is_slow(request)) return answer(work());
+  const auto& lane_of = context_.options.lane_of;
+  const std::size_t lane = lane_of ? lane_of(request) : 0;
+  if (lane == 0) return answer(work());
   stream_.tcp().expires_never();
-  const bool is_taken =
-      context_.run_aside(std::move(work), [self = shared_from_this()](const HttpResponse& made) {
-        if (!self->ended_) self->answer(made);
-      });
+  const bool is_taken = context_.run_aside(lane, std::move(work),
+                                           [self = shared_from_this()](const HttpResponse& made) {
+                                             if (!self->ended_) self->answer(made);
+                                           });
   if (is_taken) return;
   HttpResponse response = make_problem(503, "Too many requests are waiting; try again.");
   response.retry_after_s = 1;

@@ -30,8 +30,10 @@ struct HttpSessionContext {
   const HttpHandler& handler;
   Access* access;  ///< null: whoever reaches the station may use it
   AnswerBudget& budget;
-  /// Calls `work` in another thread, then `done` in the network's; false when too much waits.
-  std::function<bool(std::function<HttpResponse()> work, std::function<void(HttpResponse)> done)>
+  /// Calls `work` in a lane's thread, then `done` in the network's; false when too much waits.
+  std::function<bool(std::size_t lane,
+                     std::function<HttpResponse()> work,
+                     std::function<void(HttpResponse)> done)>
       run_aside;
   /// Takes over a connection that asked for /ws and may have it.
   std::function<void(DoorStream&&,
