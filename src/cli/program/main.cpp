@@ -11,6 +11,7 @@
 #include "cli/attempts_command.hpp"
 #include "cli/bench_journal_command.hpp"
 #include "cli/bench_peers_command.hpp"
+#include "cli/bench_replay_command.hpp"
 #include "cli/bench_tick_command.hpp"
 #include "cli/collide_command.hpp"
 #include "cli/fluoroscopy_command.hpp"
@@ -53,6 +54,7 @@ void add_commands(CLI::App& app) {
   add_bench_tick_command(*bench);
   add_bench_journal_command(*bench);
   add_bench_peers_command(*bench);
+  add_bench_replay_command(*bench);
 }
 
 }  // namespace
