@@ -5,10 +5,12 @@
 //   #/               operate
 //   #/attempts       past attempts
 //   #/attempts/12    the score of one
+//   #/replay/12      an attempt looked at again; #/replay/12/15 two; ?t=93.5 from that second
 //   #/review         learning curves
 //   #/views          the view quiz
 import "./look";
 import { mountAttempts } from "./attempts_list";
+import { mountReplay } from "./replay";
 import { mountReview } from "./review";
 import { mountScore } from "./score_report";
 import { mountTrain } from "./train";
@@ -22,7 +24,11 @@ function route(): void {
   leave();
   window.scrollTo(0, 0);
   const attempt = /^#\/attempts\/(\d+)$/.exec(location.hash)?.[1];
-  if (attempt !== undefined) leave = mountScore(app, Number(attempt));
+  const replay = /^#\/replay\/(\d+)(?:\/(\d+))?(?:\?t=([\d.]+))?$/.exec(location.hash);
+  if (replay !== null) {
+    const ids = replay.slice(1, 3).filter((id) => id !== undefined);
+    leave = mountReplay(app, ids.map(Number), Number(replay[3] ?? 0));
+  } else if (attempt !== undefined) leave = mountScore(app, Number(attempt));
   else if (location.hash === "#/attempts") leave = mountAttempts(app);
   else if (location.hash === "#/review") leave = mountReview(app);
   else if (/^#\/views(\?|$)/.test(location.hash)) leave = mountViewQuiz(app);

@@ -76,7 +76,18 @@ function list(first: AttemptList, known: readonly ProcedureSummary[]): HTMLEleme
 }
 
 function table(rows: HTMLElement): HTMLElement {
-  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "How", "Input", "Time", "Score"];
+  const heads = [
+    "No.",
+    "Started",
+    "Trainee",
+    "Case",
+    "Procedure",
+    "How",
+    "Input",
+    "Time",
+    "Score",
+    "",
+  ];
   return make(
     "div.table-frame",
     { tabindex: "0", role: "region", "aria-label": "Attempts" },
@@ -116,5 +127,6 @@ function row(attempt: AttemptSummary, known: readonly ProcedureSummary[]): HTMLE
         score ? `${Math.round(attempt.overall ?? 0)} of 100` : "not finished",
       ),
     ),
+    make("td", {}, make("a", { href: `#/replay/${attempt.id}` }, "Replay")),
   );
 }

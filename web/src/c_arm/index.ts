@@ -3,6 +3,7 @@
 //
 // The C-arm's panel.
 export { CArmPanel, type CArmHandlers } from "./c_arm_panel";
+export { Monitor } from "./monitor";
 export type { Pedal } from "./pedal";
 export { viewName } from "./view_name_model";
 export { drawPicture } from "./picture_canvas";

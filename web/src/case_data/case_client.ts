@@ -5,10 +5,12 @@
 import {
   parseAttempt,
   parseAttemptList,
+  parseCArmPicture,
   parseCaseDescription,
   parseProcedureList,
   type Attempt,
   type AttemptList,
+  type CArmPicture,
   type CaseDescription,
   type Parsed,
   type ProcedureSummary,
@@ -18,7 +20,7 @@ export class HostUnreachable extends Error {}
 /** The host is well and has no such thing: loading again does not help. */
 export class NotThere extends Error {}
 
-async function getText(path: string): Promise<string> {
+async function get(path: string): Promise<Response> {
   let answer: Response;
   try {
     answer = await fetch(path, { headers: { Accept: "application/json" } });
@@ -26,14 +28,16 @@ async function getText(path: string): Promise<string> {
     throw new HostUnreachable("The host does not answer. Is `carpus serve` running?");
   }
   if (answer.status === 404) throw new NotThere(`The host has no ${path}.`);
+  // It says why, for people: the recording is another program's, or of another case.
+  if (answer.status === 409) throw new Error((await answer.text()).trim());
   if (!answer.ok) {
     throw new HostUnreachable(`The host answered ${answer.status} to ${path}. Reload the page.`);
   }
-  return answer.text();
+  return answer;
 }
 
 async function ask<T>(path: string, parse: (text: string) => Parsed<T>): Promise<T> {
-  const parsed = parse(await getText(path));
+  const parsed = parse(await (await get(path)).text());
   if (parsed.ok) return parsed.value;
   throw new HostUnreachable(
     `The host's answer to ${path} cannot be read: ${parsed.reason}. Reload the page.`,
@@ -57,4 +61,12 @@ export function fetchAttempts(before?: number): Promise<AttemptList> {
 
 export function fetchAttempt(id: number): Promise<Attempt> {
   return ask(`/api/attempts/${id}`, parseAttempt);
+}
+
+/** The picture that was taken in a tick of a stored attempt, or the live one of it. */
+export async function fetchReplayPicture(id: number, tick: number): Promise<CArmPicture> {
+  const answer = await get(`/api/attempts/${id}/replay/picture?at=${tick}`);
+  const picture = parseCArmPicture(await answer.arrayBuffer());
+  if (!picture.ok) throw new HostUnreachable(picture.reason);
+  return picture.value;
 }

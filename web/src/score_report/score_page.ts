@@ -79,6 +79,9 @@ function show(
         window.print();
       }),
       make("a.button-link", { href: "#/review" }, "Learning curve"),
+      ...(attempt.case_is_open
+        ? [make("a.button-link", { href: `#/replay/${attempt.id}` }, "Replay")]
+        : []),
       make("a.button-link", { href: "#/attempts" }, "Past attempts"),
       make("a.button-link.primary", { href: "#/" }, "Operate again"),
     ),
