@@ -1,0 +1,81 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A stored attempt is looked at again: any moment, its pictures, two beside each other.
+import { expectAccessible } from "./accessibility.mjs";
+import { check, expect } from "./checks.mjs";
+
+/** A moment is there within this; the machine of a check may be busy [ms]. */
+const MOMENT_MS = 1000;
+
+function shownAt(page, tick) {
+  return page.waitForFunction(
+    (wanted) => window.carpusReplay?.ticks()[0] === wanted,
+    tick,
+  );
+}
+
+export async function replayAttempt(page, station, id) {
+  const attempt = await (
+    await fetch(`${station.url}/api/attempts/${id}`)
+  ).json();
+  const length = Math.round(attempt.duration_s * 1000);
+  await check(page, "a replay shows the last moment as it was", async () => {
+    await page.goto(`${station.url}/#/replay/${id}?t=${length / 1000}`);
+    await shownAt(page, length);
+    const [hash] = await page.evaluate(() => window.carpusReplay.hashes());
+    expect(hash === attempt.state_hash, `${hash} is not ${attempt.state_hash}`);
+    await expectAccessible(page, 8);
+  });
+  await check(page, "any moment is there within a second", async () => {
+    let worst = 0;
+    for (const share of [0.1, 0.85, 0.3, 0.6, 0]) {
+      const tick = Math.round(share * length);
+      const before = Date.now();
+      await page.locator(".scrub input").fill(String(tick));
+      await shownAt(page, tick);
+      worst = Math.max(worst, Date.now() - before);
+    }
+    expect(worst < MOMENT_MS * 3, `the slowest took ${worst} ms`);
+    console.log(`    the slowest moment took ${worst} ms`);
+  });
+  await check(
+    page,
+    "it plays, and the pictures come as they were taken",
+    async () => {
+      const shot = attempt.events.find((event) => event.kind === "shot_taken");
+      await page
+        .locator(".scrub input")
+        .fill(String(Math.max(0, shot.tick - 300)));
+      await page
+        .locator(".replay-stage")
+        .click({ position: { x: 200, y: 10 } });
+      await page.keyboard.press("Space");
+      await page.locator(".c-arm-strip canvas").first().waitFor();
+      await page.keyboard.press("Space");
+      const said = await page
+        .locator(".replay-monitor .panel-title span")
+        .textContent();
+      expect(/shot 1$/.test(said), `the monitor says '${said}'`);
+    },
+  );
+  await check(page, "keys go from event to event", async () => {
+    await page.keyboard.press("Home");
+    await shownAt(page, 0);
+    await page.keyboard.press("n");
+    const [tick] = await page.evaluate(() => window.carpusReplay.ticks());
+    expect(tick >= 0, "no mark");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("b");
+  });
+  await check(page, "two attempts stand side by side", async () => {
+    await page.goto(`${station.url}/#/replay/${id}/${id}`);
+    await page.waitForFunction(() => window.carpusReplay?.ticks().length === 2);
+    const scrub = page.locator(".scrub input").first();
+    await scrub.fill(String(Math.round(length / 2)));
+    await page.waitForFunction(
+      (wanted) => window.carpusReplay.ticks().every((tick) => tick === wanted),
+      Math.round(length / 2),
+    );
+  });
+}
