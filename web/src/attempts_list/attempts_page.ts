@@ -86,7 +86,7 @@ function table(rows: HTMLElement): HTMLElement {
     "Input",
     "Time",
     "Score",
-    "",
+    "Again",
   ];
   return make(
     "div.table-frame",

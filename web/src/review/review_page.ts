@@ -279,7 +279,7 @@ function attemptTable(
   attempts: readonly AttemptSummary[],
   known: readonly ProcedureSummary[],
 ): HTMLElement {
-  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "How", "Time", "Score", ""];
+  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "How", "Time", "Score", "Again"];
   const newest = [...attempts].reverse().slice(0, TABLE_ROWS);
   const more = attempts.length - newest.length;
   return make(
