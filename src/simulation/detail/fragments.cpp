@@ -136,10 +136,10 @@ void World::State::push_fragment(const Model& model, const Item& item, double fo
     const InBone moved = now.moved[b].pose();
     const Vec3 pushed = moved.rotation * item.direction_in_bone;
     const Vec3 gone = (moved * Point<frame::Bone>{model.centres[b]}).v - model.centres[b];
-    Vec3 step = pushed * (std::min(kPushedMm, force_n / kStiffnessNPerMm) - dot(gone, pushed));
-    const double far = length(step);
-    if (far > kYieldMmPerTick) step *= kYieldMmPerTick / far;
-    displace_fragment(model, b, {Mat3::identity(), step});
+    // A joystick may have led it farther: a push never takes it back.
+    const double on = std::min(kPushedMm, force_n / kStiffnessNPerMm) - dot(gone, pushed);
+    if (!(on > 0.0)) continue;
+    displace_fragment(model, b, {Mat3::identity(), pushed * std::min(on, kYieldMmPerTick)});
     has_moved = true;
   }
   if (has_moved) pose_bodies(model);
