@@ -196,8 +196,9 @@ export class Theatre {
     return !this.names.canvas.hidden;
   }
 
+  /** Never over closed skin: a patient's bones are not named. */
   showNames(on: boolean): void {
-    this.names.canvas.hidden = !on;
+    this.names.canvas.hidden = !on || this.rays.hitsSkin;
     this.stale = true;
   }
 
