@@ -1,0 +1,25 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "virtual_arm/virtual_arm.hpp"
+
+#include <algorithm>
+
+namespace carpus::virtual_arm {
+
+void VirtualArm::send(std::span<const std::uint8_t> bytes) {
+  double at = std::max(now_us_, line_free_us_);
+  for (const std::uint8_t byte : bytes) {
+    line_.push_back({byte, at});
+    at += kByteUs;
+  }
+  line_free_us_ = at;
+}
+
+void VirtualArm::take_line(double us, const std::function<void(std::uint8_t)>& begin) {
+  while (!line_.empty() && line_.front().us < us) {
+    begin(line_.front().byte);
+    line_.pop_front();
+  }
+}
+
+}  // namespace carpus::virtual_arm

@@ -1,0 +1,149 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "virtual_arm/virtual_arm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "firmware/core/frame_decoder.hpp"
+#include "firmware/core/frame_encoder.hpp"
+
+namespace carpus::virtual_arm {
+namespace {
+
+/// A host that does nothing but keep the line alive.
+struct Host {
+  explicit Host(std::unique_ptr<VirtualArm> which) : arm(std::move(which)) {
+    arm->on_byte = [this](std::uint8_t byte, double) {
+      decoder.push(byte);
+      while (decoder.next()) {
+        ++answers;
+        (void)decoder.read_frame(sensors);
+        (void)decoder.read_frame(motion);
+      }
+    };
+  }
+  template <typename Frame>
+  void send(const Frame& frame) {
+    std::uint8_t bytes[firmware::kMaxFrameBytes];
+    const int length = firmware::encode_frame(frame, ++sequence, bytes);
+    arm->send({bytes, static_cast<std::size_t>(length)});
+  }
+  void run_ms(double ms) { arm->run_to_us(arm->now_us() + 1000 * ms); }
+  void greet() {
+    run_ms(60);
+    send(firmware::Hello{firmware::kProtocolVersion});
+    run_ms(2);
+    for (int leg = 0; leg < 3 && arm->drive() == firmware::Drive::Stop; ++leg) {
+      send(arm->leg_config(leg));
+      run_ms(2);
+    }
+    if (arm->drive() == firmware::Drive::Motor) {
+      send(arm->home());
+      run_ms(2);
+    }
+  }
+  std::unique_ptr<VirtualArm> arm;
+  firmware::HostDecoder decoder;
+  firmware::Sensors sensors;
+  firmware::Motion motion;
+  int answers = 0;
+  std::uint8_t sequence = 0;
+};
+
+TEST(VirtualArm, DriveASaysWhereItIsAndFollowsTheHandWithItsSlots) {
+  VirtualArmOptions options;
+  options.seed = 3;
+  Host host(make_virtual_stop_arm(options));
+  host.greet();
+  double worst = 0;
+  const Vec3 start = host.arm->plant().tip();
+  for (int ms = 0; ms < 1500; ++ms) {
+    const double t = 0.001 * ms;
+    host.arm->plant().set_intent({start + Vec3{20 * std::sin(3 * t), 0, 10 * std::sin(5 * t)},
+                                  {60 * std::cos(3 * t), 0, 50 * std::cos(5 * t)}});
+    host.send(firmware::Stop{});
+    host.run_ms(1);
+    if (ms < 300) continue;
+    for (int leg = 0; leg < 3; ++leg) {
+      const auto i = static_cast<std::size_t>(leg);
+      const double angle = host.arm->leg_calibration(leg).angle_at(host.sensors.counts[i]);
+      worst = std::max(worst, std::abs(angle - host.arm->plant().angles()[i]));
+      EXPECT_EQ(host.arm->torques()[i], 0) << "no slot's edge is met in free space, " << ms;
+    }
+  }
+  EXPECT_TRUE(host.arm->is_driven());
+  EXPECT_GT(host.answers, 1400);
+  EXPECT_LT(worst, 0.02);
+  EXPECT_TRUE(host.arm->plant().is_sound());
+}
+
+TEST(VirtualArm, DriveBRendersAPlaneOnItsOwn) {
+  Host host(make_virtual_motor_arm({}));
+  host.greet();
+  firmware::Contact contact;
+  contact.normals[2] = 16384;
+  contact.stiffness_n_per_m[0] = 2000;
+  contact.damping_mns_per_m[0] = 2000;
+  contact.offsets_um[0] = -131'000;
+  contact.limit_mn = 8000;
+  const Vec3 start = host.arm->plant().tip();
+  for (int ms = 0; ms < 800; ++ms) {
+    host.arm->plant().set_intent({start - Vec3{0, 0, 0.02 * ms}, {0, 0, -20}});
+    host.send(contact);
+    host.run_ms(1);
+  }
+  EXPECT_NEAR(host.arm->plant().felt_n().z, host.motion.force_mn[2] * 0.001, 0.7)
+      << "but for the weight";
+  EXPECT_GT(host.motion.force_mn[2], 1000);
+  EXPECT_TRUE(host.arm->plant().is_sound());
+}
+
+TEST(VirtualArm, IsTheSameInEveryRun) {
+  for (const bool is_motor : {false, true}) {
+    const auto run = [is_motor] {
+      Host host(is_motor ? make_virtual_motor_arm({}) : make_virtual_stop_arm({}));
+      host.greet();
+      host.arm->plant().set_intent({{5, 3, -125}, {}});
+      for (int ms = 0; ms < 100; ++ms) {
+        host.send(firmware::Release{});
+        host.run_ms(1);
+      }
+      return host.arm->plant().tip();
+    };
+    EXPECT_EQ(run(), run());
+  }
+}
+
+TEST(ArmPlant, LosesNoEnergyFromNowhereAndComesToRest) {
+  const arm::DeltaArm size;
+  const DeltaLinkage linkage(size);
+  ArmBody body;
+  body.balanced_share = 1;
+  ArmPlant plant(linkage, body, *arm::inverse(size, {0, 0, -130}));
+  plant.set_hand(kHandModels[2]);
+  plant.set_intent({{15, -5, -120}, {}});
+  for (int i = 0; i < 40 * 2000; ++i) plant.step(25e-6, {});
+  EXPECT_TRUE(plant.is_sound());
+  EXPECT_LT(length(plant.tip_velocity()), 0.01);
+  // Friction holds it a little short: 0.1 to 0.2 N over 0.5 N/mm.
+  EXPECT_LT(length(plant.tip() - Vec3{15, -5, -120}), 0.5);
+}
+
+TEST(SerialLinkage, ItsInverseUndoesIt) {
+  const SerialLinkage linkage;
+  JointValues angles{};
+  ASSERT_TRUE(linkage.inverse({140, 20, -30}, angles));
+  const LinkageState state = linkage.at(angles);
+  EXPECT_NEAR(length(state.tip - Vec3{140, 20, -30}), 0, 1e-9);
+  for (std::size_t i = 0; i < 3; ++i) {
+    JointValues moved = angles;
+    moved[i] += 1e-6;
+    EXPECT_NEAR(length((linkage.at(moved).tip - state.tip) / 1e-6 - state.columns[i]), 0, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace carpus::virtual_arm

@@ -1,0 +1,135 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Drive B: gimbal motors and encoders on the delta, the firmware's core at 4 kHz.
+#include <array>
+#include <cmath>
+#include <deque>
+
+#include "core/check.hpp"
+#include "firmware/core/motor_arm.hpp"
+#include "virtual_arm/gimbal_motor.hpp"
+#include "virtual_arm/virtual_arm.hpp"
+
+namespace carpus::virtual_arm {
+namespace {
+
+constexpr double kControlUs = 1e6 / firmware::kMotorStepHz;
+/// The rotor's 5 kg mm2 times the square of the capstan's ratio, beside the leg's own.
+constexpr double kJointInertiaKgMm2 = 160 + 500;
+
+ArmBody motor_body() {
+  ArmBody body;
+  body.joint_inertia_kg_mm2 = kJointInertiaKgMm2;
+  return body;
+}
+
+class VirtualMotorArm final : public VirtualArm {
+ public:
+  VirtualMotorArm(const VirtualArmOptions& options, const JointValues& angles)
+      : unit_(static_cast<std::uint32_t>(options.seed)),
+        arm_(unit_),
+        linkage_(size_),
+        plant_(linkage_, motor_body(), angles),
+        motors_{GimbalMotor{{}, 10 * options.seed + 1}, GimbalMotor{{}, 10 * options.seed + 2},
+                GimbalMotor{{}, 10 * options.seed + 3}} {
+    plant_.set_hand(options.hand);
+  }
+
+  [[nodiscard]] firmware::Drive drive() const override { return firmware::Drive::Motor; }
+  [[nodiscard]] ArmPlant& plant() override { return plant_; }
+  [[nodiscard]] const arm::DeltaArm& size() const override { return size_; }
+  [[nodiscard]] JointValues torques() const override { return torques_; }
+  [[nodiscard]] bool is_driven() const override {
+    return wished_[0] != 0 || wished_[1] != 0 || wished_[2] != 0;
+  }
+  [[nodiscard]] const arm::LegCalibration& leg_calibration(int) const override { return none_; }
+  [[nodiscard]] firmware::LegConfig leg_config(int) const override { return {}; }
+  [[nodiscard]] firmware::Home home() const override {
+    firmware::Home home;
+    for (std::size_t i = 0; i < 3; ++i) home.zero_counts[i] = motors_[i].zero_counts();
+    return home;
+  }
+  void brown_out() override {
+    arm_ = firmware::MotorArm(unit_);
+    for (float& torque : wished_) torque = 0;
+    coming_.clear();
+    going_.clear();
+  }
+
+  void run_to_us(double us) override {
+    while (now_us_ + kPlantStepUs <= us) {
+      take_line(now_us_ + kPlantStepUs, [this](std::uint8_t byte) {
+        coming_.push_back({byte, now_us_ + kByteUs});
+      });
+      now_us_ += kPlantStepUs;
+      serve_line();
+      if (now_us_ >= next_control_us_) {
+        control();
+        next_control_us_ += kControlUs;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        torques_[i] = motors_[i].step(kPlantStepUs * 1e-6, static_cast<double>(wished_[i]),
+                                      plant_.angles()[i]);
+      }
+      plant_.step(kPlantStepUs * 1e-6, torques_);
+      if (on_step) on_step(kPlantStepUs * 1e-6);
+    }
+  }
+
+ private:
+  struct OnLine {
+    std::uint8_t byte = 0;
+    double us = 0;
+  };
+
+  void control() {
+    std::int32_t counts[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      counts[i] = motors_[i].counts(plant_.angles()[i]);
+      // A magnet that has come loose.
+      if (faults.broken_sensor == static_cast<int>(i) && (jumps_ = !jumps_)) counts[i] += 5000;
+    }
+    arm_.step(counts, static_cast<std::uint32_t>(now_us_), wished_);
+  }
+
+  void serve_line() {
+    while (!coming_.empty() && coming_.front().us <= now_us_) {
+      arm_.take(coming_.front().byte, static_cast<std::uint32_t>(now_us_));
+      coming_.pop_front();
+    }
+    std::uint8_t bytes[firmware::kMaxDeviceFrameBytes];
+    double at = going_.empty() ? now_us_ : going_.back().us;
+    const int length = arm_.reply(bytes, static_cast<std::uint32_t>(now_us_));
+    for (int i = 0; i < length; ++i) going_.push_back({bytes[i], at += kByteUs});
+    while (!going_.empty() && going_.front().us <= now_us_) {
+      const OnLine next = going_.front();
+      going_.pop_front();
+      if (on_byte) on_byte(next.byte, next.us);
+    }
+  }
+
+  std::uint32_t unit_;
+  firmware::MotorArm arm_;
+  arm::DeltaArm size_;
+  DeltaLinkage linkage_;
+  ArmPlant plant_;
+  std::array<GimbalMotor, 3> motors_;
+  arm::LegCalibration none_;
+  JointValues torques_{};
+  float wished_[3] = {0, 0, 0};
+  std::deque<OnLine> coming_;
+  std::deque<OnLine> going_;
+  double next_control_us_ = 0;
+  bool jumps_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<VirtualArm> make_virtual_motor_arm(const VirtualArmOptions& options) {
+  const auto angles = arm::inverse({}, options.tip);
+  CARPUS_CHECK(angles.has_value());
+  return std::make_unique<VirtualMotorArm>(options, *angles);
+}
+
+}  // namespace carpus::virtual_arm
