@@ -1,0 +1,318 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/arm_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/units.hpp"
+#include "devices/plane_stops.hpp"
+
+namespace carpus::devices {
+namespace {
+
+using firmware::Drive;
+
+constexpr double kUnitsPerRad = 8192 / kPi;
+/// Of the tip's velocity: 20 ms.
+constexpr double kVelocityFilterS = 0.02;
+constexpr double kMostVelocityMmPerS = 5000;
+/// Beyond its limits by more than this a leg cannot be: the wrong turn of a motor, a slipped
+/// sensor.
+constexpr double kMostBeyondRad = 0.2;
+
+std::int16_t rounded16(double value, double most) noexcept {
+  return static_cast<std::int16_t>(std::lround(std::clamp(value, -most, most)));
+}
+std::uint16_t roundedu16(double value, double most) noexcept {
+  return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, most)));
+}
+
+firmware::LegConfig config_of(const ArmCalibration& calibration, std::uint8_t leg) noexcept {
+  const ServoFit& servo = calibration.servos[leg];
+  firmware::LegConfig config;
+  config.leg = leg;
+  config.pulse_at_zero_us = roundedu16(servo.pulse_at_zero_us, 2100);
+  config.pulse_per_turn_us = rounded16(servo.pulse_per_half_turn_us, 32767);
+  config.gap = roundedu16(servo.gap_rad * kUnitsPerRad, 2048);
+  config.least_pulse_us = roundedu16(servo.least_pulse_us, 2100);
+  config.most_pulse_us = roundedu16(servo.most_pulse_us, 2100);
+  put_line(calibration.legs[leg], config);
+  return config;
+}
+
+}  // namespace
+
+ArmDevice::ArmDevice(OpenLink open_link, std::filesystem::path calibrations)
+    : open_link_(std::move(open_link)), folder_(std::move(calibrations)) {}
+
+ArmDevice::~ArmDevice() { close(); }
+
+Capabilities ArmDevice::capabilities() const {
+  Capabilities able;
+  able.position = true;
+  able.absolute = true;
+  able.rate_hz = 1000;
+  able.workspace = {{-50, -50, -40}, {50, 50, 40}};
+  const bool is_motor = identity_ && identity_->drive == static_cast<std::uint8_t>(Drive::Motor);
+  able.stop = !is_motor;
+  able.force = is_motor;
+  able.local_plane = true;
+  able.vibration = is_motor;
+  able.peak_force_n = is_motor ? 8.0 : 2.4;
+  able.lasting_force_n = is_motor ? 2.9 : 2.4;
+  able.most_stiffness_n_per_mm = is_motor ? 2.0 : 10.0;
+  return able;
+}
+
+void ArmDevice::open() {
+  close();
+  problems_.clear();
+  calibrations_ = load_calibrations(folder_, problems_);
+  link_ = open_link_();
+  decoder_ = {};
+  identity_.reset();
+  calibration_ = nullptr;
+  raw_ = {};
+  state_ = {};
+  phase_ = Phase::Greeting;
+  status_ = 0;
+  has_place_ = is_impossible_ = false;
+  opened_ns_ = greeted_ns_ = placed_ns_ = answered_ns_ = 0;
+  sent_ns_.fill(0);
+}
+
+void ArmDevice::close() noexcept {
+  if (!link_) return;
+  std::uint8_t bytes[firmware::kMaxFrameBytes];
+  const std::uint8_t count = firmware::encode_frame(firmware::Release{}, ++sequence_, bytes);
+  (void)link_->write({bytes, count});
+  link_.reset();
+}
+
+template <typename Frame>
+bool ArmDevice::send(Nanoseconds now, const Frame& frame) noexcept {
+  std::uint8_t bytes[firmware::kMaxFrameBytes];
+  const auto sequence = static_cast<std::uint8_t>(sequence_ + 1);
+  const std::uint8_t count = firmware::encode_frame(frame, sequence, bytes);
+  if (!link_->write({bytes, count})) {
+    ++state_.unsent;
+    return false;
+  }
+  sequence_ = sequence;
+  sent_ns_[sequence] = now;
+  return true;
+}
+
+void ArmDevice::greet(Nanoseconds now) noexcept {
+  if (greeted_ns_ != 0 && now - greeted_ns_ < kGreetAgainNs) return;
+  greeted_ns_ = now;
+  (void)send(now, firmware::Hello{firmware::kProtocolVersion});
+}
+
+void ArmDevice::poll(Nanoseconds now, DeviceState& state) noexcept {
+  if (link_) {
+    if (opened_ns_ == 0) opened_ns_ = now;
+    std::uint8_t bytes[kReadAtOnce];
+    const std::size_t count = link_->read(bytes);
+    for (std::size_t i = 0; i < count; ++i) {
+      decoder_.push(bytes[i]);
+      while (decoder_.next()) take_frame(now);
+    }
+  }
+  state_.health = health_at(now);
+  state = state_;
+  state.refused += decoder_.refused();
+}
+
+void ArmDevice::take_frame(Nanoseconds now) noexcept {
+  firmware::Identity identity;
+  firmware::Sensors sensors;
+  firmware::Motion motion;
+  if (decoder_.read_frame(identity)) {
+    take(now, identity);
+  } else if (decoder_.read_frame(sensors)) {
+    take(now, sensors);
+  } else if (decoder_.read_frame(motion)) {
+    take(now, motion);
+  } else {
+    ++state_.refused;
+  }
+}
+
+void ArmDevice::take(Nanoseconds now, const firmware::Identity& identity) noexcept {
+  identity_ = identity;
+  answered_ns_ = now;
+  calibration_ = nullptr;
+  for (const ArmCalibration& one : calibrations_) {
+    if (one.unit == identity.unit && static_cast<std::uint8_t>(one.drive) == identity.drive) {
+      calibration_ = &one;
+    }
+  }
+  phase_ = identity.version == firmware::kProtocolVersion ? Phase::Configuring : Phase::Greeting;
+  next_leg_ = 0;
+  status_ = 0;
+  has_place_ = false;
+}
+
+void ArmDevice::heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) noexcept {
+  status_ = status;
+  answered_ns_ = now;
+  ++raw_.samples;
+  if (sent_ns_[echo] != 0) {
+    state_.round_trip_us = static_cast<double>(now - sent_ns_[echo]) / 1000.0;
+    sent_ns_[echo] = 0;
+  }
+  // It was reset meanwhile: what it was told is forgotten.
+  if ((status & firmware::kStatusAfterReset) != 0 && phase_ != Phase::Greeting) {
+    phase_ = Phase::Greeting;
+    greeted_ns_ = 0;
+    has_place_ = false;
+  }
+  if (phase_ == Phase::Configuring && calibration_ != nullptr &&
+      (status & firmware::kStatusConfigured) != 0) {
+    phase_ = Phase::Working;
+  }
+}
+
+void ArmDevice::take(Nanoseconds now, const firmware::Sensors& sensors) noexcept {
+  if (!identity_ || identity_->drive != static_cast<std::uint8_t>(Drive::Stop)) {
+    ++state_.refused;
+    return;
+  }
+  for (std::size_t i = 0; i < kLegs; ++i) raw_.counts[i] = sensors.counts[i];
+  heard(now, sensors.echo, sensors.status);
+  if (phase_ != Phase::Working || (sensors.status & firmware::kStatusSensorFault) != 0) return;
+  arm::LegAngles angles{};
+  for (std::size_t i = 0; i < kLegs; ++i) {
+    angles[i] = calibration_->legs[i].angle_at(sensors.counts[i]);
+  }
+  place(now, angles);
+}
+
+void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
+  if (!identity_ || identity_->drive != static_cast<std::uint8_t>(Drive::Motor)) {
+    ++state_.refused;
+    return;
+  }
+  for (std::size_t i = 0; i < kLegs; ++i) raw_.counts[i] = motion.counts[i];
+  heard(now, motion.echo, motion.status);
+  state_.force_n =
+      Vec3{static_cast<double>(motion.force_mn[0]), static_cast<double>(motion.force_mn[1]),
+           static_cast<double>(motion.force_mn[2])} *
+      0.001;
+  state_.hottest_c = motion.hottest_c;
+  if (phase_ != Phase::Working || (motion.status & firmware::kStatusSensorFault) != 0) return;
+  arm::LegAngles angles{};
+  for (std::size_t i = 0; i < kLegs; ++i) {
+    angles[i] = (motion.counts[i] - home_[i]) * kRadPerMotorCount;
+  }
+  place(now, angles);
+}
+
+void ArmDevice::place(Nanoseconds now, const arm::LegAngles& angles) noexcept {
+  const auto tip = arm::forward(arm_, angles);
+  is_impossible_ = !tip || !is_finite(*tip);
+  for (const double angle : angles) {
+    if (!(angle > arm_.least_angle - kMostBeyondRad && angle < arm_.most_angle + kMostBeyondRad)) {
+      is_impossible_ = true;
+    }
+  }
+  if (is_impossible_) {
+    ++state_.refused;
+    has_place_ = false;
+    state_.velocity_mm_s = {};
+    return;
+  }
+  const Vec3 position = *tip - arm_.centre;
+  if (has_place_ && now > placed_ns_) {
+    const double seconds = static_cast<double>(now - placed_ns_) * 1e-9;
+    const Vec3 velocity = (position - state_.position_mm) / seconds;
+    const double share = std::min(1.0, seconds / kVelocityFilterS);
+    state_.velocity_mm_s += (velocity - state_.velocity_mm_s) * share;
+    if (!(length(state_.velocity_mm_s) < kMostVelocityMmPerS)) state_.velocity_mm_s = {};
+  }
+  state_.position_mm = position;
+  state_.heard_ns = placed_ns_ = now;
+  ++state_.samples;
+  has_place_ = true;
+}
+
+void ArmDevice::configure(Nanoseconds now) noexcept {
+  if (calibration_ == nullptr) {
+    (void)send(now, firmware::Release{});
+  } else if (calibration_->drive == Drive::Stop) {
+    if (send(now, config_of(*calibration_, next_leg_))) {
+      next_leg_ = static_cast<std::uint8_t>((next_leg_ + 1) % kLegs);
+    }
+  } else if (raw_.samples == 0) {
+    (void)send(now, firmware::Release{});  // its counts come first
+  } else {
+    firmware::Home home;
+    for (std::size_t i = 0; i < kLegs; ++i) {
+      home_[i] = home_of(calibration_->zero_in_turn[i], raw_.counts[i]);
+      home.zero_counts[i] = std::clamp(home_[i], -1000000, 1000000);
+    }
+    (void)send(now, home);
+  }
+}
+
+firmware::Contact ArmDevice::contact_of(const DeviceCommand& command) const noexcept {
+  firmware::Contact contact;
+  for (std::size_t i = 0; i < std::min<std::size_t>(command.plane_count, kMostPlanes); ++i) {
+    const LocalPlane& plane = command.planes[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      contact.normals[3 * i + axis] = rounded16(plane.normal[axis] * 16384, 16384);
+    }
+    const double offset = plane.offset_mm + dot(plane.normal, arm_.centre);
+    contact.offsets_um[i] =
+        static_cast<std::int32_t>(std::lround(std::clamp(offset * 1000, -500000.0, 500000.0)));
+    contact.stiffness_n_per_m[i] = roundedu16(plane.stiffness_n_per_mm * 1000, 10000);
+    contact.damping_mns_per_m[i] = roundedu16(plane.damping_n_s_per_mm * 1e6, 20000);
+    contact.friction[i] =
+        static_cast<std::uint8_t>(std::lround(std::clamp(plane.friction * 128, 0.0, 255.0)));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    contact.force_mn[axis] = rounded16(command.force_n[axis] * 1000, 8000);
+  }
+  contact.limit_mn = roundedu16(command.limit_n * 1000, 8000);
+  contact.vibration_mn = roundedu16(command.vibration_n * 1000, 1000);
+  contact.vibration_hz = roundedu16(command.vibration_hz, 500);
+  return contact;
+}
+
+void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept {
+  if (!link_) return;
+  if (phase_ == Phase::Greeting) return greet(now);
+  if (phase_ == Phase::Configuring) return configure(now);
+  const bool is_nothing = !(command.limit_n > 0) || !has_place_;
+  if (calibration_->drive == Drive::Stop) {
+    // Free legs are a wish too: the slots follow the legs, so that the hand feels nothing.
+    DeviceCommand in_arm = command;
+    for (LocalPlane& plane : in_arm.planes) plane.offset_mm += dot(plane.normal, arm_.centre);
+    if (is_nothing) in_arm.plane_count = 0;
+    (void)send(now, stops_of(arm_, calibration_->legs, state_.position_mm + arm_.centre, in_arm));
+  } else {
+    (void)send(now, is_nothing ? firmware::Contact{} : contact_of(command));
+  }
+}
+
+Health ArmDevice::health_at(Nanoseconds now) const noexcept {
+  if (!link_) return Health::Closed;
+  if (link_->is_gone()) return Health::Gone;
+  if (identity_ && identity_->version != firmware::kProtocolVersion) return Health::Faulty;
+  const Nanoseconds last = std::max(answered_ns_, opened_ns_);
+  // A board that resets when its line is opened takes two seconds to say anything.
+  constexpr Nanoseconds kStartNs = 3000 * kNsPerMs;
+  const bool is_starting = answered_ns_ == 0;
+  if (now - last > (is_starting ? kStartNs : kSilentNs)) return Health::Silent;
+  if (is_starting || phase_ == Phase::Greeting) return Health::Starting;
+  if ((status_ & firmware::kStatusSensorFault) != 0 || is_impossible_) return Health::Faulty;
+  if (calibration_ == nullptr) return Health::Uncalibrated;
+  if (phase_ != Phase::Working || !has_place_) return Health::Starting;
+  const unsigned held = firmware::kStatusHot | firmware::kStatusLimited | firmware::kStatusTooFast;
+  return (status_ & held) != 0 ? Health::HoldingBack : Health::Good;
+}
+
+}  // namespace carpus::devices

@@ -1,0 +1,165 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/host_loop.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "devices/trusted_command.hpp"
+
+namespace carpus::devices {
+namespace {
+
+/// Above the simulation's thread (20): a device must be told "nothing" when that one stalls.
+constexpr int kRealTimePriority = 30;
+constexpr Nanoseconds kSecondNs = 1'000'000'000;
+constexpr double kFarthestMm = 2000;
+constexpr double kFastestMmPerS = 20'000;
+
+/// A state that a driver let through and that cannot be: the last line before the trainer.
+bool is_sound(const DeviceState& state) noexcept {
+  if (!is_finite(state.position_mm) || !is_finite(state.velocity_mm_s) ||
+      !is_finite(state.spin_rad_s) || !is_finite(state.force_n)) {
+    return false;
+  }
+  for (const Vec3& row : state.rotation.rows) {
+    if (!(std::abs(squared_length(row) - 1) < 1e-3)) return false;
+  }
+  return length(state.position_mm) < kFarthestMm && length(state.velocity_mm_s) < kFastestMmPerS;
+}
+
+}  // namespace
+
+HostLoop::HostLoop(std::unique_ptr<Device> device) : device_(std::move(device)) {
+  state_.able = device_->capabilities();
+  thread_ = std::thread([this] { run(); });
+}
+
+HostLoop::~HostLoop() {
+  stopping_.store(true, std::memory_order_relaxed);
+  thread_.join();
+}
+
+std::string HostLoop::problem() const {
+  const std::shared_ptr<const std::string> problem = problem_.load();
+  return problem ? *problem : std::string();
+}
+
+void HostLoop::run() {
+  ::pthread_setname_np(::pthread_self(), "carpus device");
+  state_.timing.memory_locked = ::mlockall(MCL_CURRENT) == 0;
+  state_.timing.fine_timer = ::prctl(PR_SET_TIMERSLACK, 1) == 0;
+  sched_param parameters{};
+  parameters.sched_priority = kRealTimePriority;
+  state_.timing.scheduling = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters) == 0
+                                 ? SchedulingClass::Fifo
+                                 : SchedulingClass::Other;
+  while (!stopping_.load(std::memory_order_relaxed)) {
+    try {
+      device_->open();
+      problem_.store(nullptr);
+      work_until_gone();
+    } catch (const std::exception& error) {
+      problem_.store(std::make_shared<const std::string>(error.what()));
+      state_.device = {};
+      state_.device.health = Health::Gone;
+      state_.able = device_->capabilities();
+      publish();
+    }
+    device_->close();
+    if (!stopping_.load(std::memory_order_relaxed)) rest(kTryAgainMs);
+  }
+}
+
+void HostLoop::rest(std::int64_t ms) const {
+  constexpr std::int64_t kStepMs = 20;
+  for (std::int64_t rested = 0; rested < ms; rested += kStepMs) {
+    if (stopping_.load(std::memory_order_relaxed)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
+  }
+}
+
+bool HostLoop::turn(Device& device,
+                    Nanoseconds now,
+                    const TimedCommand& wish,
+                    LoopState& state) noexcept {
+  DeviceState read;
+  device.poll(now, read);
+  if (is_sound(read)) {
+    state.device = read;
+  } else {
+    state.device.health = Health::Faulty;
+    ++state.device.refused;
+  }
+  const bool is_new = now - wish.at_ns <= HostLoop::kWishLastsNs && wish.at_ns <= now + kNsPerMs;
+  if (!is_new) ++state.stale;
+  const bool may_push = is_new && is_usable(state.device.health);
+  const DeviceCommand command =
+      may_push ? trusted(wish.command, state.able, state.faults) : DeviceCommand{};
+  state.asked_force_n = force_of(command, state.device.position_mm, state.device.velocity_mm_s);
+  device.command(now, command);
+  return state.device.health != Health::Gone;
+}
+
+void HostLoop::work_until_gone() noexcept {
+  PreciseClock clock;
+  clock.start();
+  late_.clear();
+  round_trips_.clear();
+  second_began_ns_ = monotonic_now();
+  worked_ns_ = 0;
+  ticks_before_ = state_.timing.ticks;
+  state_.able = device_->capabilities();
+  bool is_there = true;
+  while (is_there && !stopping_.load(std::memory_order_relaxed)) {
+    late_.add(static_cast<double>(clock.wait(state_.timing.missed)) / 1000.0);
+    const Nanoseconds began = monotonic_now();
+    (void)wishes_.take(wish_);
+    const std::uint64_t samples = state_.device.samples;
+    const Health before = state_.device.health;
+    is_there = turn(*device_, began, wish_, state_);
+    // A driver knows what its device is able to do once that has said who it is.
+    if (state_.device.health != before) state_.able = device_->capabilities();
+    if (state_.device.samples != samples && state_.device.round_trip_us > 0) {
+      round_trips_.add(state_.device.round_trip_us);
+    }
+    ++state_.timing.ticks;
+    const Nanoseconds ended = monotonic_now();
+    worked_ns_ += ended - began;
+    if (ended - second_began_ns_ >= kSecondNs) close_second(ended);
+    publish();
+  }
+}
+
+void HostLoop::close_second(Nanoseconds now) noexcept {
+  LoopTiming& timing = state_.timing;
+  const auto passed = static_cast<double>(now - second_began_ns_);
+  timing.rate_hz = static_cast<double>(timing.ticks - ticks_before_) * 1e9 / passed;
+  timing.late_p50_us = late_.quantile(0.5);
+  timing.late_p99_us = late_.quantile(0.99);
+  timing.late_p999_us = late_.quantile(0.999);
+  timing.late_worst_us = late_.most();
+  timing.round_trip_p50_us = round_trips_.quantile(0.5);
+  timing.round_trip_p99_us = round_trips_.quantile(0.99);
+  timing.work_share = static_cast<double>(worked_ns_) / passed;
+  late_.clear();
+  round_trips_.clear();
+  second_began_ns_ = now;
+  worked_ns_ = 0;
+  ticks_before_ = timing.ticks;
+}
+
+void HostLoop::publish() noexcept {
+  states_.publish(state_);
+  looks_.publish(state_);
+}
+
+}  // namespace carpus::devices

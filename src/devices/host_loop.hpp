@@ -1,0 +1,93 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One device in a thread of its own at 1 kHz: takes what it says, hands over the newest wish, never
+// waits for anybody. A wish that is older than kWishLastsNs is none: while an exercise is paused,
+// stalled or gone the loop goes on and asks for nothing. A device that is unplugged is opened again
+// when it is back.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/latest_value.hpp"
+#include "devices/device.hpp"
+#include "devices/loop_timing.hpp"
+#include "devices/precise_clock.hpp"
+
+namespace carpus::devices {
+
+/// What somebody wishes, and when.
+struct TimedCommand {
+  DeviceCommand command;
+  Nanoseconds at_ns = 0;
+};
+
+/// What leaves the loop each turn.
+struct LoopState {
+  DeviceState device;
+  Capabilities able;
+  LoopTiming timing;
+  Vec3 asked_force_n;        ///< last, by planes and force, after all limits
+  std::uint64_t faults = 0;  ///< wishes that were no numbers
+  std::uint64_t stale = 0;   ///< turns without a wish that was new enough
+};
+
+class HostLoop {
+ public:
+  /// Three ticks of the exercise and a frame; the firmware's own watchdog comes after 25 ms.
+  static constexpr Nanoseconds kWishLastsNs = 5 * kNsPerMs;
+  /// So long between two tries to open a device that is gone.
+  static constexpr std::int64_t kTryAgainMs = 300;
+
+  /// Starts the thread; the device is opened in it.
+  explicit HostLoop(std::unique_ptr<Device> device);
+  ~HostLoop();
+  HostLoop(const HostLoop&) = delete;
+  HostLoop& operator=(const HostLoop&) = delete;
+
+  /// By one other thread; never waits.
+  void wish(const TimedCommand& wish) noexcept { wishes_.publish(wish); }
+  /// For one reader: true when there is something newer than at the last call. Never waits.
+  [[nodiscard]] bool take(LoopState& state) noexcept { return states_.take(state); }
+  /// For another reader, whom it does not hurry: the same.
+  [[nodiscard]] bool look(LoopState& state) noexcept { return looks_.take(state); }
+  /// Why the device could not be opened at the last try; empty when it was.
+  [[nodiscard]] std::string problem() const;
+
+  /// One turn, in the caller's time: for tests of what it does and of what it allocates.
+  /// @return false when the device is gone.
+  [[nodiscard]] static bool turn(Device& device,
+                                 Nanoseconds now,
+                                 const TimedCommand& wish,
+                                 LoopState& state) noexcept;
+
+ private:
+  void run();
+  void work_until_gone() noexcept;
+  void close_second(Nanoseconds now) noexcept;
+  void publish() noexcept;
+  void rest(std::int64_t ms) const;
+
+  std::unique_ptr<Device> device_;
+  LoopState state_;
+  TimedCommand wish_;
+  TimeHistogram late_;
+  TimeHistogram round_trips_;
+  Nanoseconds second_began_ns_ = 0;
+  Nanoseconds worked_ns_ = 0;
+  std::uint64_t ticks_before_ = 0;
+
+  LatestValue<TimedCommand> wishes_;
+  LatestValue<LoopState> states_;
+  LatestValue<LoopState> looks_;
+  /// Set as a whole by the thread while no turn runs; read seldom.
+  std::atomic<std::shared_ptr<const std::string>> problem_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace carpus::devices
