@@ -35,7 +35,7 @@ struct ArmCalibration {
   std::array<ServoFit, kLegs> servos;
   /// Drive B: the encoders' counts of one turn of the motor where the leg is at angle 0.
   std::array<std::int32_t, kLegs> zero_in_turn{};
-  std::string made_at;  ///< UTC
+  std::string made_at = "-";  ///< UTC
 };
 
 /// Of a turn of a motor of drive B, of which ten are one of the leg.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/units.hpp"
-#include "devices/plane_stops.hpp"
+#include "haptics/leg_stops.hpp"
 
 namespace carpus::devices {
 namespace {
@@ -27,6 +27,24 @@ std::int16_t rounded16(double value, double most) noexcept {
 }
 std::uint16_t roundedu16(double value, double most) noexcept {
   return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, most)));
+}
+
+/// Of the printed parts: platform with tool and half of the rods; an upper arm with the other half.
+constexpr double kTipGrams = 50;
+constexpr double kLegGrams = 25;
+constexpr double kLegMm = 45;
+
+/// The force at the tip that carries drive B's arm, by F = sum s_i t_i / (s_i . u_i).
+Vec3 weight_at(const arm::DeltaArm& arm, const arm::LegAngles& angles) noexcept {
+  const arm::LegAngles torques = arm::gravity_torques(arm, angles, kTipGrams, kLegGrams, kLegMm);
+  const auto state = firmware::delta_forward(arm.size, angles.data());
+  Vec3 force;
+  if (!state.is_valid) return force;
+  for (std::size_t i = 0; i < kLegs; ++i) {
+    const firmware::Vector<double>& rod = state.rods[i];
+    force += Vec3{rod.x, rod.y, rod.z} * (torques[i] / state.levers[i]);
+  }
+  return is_finite(force) ? force : Vec3{};
 }
 
 firmware::LegConfig config_of(const ArmCalibration& calibration, std::uint8_t leg) noexcept {
@@ -198,10 +216,12 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
   }
   for (std::size_t i = 0; i < kLegs; ++i) raw_.counts[i] = motion.counts[i];
   heard(now, motion.echo, motion.status);
-  state_.force_n =
+  const Vec3 given =
       Vec3{static_cast<double>(motion.force_mn[0]), static_cast<double>(motion.force_mn[1]),
            static_cast<double>(motion.force_mn[2])} *
       0.001;
+  // What carries the arm is not felt.
+  state_.force_n = squared_length(given) > 0 ? given - weight_n_ : Vec3{};
   state_.hottest_c = motion.hottest_c;
   if (phase_ != Phase::Working || (motion.status & firmware::kStatusSensorFault) != 0) return;
   arm::LegAngles angles{};
@@ -226,6 +246,7 @@ void ArmDevice::place(Nanoseconds now, const arm::LegAngles& angles) noexcept {
     return;
   }
   const Vec3 position = *tip - arm_.centre;
+  weight_n_ = weight_at(arm_, angles);
   if (has_place_ && now > placed_ns_) {
     const double seconds = static_cast<double>(now - placed_ns_) * 1e-9;
     const Vec3 velocity = (position - state_.position_mm) / seconds;
@@ -258,28 +279,38 @@ void ArmDevice::configure(Nanoseconds now) noexcept {
   }
 }
 
-firmware::Contact ArmDevice::contact_of(const DeviceCommand& command) const noexcept {
-  firmware::Contact contact;
-  for (std::size_t i = 0; i < std::min<std::size_t>(command.plane_count, kMostPlanes); ++i) {
+haptics::HapticWish ArmDevice::wish_of(const DeviceCommand& command) const noexcept {
+  haptics::HapticWish wish;
+  wish.plane_count = std::min<std::size_t>(command.plane_count, kMostPlanes);
+  for (std::size_t i = 0; i < wish.plane_count; ++i) {
     const LocalPlane& plane = command.planes[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      contact.normals[3 * i + axis] = rounded16(plane.normal[axis] * 16384, 16384);
-    }
-    const double offset = plane.offset_mm + dot(plane.normal, arm_.centre);
-    contact.offsets_um[i] =
-        static_cast<std::int32_t>(std::lround(std::clamp(offset * 1000, -500000.0, 500000.0)));
-    contact.stiffness_n_per_m[i] = roundedu16(plane.stiffness_n_per_mm * 1000, 10000);
-    contact.damping_mns_per_m[i] = roundedu16(plane.damping_n_s_per_mm * 1e6, 20000);
-    contact.friction[i] =
-        static_cast<std::uint8_t>(std::lround(std::clamp(plane.friction * 128, 0.0, 255.0)));
+    wish.planes[i].normal = plane.normal;
+    wish.planes[i].offset_mm = plane.offset_mm + dot(plane.normal, arm_.centre);
+    const double stiffness = plane.stiffness_n_per_mm;
+    wish.planes[i].feel = {stiffness, stiffness > 0 ? plane.damping_n_s_per_mm / stiffness : 0,
+                           plane.friction};
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    contact.force_mn[axis] = rounded16(command.force_n[axis] * 1000, 8000);
+  wish.besides_n = command.force_n;
+  wish.limit_n = command.limit_n;
+  wish.vibration_n = command.vibration_n;
+  wish.vibration_hz = command.vibration_hz;
+  return wish;
+}
+
+/// One plane at a time is all that stops can be: the one that the tip is deepest in or nearest to.
+firmware::Stop ArmDevice::stops_of(const haptics::HapticWish& wish) const noexcept {
+  const Vec3 tip = state_.position_mm + arm_.centre;
+  const haptics::SurfacePlane* nearest = nullptr;
+  double least = haptics::kNearSurfaceMm;
+  for (std::size_t i = 0; i < wish.plane_count; ++i) {
+    const double height = dot(wish.planes[i].normal, tip) - wish.planes[i].offset_mm;
+    if (!(wish.planes[i].feel.stiffness_n_per_mm > 0) || !(height < least)) continue;
+    least = height;
+    nearest = &wish.planes[i];
   }
-  contact.limit_mn = roundedu16(command.limit_n * 1000, 8000);
-  contact.vibration_mn = roundedu16(command.vibration_n * 1000, 1000);
-  contact.vibration_hz = roundedu16(command.vibration_hz, 500);
-  return contact;
+  // Free legs are a wish too: the slots follow the legs, so that the hand feels nothing.
+  if (nearest == nullptr) return firmware::Stop{};
+  return haptics::leg_stops(arm_, calibration_->legs, *nearest, tip, state_.velocity_mm_s);
 }
 
 void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept {
@@ -287,15 +318,19 @@ void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept 
   if (phase_ == Phase::Greeting) return greet(now);
   if (phase_ == Phase::Configuring) return configure(now);
   const bool is_nothing = !(command.limit_n > 0) || !has_place_;
+  haptics::HapticWish wish = wish_of(is_nothing ? DeviceCommand{} : command);
   if (calibration_->drive == Drive::Stop) {
-    // Free legs are a wish too: the slots follow the legs, so that the hand feels nothing.
-    DeviceCommand in_arm = command;
-    for (LocalPlane& plane : in_arm.planes) plane.offset_mm += dot(plane.normal, arm_.centre);
-    if (is_nothing) in_arm.plane_count = 0;
-    (void)send(now, stops_of(arm_, calibration_->legs, state_.position_mm + arm_.centre, in_arm));
-  } else {
-    (void)send(now, is_nothing ? firmware::Contact{} : contact_of(command));
+    (void)send(now, stops_of(wish));
+    return;
   }
+  // The arm's own weight is carried whatever is wished, or it would fall while an exercise pauses.
+  if (has_place_) {
+    wish.besides_n += weight_n_;
+    wish.limit_n += length(weight_n_);
+  }
+  if (wish.plane_count == 0) net_.close();
+  const double share = net_.share(state_.force_n, state_.position_mm);
+  (void)send(now, haptics::contact_frame(wish, share, limiter_));
 }
 
 Health ArmDevice::health_at(Nanoseconds now) const noexcept {

@@ -16,7 +16,10 @@
 #include "devices/arm_calibration.hpp"
 #include "devices/byte_link.hpp"
 #include "devices/device.hpp"
+#include "devices/trusted_command.hpp"
 #include "firmware/core/frame_decoder.hpp"
+#include "haptics/local_planes.hpp"
+#include "haptics/passivity_net.hpp"
 
 namespace carpus::devices {
 
@@ -64,7 +67,9 @@ class ArmDevice final : public Device {
   void place(Nanoseconds now, const arm::LegAngles& angles) noexcept;
   void configure(Nanoseconds now) noexcept;
   [[nodiscard]] Health health_at(Nanoseconds now) const noexcept;
-  [[nodiscard]] firmware::Contact contact_of(const DeviceCommand& command) const noexcept;
+  /// In the arm's own frame.
+  [[nodiscard]] haptics::HapticWish wish_of(const DeviceCommand& command) const noexcept;
+  [[nodiscard]] firmware::Stop stops_of(const haptics::HapticWish& wish) const noexcept;
 
   OpenLink open_link_;
   std::filesystem::path folder_;
@@ -75,9 +80,12 @@ class ArmDevice final : public Device {
   arm::DeltaArm arm_;
   firmware::HostDecoder decoder_;
   std::optional<firmware::Identity> identity_;
+  Vec3 weight_n_;  ///< drive B: that carries the arm where it is
   RawSensors raw_;
   std::array<std::int32_t, kLegs> home_{};  ///< drive B: counts at angle 0, since it was started
   DeviceState state_;
+  haptics::PassivityNet net_;
+  haptics::ForceLimiter limiter_{kMostForceN};
   Phase phase_ = Phase::Greeting;
   std::uint8_t sequence_ = 0;
   std::uint8_t status_ = 0;

@@ -81,7 +81,7 @@ TEST(ArmDevice, AWallOfDriveBPushesOutAndNeverBeyondTheLimit) {
   Desk<FakeMotorArm> desk(Drive::Motor);
   desk.put({0, 0, 2});
   desk.run_ms(300, wall({0, 0, 1}, 0));
-  EXPECT_LT(length(desk.state.force_n), 0.01);
+  EXPECT_LT(length(desk.state.force_n), 0.02);  // but for the arm's weight
   for (int i = 1; i <= 40; ++i) {
     desk.put({0, 0, 2 - 0.1 * i});
     desk.run_ms(5, wall({0, 0, 1}, 0));
@@ -90,7 +90,7 @@ TEST(ArmDevice, AWallOfDriveBPushesOutAndNeverBeyondTheLimit) {
   EXPECT_LE(length(desk.state.force_n), 4.01);
   EXPECT_LT(std::abs(desk.state.force_n.x), 0.2);
   desk.run_ms(30);  // nothing is wished
-  EXPECT_EQ(length(desk.state.force_n), 0);
+  EXPECT_LT(length(desk.state.force_n), 0.02);
 }
 
 TEST(ArmDevice, AWallOfDriveAIsStopsThatTheFirmwareTakes) {
