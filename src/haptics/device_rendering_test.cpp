@@ -18,13 +18,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::array<arm::LegCalibration, 3> straight_lines() {
-  arm::LegCalibration line;
-  line.zero_counts = 2046;
-  line.rad_per_count = 0.0014;
-  return {line, line, line};
-}
-
 TEST(LocalPlanes, StandWhereTheProxyIsAndFaceOutOfTheBone) {
   const auto plane = plane_at({1, 2, 3}, {1, 2, 1}, {1, 0, 0}, {});
   ASSERT_TRUE(plane);
@@ -89,11 +82,11 @@ TEST(LegStops, CloseTheSideThatLeadsIntoTheBone) {
         arm.centre + Vec3{rng.uniform(-30, 30), rng.uniform(-30, 30), rng.uniform(-20, 20)};
     const Vec3 normal =
         normalized_or({rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}, {0, 0, 1});
-    const SurfacePlane plane{normal, dot(normal, tip) - 2, {}};
-    const firmware::Stop stop = leg_stops(arm, straight_lines(), plane, tip, {});
+    const SurfacePlane plane{normal, dot(normal, tip) - 2 - kEarlyMm, {}};
     const auto outside = arm::inverse(arm, tip);
     const auto inside = arm::inverse(arm, tip - normal * 3.0);
     ASSERT_TRUE(outside && inside);
+    const firmware::Stop stop = LegStops().at(arm, plane, *outside, tip, {});
     int closed = 0;
     for (std::size_t leg = 0; leg < 3; ++leg) {
       const firmware::LegStop& one = stop.legs[leg];
@@ -108,16 +101,44 @@ TEST(LegStops, CloseTheSideThatLeadsIntoTheBone) {
   }
 }
 
+TEST(LegStops, GiveWayToALegThatLeansButNeverComeNearer) {
+  const arm::DeltaArm arm;
+  Rng rng(5);
+  LegStops stops;
+  const SurfacePlane plane{{0, 0, 1}, -130, {}};
+  std::array<double, 3> last{9, 9, 9};
+  for (int i = 0; i < 300; ++i) {
+    // Slides about on the surface, leaning on every leg.
+    const Vec3 tip{10 * std::sin(0.1 * i), rng.uniform(-5, 5), -130.5};
+    const auto angles = arm::inverse(arm, tip);
+    const firmware::Stop stop = stops.at(arm, plane, *angles, tip, {});
+    for (std::size_t leg = 0; leg < 3; ++leg) {
+      ASSERT_EQ(stop.legs[leg].side, firmware::LegStopSide::NotAbove);
+      const double wall = stop.legs[leg].angle * kPi / 8192;
+      const bool leans = i > 0 && (*angles)[leg] > last[leg] - 0.9 * kLeansRad;
+      if (leans) {
+        EXPECT_GE(wall, last[leg] - 1e-3) << i << " leg " << leg;
+      }
+      last[leg] = wall;
+    }
+  }
+  // Lifted off, they stand on the surface again.
+  const Vec3 above{0, 0, -120};
+  const firmware::Stop stop = stops.at(arm, plane, *arm::inverse(arm, above), above, {});
+  const auto exact = arm::inverse(arm, {0, 0, -130 + kEarlyMm});
+  for (std::size_t leg = 0; leg < 3; ++leg)
+    EXPECT_NEAR(stop.legs[leg].angle * kPi / 8192, (*exact)[leg], 1e-3);
+}
+
 TEST(LegStops, AreFreeFarFromTheSurfaceOrWhereNothingIsKnown) {
   const arm::DeltaArm arm;
   for (const SurfacePlane& plane :
        {SurfacePlane{{0, 0, 1}, -300, {}}, SurfacePlane{{0, 0, 1}, kNan, {}},
         SurfacePlane{{0, 0, 1}, 400, {}}, SurfacePlane{{kNan, 0, 1}, -130, {}}}) {
-    const auto stop = leg_stops(arm, straight_lines(), plane, {0, 0, -130}, {});
+    const auto stop = LegStops().at(arm, plane, {}, {0, 0, -130}, {});
     for (const auto& leg : stop.legs) EXPECT_EQ(leg.side, firmware::LegStopSide::Free);
   }
-  const auto stop =
-      leg_stops(arm, straight_lines(), {{0, 0, 1}, -131, {}}, {0, 0, -130}, {kNan, 0, 0});
+  const auto stop = LegStops().at(arm, {{0, 0, 1}, -131, {}}, {}, {0, 0, -130}, {kNan, 0, 0});
   for (const auto& leg : stop.legs) EXPECT_EQ(leg.side, firmware::LegStopSide::Free);
 }
 
@@ -152,7 +173,7 @@ TEST(ForceLimiter, HasTheLastWord) {
 
 TEST(DeviceRendering, AllocatesNothing) {
   const arm::DeltaArm arm;
-  const auto lines = straight_lines();
+  LegStops stops;
   ForceLimiter limiter(8);
   PassivityNet net;
   HapticWish wish;
@@ -163,7 +184,7 @@ TEST(DeviceRendering, AllocatesNothing) {
   for (int i = 0; i < 200; ++i) {
     const Vec3 tip{0, 0.1 * i, -130 - 0.01 * i};
     const auto plane = plane_at({0, 0, -131}, tip, {0, 0, 1}, {});
-    sum += leg_stops(arm, lines, *plane, tip, {1, 2, 3}).legs[0].angle;
+    sum += stops.at(arm, *plane, {0.3, 0.3, 0.3}, tip, {1, 2, 3}).legs[0].angle;
     sum += contact_frame(wish, net.share({0, 0, 1}, tip), limiter).limit_mn;
   }
   EXPECT_EQ(test::stop_counting_allocations(), 0);

@@ -14,20 +14,26 @@ constexpr double kRadPerUnit = kPi / 8192;
 constexpr double kMostUnits = 8191;
 }  // namespace
 
-firmware::Stop leg_stops(const arm::DeltaArm& arm,
-                         const std::array<arm::LegCalibration, 3>& calibrations,
-                         const SurfacePlane& plane,
-                         const Vec3& tip,
-                         const Vec3& velocity) noexcept {
-  firmware::Stop stop;  // all free
+using firmware::LegStopSide;
+
+firmware::Stop LegStops::free() noexcept {
+  sides_ = {};
+  return firmware::Stop();
+}
+
+firmware::Stop LegStops::at(const arm::DeltaArm& arm,
+                            const SurfacePlane& plane,
+                            const arm::LegAngles& angles,
+                            const Vec3& tip,
+                            const Vec3& velocity) noexcept {
   const double height = dot(plane.normal, tip) - plane.offset_mm;
-  if (!is_finite(velocity) || !(height < kNearSurfaceMm)) return stop;
+  if (!is_finite(velocity) || !(height < kNearSurfaceMm)) return free();
   const Vec3 slide = velocity - plane.normal * dot(plane.normal, velocity);
-  const Vec3 place = tip - plane.normal * height + slide * kSlideLeadS;
-  const auto angles = arm::inverse(arm, place);
-  if (!angles) return stop;
-  const auto state = firmware::delta_forward(arm.size, angles->data());
-  if (!state.is_valid) return stop;
+  const Vec3 place = tip - plane.normal * (height - kEarlyMm) + slide * kSlideLeadS;
+  const auto on_surface = arm::inverse(arm, place);
+  if (!on_surface) return free();
+  const auto state = firmware::delta_forward(arm.size, on_surface->data());
+  if (!state.is_valid) return free();
   std::array<double, 3> turns{};
   double most = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -35,14 +41,27 @@ firmware::Stop leg_stops(const arm::DeltaArm& arm,
     turns[i] = dot(rod, plane.normal) / state.levers[i];
     most = std::max(most, std::abs(turns[i]));
   }
+  firmware::Stop stop;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!(std::abs(turns[i]) > kLeastTurnShare * most)) continue;
-    const double units = calibrations[i].line_angle_at((*angles)[i]) / kRadPerUnit;
-    if (!std::isfinite(units)) continue;
-    stop.legs[i].side =
-        turns[i] > 0 ? firmware::LegStopSide::NotBelow : firmware::LegStopSide::NotAbove;
-    stop.legs[i].angle =
-        static_cast<std::int16_t>(std::lround(std::clamp(units, -kMostUnits, kMostUnits)));
+    double wall = (*on_surface)[i];
+    if (!(std::abs(turns[i]) > kLeastTurnShare * most) || !std::isfinite(wall)) {
+      sides_[i] = LegStopSide::Free;
+      continue;
+    }
+    const bool is_below = turns[i] > 0;
+    const LegStopSide side = is_below ? LegStopSide::NotBelow : LegStopSide::NotAbove;
+    const double sign = is_below ? 1 : -1;
+    // Past its old stop by so much, to the open side.
+    const double away = sign * (angles[i] - stops_[i]);
+    if (sides_[i] == side && !(away > kLeansRad))
+      wall = sign * std::min(sign * wall, sign * stops_[i]);
+    stops_[i] = wall;
+    sides_[i] = side;
+    stop.legs[i].side = side;
+    // The horn is what has to stand right, and it knows no potentiometer: so the true angle, not
+    // the one of the firmware's straight line.
+    stop.legs[i].angle = static_cast<std::int16_t>(
+        std::lround(std::clamp(wall / kRadPerUnit, -kMostUnits, kMostUnits)));
   }
   return stop;
 }

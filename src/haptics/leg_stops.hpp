@@ -3,33 +3,52 @@
 //
 // Contact for drive A, whose legs can be stopped but not pushed: the legs' angles at the place on
 // the surface where the tip may be, each closed to the side that leads into the bone. Legs that the
-// surface's normal hardly turns stay free, or sliding would rub. The firmware leads free legs and
-// fades that lead before the stop; what the host leads is the slide along the surface.
+// surface's normal hardly turns stay free, or sliding would rub.
+//
+// A stop that moves while a leg leans on it does work on the hand: legs never meet their stops all
+// at once, and the one that does would be driven along the surface, and push. So the stop of a leg
+// that leans on it, or nearly, may give way but not come nearer.
+//
 #pragma once
 
 #include <array>
 
 #include "arm/delta_arm.hpp"
-#include "arm/leg_calibration.hpp"
 #include "firmware/core/wire.hpp"
 #include "haptics/local_planes.hpp"
 
 namespace carpus::haptics {
 
-/// A leg that turns less than this share of the one that turns most is left free.
-inline constexpr double kLeastTurnShare = 0.35;
+/// A leg that turns less than this share of the one that turns most is left free. At a third, a
+/// hand that pressed obliquely sank by 4 mm, along the way that the free leg left it.
+inline constexpr double kLeastTurnShare = 0.1;
 /// Of the slide along the surface [s]: longer, and stops pump energy into the hand.
 inline constexpr double kSlideLeadS = 0.025;
+/// Stops stand so far outside the surface [mm]: half of what dead band, pad and gears yield under 2
+/// N.
+inline constexpr double kEarlyMm = 0.4;
 /// A surface farther than this is no matter yet [mm].
 inline constexpr double kNearSurfaceMm = 25;
 
-/// @param calibrations  of the legs: stops are sent in the line that the firmware knows.
-/// @param tip, velocity  in the device's frame [mm], [mm/s]. All legs free where the plane is far,
-/// out of reach or not finite. Real-time.
-[[nodiscard]] firmware::Stop leg_stops(const arm::DeltaArm& arm,
-                                       const std::array<arm::LegCalibration, 3>& calibrations,
-                                       const SurfacePlane& plane,
-                                       const Vec3& tip,
-                                       const Vec3& velocity) noexcept;
+/// Nearer to its stop than this a leg may lean on it: dead band, pulse and potentiometer may be so
+/// wrong together [rad].
+inline constexpr double kLeansRad = 0.017;
+
+class LegStops {
+ public:
+  /// @param plane  in the device's frame. @param angles, tip, velocity  of the legs [rad], of the
+  /// tip [mm], [mm/s]. All legs free where the plane is far, out of reach or not finite. Real-time.
+  [[nodiscard]] firmware::Stop at(const arm::DeltaArm& arm,
+                                  const SurfacePlane& plane,
+                                  const arm::LegAngles& angles,
+                                  const Vec3& tip,
+                                  const Vec3& velocity) noexcept;
+  /// No surface is near: all legs free.
+  [[nodiscard]] firmware::Stop free() noexcept;
+
+ private:
+  arm::LegAngles stops_{};
+  std::array<firmware::LegStopSide, 3> sides_{};
+};
 
 }  // namespace carpus::haptics

@@ -36,6 +36,11 @@ class GimbalMotor {
   [[nodiscard]] std::int32_t counts(double joint_rad) noexcept;
   /// Counts at angle 0 of the leg.
   [[nodiscard]] std::int32_t zero_counts() const noexcept { return zero_counts_; }
+  /// As measured: a tenth of its size and a tenth of a radian wrong.
+  [[nodiscard]] double measured_cogging_n_mm() const noexcept {
+    return 1.1 * kind_.cogging_n_mm * kind_.ratio;
+  }
+  [[nodiscard]] double measured_phase_rad() const noexcept { return phase_ + 0.1; }
   [[nodiscard]] double celsius() const noexcept { return celsius_; }
 
  private:

@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 
+#include "arm/cogging.hpp"
 #include "arm/delta_arm.hpp"
 #include "arm/leg_calibration.hpp"
 #include "firmware/core/wire.hpp"
@@ -55,6 +56,8 @@ class VirtualArm {
   [[nodiscard]] virtual const arm::LegCalibration& leg_calibration(int leg) const = 0;
   [[nodiscard]] virtual firmware::LegConfig leg_config(int leg) const = 0;
   [[nodiscard]] virtual firmware::Home home() const = 0;
+  /// Of drive B's motors, measured as well as a calibration can; drive A has none.
+  [[nodiscard]] virtual arm::Cogging cogging() const { return {}; }
 
   ArmFaults faults;
   /// The supply fails, and comes back.

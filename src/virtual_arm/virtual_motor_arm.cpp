@@ -50,6 +50,14 @@ class VirtualMotorArm final : public VirtualArm {
     for (std::size_t i = 0; i < 3; ++i) home.zero_counts[i] = motors_[i].zero_counts();
     return home;
   }
+  [[nodiscard]] arm::Cogging cogging() const override {
+    arm::Cogging cogging;
+    for (std::size_t i = 0; i < 3; ++i) {
+      cogging.amplitude_n_mm[i] = motors_[i].measured_cogging_n_mm();
+      cogging.phase_rad[i] = motors_[i].measured_phase_rad();
+    }
+    return cogging;
+  }
   void brown_out() override {
     arm_ = firmware::MotorArm(unit_);
     for (float& torque : wished_) torque = 0;
