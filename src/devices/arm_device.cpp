@@ -92,7 +92,6 @@ void ArmDevice::open() {
   decoder_ = {};
   identity_.reset();
   calibration_ = nullptr;
-  raw_ = {};
   state_ = {};
   phase_ = Phase::Greeting;
   status_ = 0;
@@ -161,6 +160,8 @@ void ArmDevice::take_frame(Nanoseconds now) noexcept {
 
 void ArmDevice::take(Nanoseconds now, const firmware::Identity& identity) noexcept {
   identity_ = identity;
+  state_.unit = identity.unit;
+  state_.has_unit = true;
   answered_ns_ = now;
   calibration_ = nullptr;
   for (const ArmCalibration& one : calibrations_) {
@@ -177,7 +178,7 @@ void ArmDevice::take(Nanoseconds now, const firmware::Identity& identity) noexce
 void ArmDevice::heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) noexcept {
   status_ = status;
   answered_ns_ = now;
-  ++raw_.samples;
+  ++state_.raw_samples;
   if (sent_ns_[echo] != 0) {
     state_.round_trip_us = static_cast<double>(now - sent_ns_[echo]) / 1000.0;
     sent_ns_[echo] = 0;
@@ -199,7 +200,7 @@ void ArmDevice::take(Nanoseconds now, const firmware::Sensors& sensors) noexcept
     ++state_.refused;
     return;
   }
-  for (std::size_t i = 0; i < kLegs; ++i) raw_.counts[i] = sensors.counts[i];
+  for (std::size_t i = 0; i < kLegs; ++i) state_.raw_counts[i] = sensors.counts[i];
   heard(now, sensors.echo, sensors.status);
   if (phase_ != Phase::Working || (sensors.status & firmware::kStatusSensorFault) != 0) return;
   arm::LegAngles angles{};
@@ -214,7 +215,7 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
     ++state_.refused;
     return;
   }
-  for (std::size_t i = 0; i < kLegs; ++i) raw_.counts[i] = motion.counts[i];
+  for (std::size_t i = 0; i < kLegs; ++i) state_.raw_counts[i] = motion.counts[i];
   heard(now, motion.echo, motion.status);
   const Vec3 given =
       Vec3{static_cast<double>(motion.force_mn[0]), static_cast<double>(motion.force_mn[1]),
@@ -267,12 +268,12 @@ void ArmDevice::configure(Nanoseconds now) noexcept {
     if (send(now, config_of(*calibration_, next_leg_))) {
       next_leg_ = static_cast<std::uint8_t>((next_leg_ + 1) % kLegs);
     }
-  } else if (raw_.samples == 0) {
+  } else if (state_.raw_samples == 0) {
     (void)send(now, firmware::Release{});  // its counts come first
   } else {
     firmware::Home home;
     for (std::size_t i = 0; i < kLegs; ++i) {
-      home_[i] = home_of(calibration_->zero_in_turn[i], raw_.counts[i]);
+      home_[i] = home_of(calibration_->zero_in_turn[i], state_.raw_counts[i]);
       home.zero_counts[i] = std::clamp(home_[i], -1000000, 1000000);
     }
     (void)send(now, home);

@@ -23,12 +23,6 @@
 
 namespace carpus::devices {
 
-/// What the sensors say as they say it, for whoever calibrates.
-struct RawSensors {
-  std::array<std::int32_t, kLegs> counts{};
-  std::uint64_t samples = 0;
-};
-
 class ArmDevice final : public Device {
  public:
   /// @param calibrations  folder in which they are kept, read by each open().
@@ -45,7 +39,6 @@ class ArmDevice final : public Device {
   [[nodiscard]] const std::optional<firmware::Identity>& identity() const noexcept {
     return identity_;
   }
-  [[nodiscard]] const RawSensors& raw() const noexcept { return raw_; }
   /// Why a calibration could not be read, of the last open().
   [[nodiscard]] const std::vector<std::string>& problems() const noexcept { return problems_; }
 
@@ -80,8 +73,7 @@ class ArmDevice final : public Device {
   arm::DeltaArm arm_;
   firmware::HostDecoder decoder_;
   std::optional<firmware::Identity> identity_;
-  Vec3 weight_n_;  ///< drive B: that carries the arm where it is
-  RawSensors raw_;
+  Vec3 weight_n_;                           ///< drive B: that carries the arm where it is
   std::array<std::int32_t, kLegs> home_{};  ///< drive B: counts at angle 0, since it was started
   DeviceState state_;
   haptics::PassivityNet net_;

@@ -112,7 +112,7 @@ TEST(ArmDevice, WithoutACalibrationItSaysSoAndStillShowsItsCounts) {
   Desk<FakeStopArm> desk(Drive::Stop, false);
   desk.run_ms(100);
   EXPECT_EQ(desk.state.health, Health::Uncalibrated);
-  EXPECT_EQ(desk.device->raw().counts[1], 2046);
+  EXPECT_EQ(desk.state.raw_counts[1], 2046);
   EXPECT_FALSE(desk.fake.arm.is_driving());
 }
 

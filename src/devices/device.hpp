@@ -73,7 +73,12 @@ struct DeviceState {
   double round_trip_us = 0;   ///< of the last question that was answered; 0: not known
   double hottest_c = 0;       ///< 0: not known
   std::uint64_t refused = 0;  ///< frames, messages or numbers that were not believed
-  std::uint64_t unsent = 0;   ///< commands for which there was no room on the line
+  /// What its sensors say as they say it, for whoever calibrates.
+  std::array<std::int32_t, 3> raw_counts{};
+  std::uint64_t raw_samples = 0;
+  std::uint32_t unit = 0;  ///< of a device that tells its number
+  bool has_unit = false;
+  std::uint64_t unsent = 0;  ///< commands for which there was no room on the line
 };
 static_assert(std::is_trivially_copyable_v<DeviceState>);
 

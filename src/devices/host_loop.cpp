@@ -9,11 +9,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <utility>
 
 #include "devices/trusted_command.hpp"
+#include "devices/trusted_state.hpp"
 
 namespace carpus::devices {
 namespace {
@@ -21,21 +21,6 @@ namespace {
 /// Above the simulation's thread (20): a device must be told "nothing" when that one stalls.
 constexpr int kRealTimePriority = 30;
 constexpr Nanoseconds kSecondNs = 1'000'000'000;
-constexpr double kFarthestMm = 2000;
-constexpr double kFastestMmPerS = 20'000;
-
-/// A state that a driver let through and that cannot be: the last line before the trainer.
-bool is_sound(const DeviceState& state) noexcept {
-  if (!is_finite(state.position_mm) || !is_finite(state.velocity_mm_s) ||
-      !is_finite(state.spin_rad_s) || !is_finite(state.force_n)) {
-    return false;
-  }
-  for (const Vec3& row : state.rotation.rows) {
-    if (!(std::abs(squared_length(row) - 1) < 1e-3)) return false;
-  }
-  return length(state.position_mm) < kFarthestMm && length(state.velocity_mm_s) < kFastestMmPerS;
-}
-
 }  // namespace
 
 HostLoop::HostLoop(std::unique_ptr<Device> device) : device_(std::move(device)) {
@@ -75,7 +60,8 @@ void HostLoop::run() {
       publish();
     }
     device_->close();
-    if (!stopping_.load(std::memory_order_relaxed)) rest(kTryAgainMs);
+    const bool is_asked = reopening_.exchange(false, std::memory_order_relaxed);
+    if (!is_asked && !stopping_.load(std::memory_order_relaxed)) rest(kTryAgainMs);
   }
 }
 
@@ -119,7 +105,8 @@ void HostLoop::work_until_gone() noexcept {
   ticks_before_ = state_.timing.ticks;
   state_.able = device_->capabilities();
   bool is_there = true;
-  while (is_there && !stopping_.load(std::memory_order_relaxed)) {
+  while (is_there && !stopping_.load(std::memory_order_relaxed) &&
+         !reopening_.load(std::memory_order_relaxed)) {
     late_.add(static_cast<double>(clock.wait(state_.timing.missed)) / 1000.0);
     const Nanoseconds began = monotonic_now();
     (void)wishes_.take(wish_);

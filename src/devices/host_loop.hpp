@@ -55,6 +55,8 @@ class HostLoop {
   [[nodiscard]] bool take(LoopState& state) noexcept { return states_.take(state); }
   /// For another reader, whom it does not hurry: the same.
   [[nodiscard]] bool look(LoopState& state) noexcept { return looks_.take(state); }
+  /// Closes the device and opens it anew: what it reads from files has changed. By any thread.
+  void reopen() noexcept { reopening_.store(true, std::memory_order_relaxed); }
   /// Why the device could not be opened at the last try; empty when it was.
   [[nodiscard]] std::string problem() const;
 
@@ -87,6 +89,7 @@ class HostLoop {
   /// Set as a whole by the thread while no turn runs; read seldom.
   std::atomic<std::shared_ptr<const std::string>> problem_;
   std::atomic<bool> stopping_{false};
+  std::atomic<bool> reopening_{false};
   std::thread thread_;
 };
 
