@@ -190,7 +190,7 @@ void ArmDevice::heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) n
     has_place_ = false;
   }
   if (phase_ == Phase::Configuring && calibration_ != nullptr &&
-      (status & firmware::kStatusConfigured) != 0) {
+      (status & firmware::kStatusConfigured) != 0 && is_homed_by_us()) {
     phase_ = Phase::Working;
   }
 }
@@ -230,6 +230,11 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
     angles[i] = (motion.counts[i] - home_[i]) * kRadPerMotorCount;
   }
   place(now, angles);
+}
+
+/// What a device of drive B was told by another program is not known here.
+bool ArmDevice::is_homed_by_us() const noexcept {
+  return calibration_->drive == Drive::Stop || homed_unit_ == calibration_->unit;
 }
 
 void ArmDevice::place(Nanoseconds now, const arm::LegAngles& angles) noexcept {
@@ -272,6 +277,7 @@ void ArmDevice::configure(Nanoseconds now) noexcept {
     (void)send(now, firmware::Release{});  // its counts come first
   } else {
     firmware::Home home;
+    homed_unit_ = identity_->unit;
     for (std::size_t i = 0; i < kLegs; ++i) {
       home_[i] = home_of(calibration_->zero_in_turn[i], state_.raw_counts[i]);
       home.zero_counts[i] = std::clamp(home_[i], -1000000, 1000000);

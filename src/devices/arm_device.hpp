@@ -59,6 +59,7 @@ class ArmDevice final : public Device {
   void heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) noexcept;
   void place(Nanoseconds now, const arm::LegAngles& angles) noexcept;
   void configure(Nanoseconds now) noexcept;
+  [[nodiscard]] bool is_homed_by_us() const noexcept;
   [[nodiscard]] Health health_at(Nanoseconds now) const noexcept;
   /// In the arm's own frame.
   [[nodiscard]] haptics::HapticWish wish_of(const DeviceCommand& command) const noexcept;
@@ -73,8 +74,11 @@ class ArmDevice final : public Device {
   arm::DeltaArm arm_;
   firmware::HostDecoder decoder_;
   std::optional<firmware::Identity> identity_;
-  Vec3 weight_n_;                           ///< drive B: that carries the arm where it is
-  std::array<std::int32_t, kLegs> home_{};  ///< drive B: counts at angle 0, since it was started
+  Vec3 weight_n_;  ///< drive B: that carries the arm where it is
+  /// Drive B: counts at angle 0 of the unit that was homed last. They hold until that is reset, so
+  /// that a line that is opened anew need not find the arm in its cradle.
+  std::array<std::int32_t, kLegs> home_{};
+  std::optional<std::uint32_t> homed_unit_;
   DeviceState state_;
   haptics::PassivityNet net_;
   haptics::ForceLimiter limiter_{kMostForceN};

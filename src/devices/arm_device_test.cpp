@@ -77,6 +77,21 @@ TEST(ArmDevice, SaysWhereTheTipOfDriveBIsWhateverTurnItsMotorsAreIn) {
   EXPECT_TRUE(desk.device->capabilities().force);
 }
 
+TEST(ArmDevice, DriveBIsHomedInItsCradleAndStaysSoWhenItsLineIsOpenedAnew) {
+  Desk<FakeMotorArm> desk(Drive::Motor);
+  desk.put({0, 0, 0});
+  desk.run_ms(100);
+  for (int i = 0; i <= 40; ++i) {  // farther than half a turn of a motor
+    desk.put({0, 0, -1.0 * i});
+    desk.run_ms(10);
+  }
+  EXPECT_NEAR(desk.state.position_mm.z, -40, 0.1);
+  desk.device->open();
+  desk.run_ms(100);
+  EXPECT_EQ(desk.state.health, Health::Good);
+  EXPECT_NEAR(desk.state.position_mm.z, -40, 0.1);
+}
+
 TEST(ArmDevice, AWallOfDriveBPushesOutAndNeverBeyondTheLimit) {
   Desk<FakeMotorArm> desk(Drive::Motor);
   desk.put({0, 0, 2});

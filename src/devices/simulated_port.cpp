@@ -25,8 +25,13 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kLateMs = 50;
 
+/// So long after the host has said its first word the arm still lies in its cradle, and so long
+/// after its last it is laid back.
+constexpr double kRestS = 0.6;
+
 /// The hand's wish: a small circle once in eight seconds, and down and up in five.
 virtual_arm::Intent intent_at(double s, const Vec3& centre) {
+  if (!(s > 0)) return {centre, {}};
   const double turn = 2 * kPi * s / 8;
   const double dip = 2 * kPi * s / 5;
   const double soft = s < 1 ? s : 1;  // from where it lies
@@ -93,6 +98,8 @@ void SimulatedPort::run() {
   const Vec3 centre = arm.size().centre;
   Nanoseconds began = monotonic_now() - static_cast<Nanoseconds>(arm.now_us() * 1000);
   std::uint8_t bytes[256];
+  double first_heard_us = -1;
+  double last_heard_us = 0;
   while (!stopping_.load(std::memory_order_relaxed)) {
     const double due_us = static_cast<double>(monotonic_now() - began) / 1000;
     if (due_us - arm.now_us() > 1000.0 * kLateMs) {
@@ -102,9 +109,16 @@ void SimulatedPort::run() {
       lost_ms_.fetch_add(static_cast<long>(lost_us / 1000), std::memory_order_relaxed);
       continue;
     }
-    arm.plant().set_intent(intent_at(due_us * 1e-6, centre));
     const ssize_t count = ::read(master_, bytes, sizeof bytes);
-    if (count > 0) arm.send({bytes, static_cast<std::size_t>(count)});
+    if (count > 0) {
+      arm.send({bytes, static_cast<std::size_t>(count)});
+      if (first_heard_us < 0) first_heard_us = due_us;
+      last_heard_us = due_us;
+    } else if (due_us - last_heard_us > kRestS * 1e6) {
+      first_heard_us = -1;
+    }
+    const double moves_s = first_heard_us < 0 ? 0 : (due_us - first_heard_us) * 1e-6 - kRestS;
+    arm.plant().set_intent(intent_at(moves_s, centre));
     arm.run_to_us(due_us);
     if (!going.empty()) {
       // What nobody reads is lost, as on a line.

@@ -14,6 +14,10 @@
 #include "cli/bench_replay_command.hpp"
 #include "cli/bench_tick_command.hpp"
 #include "cli/collide_command.hpp"
+#include "cli/device_calibrate_command.hpp"
+#include "cli/device_list_command.hpp"
+#include "cli/device_simulate_command.hpp"
+#include "cli/device_test_command.hpp"
 #include "cli/fluoroscopy_command.hpp"
 #include "cli/hull_command.hpp"
 #include "cli/kinematics_command.hpp"
@@ -49,6 +53,13 @@ void add_commands(CLI::App& app) {
   add_score_command(app);
   add_attempts_command(app);
   add_study_command(app);
+  CLI::App* device =
+      app.add_subcommand("device", "Force-feedback arms and other devices of a hand");
+  device->require_subcommand(1);
+  add_device_list_command(*device);
+  add_device_test_command(*device);
+  add_device_calibrate_command(*device);
+  add_device_simulate_command(*device);
   CLI::App* bench = app.add_subcommand("bench", "Measure how fast things are on this machine");
   bench->require_subcommand(1);
   add_bench_tick_command(*bench);

@@ -1,0 +1,122 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/device_calibrate_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/device_choice.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "devices/arm_calibrator.hpp"
+#include "records/utc_time.hpp"
+
+namespace carpus::cli {
+namespace {
+
+using devices::LoopState;
+
+struct CalibrateArguments {
+  std::string device;
+};
+
+/// What the sensors say for a quarter of a second.
+std::vector<std::array<std::int32_t, devices::kLegs>> listen(devices::HostLoop& loop) {
+  std::vector<std::array<std::int32_t, devices::kLegs>> samples;
+  LoopState state;
+  std::uint64_t last = 0;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(1000);
+  while (samples.size() < devices::kSamplesOfStep && std::chrono::steady_clock::now() < until) {
+    if (loop.look(state) && state.device.raw_samples != last) {
+      last = state.device.raw_samples;
+      samples.push_back(state.device.raw_counts);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  return samples;
+}
+
+void wait_for_enter(const std::string& what) {
+  std::printf("%s Then press Enter. ", what.c_str());
+  std::fflush(stdout);
+  if (std::string line; !std::getline(std::cin, line)) {
+    throw InvalidInput("the calibration was given up; what was known before stays");
+  }
+}
+
+std::optional<devices::ArmCalibration> known(const devices::DeviceSearch& search,
+                                             firmware::Drive drive,
+                                             std::uint32_t unit) {
+  std::vector<std::string> problems;
+  for (auto& one : devices::load_calibrations(search.calibrations, problems)) {
+    if (one.drive == drive && one.unit == unit) return one;
+  }
+  return std::nullopt;
+}
+
+void run(const CalibrateArguments& arguments) {
+  const devices::DeviceSearch search = devices::search_here();
+  const std::string id = choose_device(arguments.device, search);
+  if (!id.starts_with("arm:")) {
+    throw InvalidInput(id + " needs no calibration of ours; 'carpus device test' tries it");
+  }
+  devices::HostLoop loop(devices::make_device(id, search));
+  LoopState state;
+  if (!wait_until(loop, state, kStartSeconds,
+                  [](const LoopState& now) { return now.device.raw_samples > 0; })) {
+    throw IoError(id + ": " + health_in_words(loop, state));
+  }
+  const firmware::Drive drive = state.able.stop ? firmware::Drive::Stop : firmware::Drive::Motor;
+  std::printf("%s: drive %s, unit %u\n", id.c_str(), state.able.stop ? "A" : "B",
+              state.device.unit);
+  devices::ArmCalibrator calibrator(drive, state.device.unit,
+                                    known(search, drive, state.device.unit));
+  std::optional<devices::ArmCalibration> made;
+  while (!made) {
+    while (!calibrator.is_complete()) {
+      wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" +
+                     std::to_string(calibrator.step_count()) + "] " + calibrator.instruction());
+      if (const auto problem = calibrator.take(listen(loop))) {
+        std::printf("  %s\n", problem->c_str());
+      }
+    }
+    const Result<devices::ArmCalibration> result = calibrator.finish(records::utc_now());
+    if (result) {
+      made = *result;
+    } else {
+      std::printf("%s\n", result.error().c_str());
+    }
+  }
+  devices::store(*made, search.calibrations);
+  if (drive == firmware::Drive::Stop) {
+    for (std::size_t leg = 0; leg < devices::kLegs; ++leg) {
+      std::printf("leg %zu: a straight line would be up to %.1f degrees off; that is taken off\n",
+                  leg + 1, degrees_from_radians(made->legs[leg].line_error_rad));
+    }
+  }
+  loop.reopen();
+  wait_until(loop, state, kStartSeconds,
+             [](const LoopState& now) { return devices::is_usable(now.device.health); });
+  std::printf("stored in %s; the arm is now: %s\n",
+              (search.calibrations / devices::calibration_file_name(drive, made->unit)).c_str(),
+              health_in_words(loop, state).c_str());
+}
+
+}  // namespace
+
+void add_device_calibrate_command(CLI::App& device) {
+  auto arguments = std::make_shared<CalibrateArguments>();
+  CLI::App* command = device.add_subcommand("calibrate", "Calibrate an arm, guided step by step");
+  command->add_option("--device", arguments->device,
+                      "Id as 'list' shows it; the only one if left out");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace carpus::cli

@@ -1,0 +1,16 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `carpus device test`.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace carpus::cli {
+
+/// Registers `test` below `device`; its callback throws carpus::Error where it fails.
+void add_device_test_command(CLI::App& device);
+
+}  // namespace carpus::cli
