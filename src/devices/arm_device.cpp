@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/units.hpp"
-#include "haptics/leg_stops.hpp"
 
 namespace carpus::devices {
 namespace {
@@ -15,6 +14,8 @@ namespace {
 using firmware::Drive;
 
 constexpr double kUnitsPerRad = 8192 / kPi;
+/// Of potentiometers' angles, each millisecond: 5 ms.
+constexpr double kAngleFilter = 0.2;
 /// Of the tip's velocity: 20 ms.
 constexpr double kVelocityFilterS = 0.02;
 constexpr double kMostVelocityMmPerS = 5000;
@@ -206,6 +207,7 @@ void ArmDevice::take(Nanoseconds now, const firmware::Sensors& sensors) noexcept
   arm::LegAngles angles{};
   for (std::size_t i = 0; i < kLegs; ++i) {
     angles[i] = calibration_->legs[i].angle_at(sensors.counts[i]);
+    if (has_place_) angles[i] = angles_[i] + kAngleFilter * (angles[i] - angles_[i]);
   }
   place(now, angles);
 }
@@ -253,6 +255,7 @@ void ArmDevice::place(Nanoseconds now, const arm::LegAngles& angles) noexcept {
   }
   const Vec3 position = *tip - arm_.centre;
   weight_n_ = weight_at(arm_, angles);
+  angles_ = angles;
   if (has_place_ && now > placed_ns_) {
     const double seconds = static_cast<double>(now - placed_ns_) * 1e-9;
     const Vec3 velocity = (position - state_.position_mm) / seconds;
@@ -305,7 +308,7 @@ haptics::HapticWish ArmDevice::wish_of(const DeviceCommand& command) const noexc
 }
 
 /// One plane at a time is all that stops can be: the one that the tip is deepest in or nearest to.
-firmware::Stop ArmDevice::stops_of(const haptics::HapticWish& wish) const noexcept {
+firmware::Stop ArmDevice::stops_of(const haptics::HapticWish& wish) noexcept {
   const Vec3 tip = state_.position_mm + arm_.centre;
   const haptics::SurfacePlane* nearest = nullptr;
   double least = haptics::kNearSurfaceMm;
@@ -316,8 +319,8 @@ firmware::Stop ArmDevice::stops_of(const haptics::HapticWish& wish) const noexce
     nearest = &wish.planes[i];
   }
   // Free legs are a wish too: the slots follow the legs, so that the hand feels nothing.
-  if (nearest == nullptr) return firmware::Stop{};
-  return haptics::leg_stops(arm_, calibration_->legs, *nearest, tip, state_.velocity_mm_s);
+  if (nearest == nullptr) return stops_.free();
+  return stops_.at(arm_, *nearest, angles_, tip, state_.velocity_mm_s);
 }
 
 void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept {

@@ -18,6 +18,7 @@
 #include "devices/device.hpp"
 #include "devices/trusted_command.hpp"
 #include "firmware/core/frame_decoder.hpp"
+#include "haptics/leg_stops.hpp"
 #include "haptics/local_planes.hpp"
 #include "haptics/passivity_net.hpp"
 
@@ -63,7 +64,7 @@ class ArmDevice final : public Device {
   [[nodiscard]] Health health_at(Nanoseconds now) const noexcept;
   /// In the arm's own frame.
   [[nodiscard]] haptics::HapticWish wish_of(const DeviceCommand& command) const noexcept;
-  [[nodiscard]] firmware::Stop stops_of(const haptics::HapticWish& wish) const noexcept;
+  [[nodiscard]] firmware::Stop stops_of(const haptics::HapticWish& wish) noexcept;
 
   OpenLink open_link_;
   std::filesystem::path folder_;
@@ -80,6 +81,8 @@ class ArmDevice final : public Device {
   std::array<std::int32_t, kLegs> home_{};
   std::optional<std::uint32_t> homed_unit_;
   DeviceState state_;
+  arm::LegAngles angles_{};
+  haptics::LegStops stops_;
   haptics::PassivityNet net_;
   haptics::ForceLimiter limiter_{kMostForceN};
   Phase phase_ = Phase::Greeting;
