@@ -16,8 +16,8 @@ std::optional<PortalState> portal_state(const PortalTool& tool, const Vec3& hand
   state.along = to_portal / state.outside_mm;
   state.tip = handle + state.along * tool.length_mm;
   state.depth_mm = tool.length_mm - state.outside_mm;
-  state.pitch_rad = std::asin(std::clamp(state.along.x, -1.0, 1.0));
-  state.yaw_rad = std::atan2(state.along.y, -state.along.z);
+  state.pitch_rad = std::atan2(state.along.x, -state.along.z);
+  state.yaw_rad = std::asin(std::clamp(state.along.y, -1.0, 1.0));
   if (!is_finite(state.tip)) return std::nullopt;
   return state;
 }
@@ -42,7 +42,7 @@ Vec3 portal_force(const PortalState& state, const Vec3& tip_force) noexcept {
 }
 
 Mat3 tool_rotation(const PortalState& state, double roll_rad) noexcept {
-  return rotation_about({1, 0, 0}, state.yaw_rad) * rotation_about({0, 1, 0}, -state.pitch_rad) *
+  return rotation_about({0, 1, 0}, -state.pitch_rad) * rotation_about({1, 0, 0}, state.yaw_rad) *
          rotation_about({0, 0, 1}, roll_rad);
 }
 

@@ -34,8 +34,8 @@ inline constexpr double kLeastOutsideMm = 20.0;
 struct PortalState {
   Vec3 tip;
   Vec3 along;            ///< unit, from the handle to the tip
-  double pitch_rad = 0;  ///< lean to +x: about the gimbal's inner axis
-  double yaw_rad = 0;    ///< lean to +y: about its outer axis, which is the platform's x
+  double pitch_rad = 0;  ///< lean to +x: about the gimbal's outer axis, which is the platform's y
+  double yaw_rad = 0;    ///< lean to +y: about its inner axis
   double depth_mm = 0;   ///< of the tip behind the portal; negative while it is outside
   double outside_mm = 0;
 };

@@ -91,7 +91,7 @@ TEST(PortalTool, LiesAsItsGimbalTurnsIt) {
     EXPECT_LT(distance(rotation * Vec3{0, 0, -1}, state->along), 1e-12);
     EXPECT_NEAR(rotation.determinant(), 1, 1e-12);
     // The inner axis, before the roll, stays across the outer one, which is the platform's.
-    EXPECT_NEAR((tool_rotation(*state, 0) * Vec3{0, 1, 0}).x, 0, 1e-12);
+    EXPECT_NEAR((tool_rotation(*state, 0) * Vec3{1, 0, 0}).y, 0, 1e-12);
   }
 }
 
