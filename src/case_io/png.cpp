@@ -6,6 +6,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -30,18 +31,22 @@ void add_chunk(std::string& file, std::string_view type, std::string_view data) 
           four_bytes(static_cast<std::uint32_t>(crc));
 }
 
-}  // namespace
-
-std::string png_of_grey(int width, int height, std::span<const std::uint8_t> grey) {
+/// @param kind  the header's last five bytes: depth, colours, and three that are always 0.
+/// @param palette  the whole chunk, or empty.
+std::string png_of(int width,
+                   int height,
+                   std::string_view kind,
+                   const std::string& palette,
+                   std::span<const std::uint8_t> values) {
   const auto w = static_cast<std::size_t>(width);
-  if (width <= 0 || height <= 0 || grey.size() != w * static_cast<std::size_t>(height)) {
+  if (width <= 0 || height <= 0 || values.size() != w * static_cast<std::size_t>(height)) {
     throw InvalidInput("png: the picture's size does not agree with its values");
   }
   std::vector<Bytef> rows;
-  for (std::size_t at = 0; at < grey.size(); at += w) {
+  for (std::size_t at = 0; at < values.size(); at += w) {
     rows.push_back(0);  // no filter
-    rows.insert(rows.end(), grey.begin() + static_cast<std::ptrdiff_t>(at),
-                grey.begin() + static_cast<std::ptrdiff_t>(at + w));
+    rows.insert(rows.end(), values.begin() + static_cast<std::ptrdiff_t>(at),
+                values.begin() + static_cast<std::ptrdiff_t>(at + w));
   }
   uLongf size = ::compressBound(static_cast<uLong>(rows.size()));
   std::string packed(size, '\0');
@@ -51,13 +56,33 @@ std::string png_of_grey(int width, int height, std::span<const std::uint8_t> gre
   }
   packed.resize(size);
   std::string file = "\x89PNG\r\n\x1a\n";
-  const std::string depth_grey_plain("\x08\x00\x00\x00\x00", 5);
   add_chunk(file, "IHDR",
             four_bytes(static_cast<std::uint32_t>(width)) +
-                four_bytes(static_cast<std::uint32_t>(height)) + depth_grey_plain);
+                four_bytes(static_cast<std::uint32_t>(height)) + std::string(kind));
+  if (!palette.empty()) add_chunk(file, "PLTE", palette);
   add_chunk(file, "IDAT", packed);
   add_chunk(file, "IEND", "");
   return file;
+}
+
+}  // namespace
+
+std::string png_of_grey(int width, int height, std::span<const std::uint8_t> grey) {
+  return png_of(width, height, std::string_view("\x08\x00\x00\x00\x00", 5), "", grey);
+}
+
+std::string png_of_indexed(int width,
+                           int height,
+                           std::span<const std::array<std::uint8_t, 3>> palette,
+                           std::span<const std::uint8_t> indices) {
+  if (palette.empty() || palette.size() > 256 ||
+      std::any_of(indices.begin(), indices.end(),
+                  [&](std::uint8_t index) { return index >= palette.size(); })) {
+    throw InvalidInput("png: a value without a colour");
+  }
+  std::string colours;
+  for (const auto& colour : palette) colours.append(colour.begin(), colour.end());
+  return png_of(width, height, std::string_view("\x08\x03\x00\x00\x00", 5), colours, indices);
 }
 
 }  // namespace carpus::case_io

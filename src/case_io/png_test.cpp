@@ -45,6 +45,15 @@ TEST(Png, HoldsTheValuesAndAgreesWithItsChecks) {
   EXPECT_EQ(rows, (std::array<Bytef, 8>{0, 0, 50, 100, 0, 150, 200, 255}));
 }
 
+TEST(Png, HoldsColoursBeforeTheValuesThatNameThem) {
+  const std::vector<std::array<std::uint8_t, 3>> palette{{1, 2, 3}, {4, 5, 6}};
+  const std::vector<std::uint8_t> indices{0, 1};
+  const std::string file = png_of_indexed(2, 1, palette, indices);
+  EXPECT_EQ(file[25], 3);  // the header's kind of colours
+  EXPECT_EQ(file.substr(37, 10), "PLTE\x01\x02\x03\x04\x05\x06");
+  EXPECT_THROW((void)png_of_indexed(1, 1, palette, std::vector<std::uint8_t>{2}), InvalidInput);
+}
+
 TEST(Png, RefusesSizesThatDoNotAgree) {
   const std::vector<std::uint8_t> grey(6);
   EXPECT_THROW((void)png_of_grey(2, 2, grey), InvalidInput);
