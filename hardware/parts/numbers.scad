@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lengths [mm] and angles [degrees] of the arm, revision 1. What the program computes with as well is marked; those are
-// held to it by hardware/numbers_test.cpp. Frame of a leg: x outwards from its axis, y along the axis, z up.
+// held to it by hardware/workshop/numbers_test.cpp. Frame of a leg: x outwards from its axis, y along the axis, z up.
 
 // --- as the program has them (firmware/core/delta.hpp, src/arm) ---
 upper_arm = 80;

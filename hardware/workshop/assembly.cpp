@@ -85,10 +85,10 @@ class Builder {
     add("controller", Group::Base, Material::Servo, box({-9, -22, 6}, {9, 22, 9}),
         at({-122, 112, board + 9}));
     add("mushroom_switch", Group::Base, Material::Servo, box({-24, -24, 0}, {24, 24, 34}),
-        at({158, 112, board}));
-    add("mushroom_switch", Group::Base, Material::Red, cylinder(15, 42, 52), at({158, 112, board}));
+        at({165, -62, board}));
+    add("mushroom_switch", Group::Base, Material::Red, cylinder(15, 42, 52), at({165, -62, board}));
     add("mushroom_switch", Group::Base, Material::Steel, cylinder(8, 34, 42),
-        at({158, 112, board}));
+        at({165, -62, board}));
   }
 
   void leg(int i) {

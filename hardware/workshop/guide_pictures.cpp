@@ -140,7 +140,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
   };
   const auto everything = [](const Piece&) { return Look{}; };
   Camera seen;
-  seen.around_deg = 28;
+  seen.around_deg = -22;
   seen.above_deg = 20;
   std::vector<Picture> pictures;
   pictures.push_back({"arm_a", whole(Drive::A, false, {12, -14, -138}), everything, {}, seen});
@@ -271,7 +271,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
 
   Camera plate = seen;
   plate.above_deg = 40;
-  plate.around_deg = 20;
+  plate.around_deg = -50;
   const auto modules = [](const Piece& p) -> std::optional<Look> {
     if (is_rod(p) || is_board(p) || is_tool(p) ||
         is_one_of(p, {"post", "post_socket", "post_foot", "platform"}) ||
@@ -344,7 +344,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
                                     {}};
                       },
                       {"tray", "controller", "mushroom_switch", "servo", "potentiometer"},
-                      plate});
+                      seen});
   Camera pin;
   pin.around_deg = -35;
   pin.above_deg = 18;
@@ -376,7 +376,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
        {"tool_handle", "cradle", "portal_frame"},
        cradle});
   Camera scope = seen;
-  scope.around_deg = 35;
+  scope.around_deg = -30;
   scope.above_deg = 16;
   pictures.push_back({"scope",
                       whole(Drive::A, true, {10, -20, -140}),
