@@ -31,7 +31,7 @@ void print_clearance(const Numbers& numbers, const Parts& parts, Drive drive, in
         options.tip += Vec3{50.0 * x / steps, 50.0 * y / steps, 40.0 * z / steps};
         // The tool is in its portal: it does not lean as far as the arm could go.
         options.has_tool = tool_may_be_at(options.tip);
-        for (const Nearness& near : clearance.near_pairs(assemble(numbers, parts, options), 4)) {
+        for (const Nearness& near : clearance.near_pairs(assemble(numbers, parts, options), 2)) {
           auto& kept = nearest.try_emplace({near.one, near.other}, 1e9, Vec3{}).first->second;
           if (near.distance_mm < kept.first) kept = {near.distance_mm, options.tip};
         }
