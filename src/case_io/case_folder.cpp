@@ -16,6 +16,7 @@
 #include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "case_io/glb.hpp"
+#include "case_io/lesson_file.hpp"
 #include "case_io/ply.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/error.hpp"
@@ -177,6 +178,7 @@ cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
   progress("loading", ++done / steps);
   data.labels = read_grid<std::uint8_t>(folder, "labels.nii.gz", header);
   progress("loading", 1.0);
+  data.lesson = read_lesson(folder);
   return std::move(header.data);
 }
 

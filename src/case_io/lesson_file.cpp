@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_io/lesson_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,8 @@ constexpr std::array<std::string_view, 3> kSizes{"small", "average", "large"};
 constexpr std::size_t kLongestTitle = 128;
 constexpr std::size_t kLongestText = 1024;
 constexpr std::size_t kLargestFile = 16384;
+constexpr std::size_t kMostReasons = 8;
+constexpr std::size_t kLongestReason = 32;
 constexpr double kFarMm = 1000;
 constexpr double kMostSeed = 9007199254740991.0;
 
@@ -59,6 +62,21 @@ cases::ExpertProof read_expert(JsonFields fields) {
   return proof;
 }
 
+std::vector<std::string> read_decline_for(JsonFields& fields, cases::RightAnswer answer) {
+  std::vector<std::string> reasons = fields.texts_or_none("decline_for");
+  if (!reasons.empty() && answer != cases::RightAnswer::Decline) {
+    fields.refuse("decline_for stands beside an answer that is not to decline");
+  }
+  if (reasons.size() > kMostReasons) fields.refuse("decline_for has too many reasons");
+  for (const std::string& reason : reasons) {
+    const bool is_plain = !reason.empty() && reason.size() <= kLongestReason &&
+                          std::all_of(reason.begin(), reason.end(),
+                                      [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
+    if (!is_plain) fields.refuse("decline_for has '" + reason + "', which is not of a-z and _");
+  }
+  return reasons;
+}
+
 }  // namespace
 
 std::string lesson_text(const Lesson& lesson) {
@@ -67,10 +85,12 @@ std::string lesson_text(const Lesson& lesson) {
   json["format"] = kFormat;
   json["schema_version"] = cases::kLessonSchemaVersion;
   json["title"] = lesson.title;
+  if (!lesson.history.empty()) json["history"] = lesson.history;
   json["goal"] = lesson.goal;
   json["size"] = lesson.size;
   json["right_answer"] = name_of(lesson.right_answer);
   json["reason"] = lesson.reason;
+  if (!lesson.decline_for.empty()) json["decline_for"] = lesson.decline_for;
   json["difficulty"] = {{"corridor_clearance_mm", d.corridor_clearance_mm},
                         {"corridor_length_mm", d.corridor_length_mm},
                         {"smaller_part_mm", d.smaller_part_mm},
@@ -101,11 +121,14 @@ Lesson parse_lesson(const std::string& text, const std::string& file) {
   }
   Lesson lesson;
   lesson.title = short_text(fields, "title", kLongestTitle);
+  // Files of version 1 have neither this nor decline_for.
+  if (fields.has("history")) lesson.history = short_text(fields, "history", kLongestText);
   lesson.goal = short_text(fields, "goal", kLongestText);
   lesson.size = kSizes[fields.choice("size", kSizes)];
   lesson.right_answer =
       static_cast<cases::RightAnswer>(fields.choice("right_answer", cases::kRightAnswers));
   lesson.reason = short_text(fields, "reason", kLongestText);
+  lesson.decline_for = read_decline_for(fields, lesson.right_answer);
   lesson.difficulty = read_difficulty(fields.object("difficulty"));
   if (fields.has("expert")) lesson.expert = read_expert(fields.object("expert"));
   fields.refuse_unknown_fields();

@@ -15,6 +15,7 @@ namespace {
 cases::Lesson lesson() {
   cases::Lesson l;
   l.title = "Waist, in place";
+  l.history = "Man, 24. Fell four days ago.";
   l.goal = "Find the fracture on the PA.";
   l.size = "average";
   l.right_answer = cases::RightAnswer::ReduceFirst;
@@ -34,7 +35,24 @@ TEST(LessonFile, GivesBackWhatWasWritten) {
   cases::Lesson l = lesson();
   EXPECT_EQ(parse_lesson(lesson_text(l), "lesson.json"), l);
   l.expert.reset();
+  l.history.clear();
+  l.right_answer = cases::RightAnswer::Decline;
+  l.decline_for = {"flexed", "bone_lost"};
   EXPECT_EQ(parse_lesson(lesson_text(l), "lesson.json"), l);
+}
+
+TEST(LessonFile, ReadsOneOfTheFirstVersion) {
+  nlohmann::json json = nlohmann::json::parse(changed("/schema_version", 1));
+  json.erase("history");
+  EXPECT_EQ(parse_lesson(json.dump(), "lesson.json").history, "");
+}
+
+TEST(LessonFile, RefusesReasonsThatAreNoIds) {
+  nlohmann::json json = nlohmann::json::parse(changed("/right_answer", "decline"));
+  json["decline_for"] = {"Too flexed"};
+  EXPECT_THROW((void)parse_lesson(json.dump(), "lesson.json"), InvalidInput);
+  json["decline_for"] = "flexed";
+  EXPECT_THROW((void)parse_lesson(json.dump(), "lesson.json"), InvalidInput);
 }
 
 TEST(LessonFile, ACaseNeedNotHaveOne) { EXPECT_FALSE(read_lesson("/nowhere")); }
@@ -47,6 +65,7 @@ TEST(LessonFile, RefusesWhatIsWrong) {
         changed("/right_answer", "amputate"), changed("/difficulty/overall", 101),
         changed("/difficulty/gap_mm", "wide"), changed("/difficulty/colour", 1),
         changed("/expert/is_acceptable", "yes"), changed("/expert/seed", -1),
+        changed("/history", "tab\t"), changed("/decline_for", {"flexed"}),
         changed("/solution", "fix")}) {
     EXPECT_THROW((void)parse_lesson(text, "lesson.json"), InvalidInput) << text;
   }
@@ -54,10 +73,10 @@ TEST(LessonFile, RefusesWhatIsWrong) {
 
 TEST(LessonFile, RefusesANewerOneByItsVersion) {
   try {
-    (void)parse_lesson(changed("/schema_version", 2), "lesson.json");
+    (void)parse_lesson(changed("/schema_version", 3), "lesson.json");
     FAIL();
   } catch (const SchemaError& error) {
-    EXPECT_NE(std::string(error.what()).find("version 2"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("version 3"), std::string::npos) << error.what();
   }
 }
 

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "anatomy/bone_id.hpp"
 #include "cases/hand_motion.hpp"
+#include "cases/lesson.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/mesh_in.hpp"
@@ -74,6 +76,7 @@ struct CaseData {
   MeshIn<frame::Patient>
       skin;  ///< as scanned [mm]; may be empty, may be open at the field of view's ends
   ScaphoidLandmarks scaphoid;
+  std::optional<Lesson> lesson;  ///< from its own file; none where nobody wrote one
   /// Where the bones are for any way the hand is held; empty in a case of an older program until
   /// ensure_hand_motion (make_hand_motion.hpp).
   HandMotion hand_motion;

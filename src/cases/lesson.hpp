@@ -10,10 +10,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace carpus::cases {
 
-inline constexpr int kLessonSchemaVersion = 1;
+inline constexpr int kLessonSchemaVersion = 2;
 
 /// What should be done about the fracture.
 enum class RightAnswer : std::uint8_t {
@@ -50,10 +51,13 @@ struct ExpertProof {
 
 struct Lesson {
   std::string title;
-  std::string goal;  ///< what is to be learnt
-  std::string size;  ///< "small", "average", "large"
+  std::string history;  ///< what the patient tells: no diagnosis, so that it can be told beforehand
+  std::string goal;     ///< what is to be learnt
+  std::string size;     ///< "small", "average", "large"
   RightAnswer right_answer = RightAnswer::Fix;
   std::string reason;  ///< for that answer
+  /// Which of a procedure's reasons to decline hold here (procedure.json); none unless Decline.
+  std::vector<std::string> decline_for;
   Difficulty difficulty;
   std::optional<ExpertProof> expert;  ///< none: nobody tried
   bool operator==(const Lesson&) const = default;

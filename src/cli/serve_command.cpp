@@ -9,11 +9,15 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "case_io/glb.hpp"
+#include "cli/find_cases.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "procedures/built_in.hpp"
@@ -31,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ServeArguments {
-  std::string case_folder = kDefaultCase;
+  std::vector<std::string> cases{kDefaultCase};
   std::string records = kDefaultRecords;
   std::uint16_t port = 8080;
   std::string listen = "127.0.0.1";
@@ -150,29 +154,87 @@ void say_ready(const ServeArguments& arguments,
   std::fflush(stdout);
 }
 
+/// Which case was open last, beside the records: what a killed station left is of that one.
+class OpenCase {
+ public:
+  OpenCase(FoundCases& found, const fs::path& records)
+      : found_(found), file_(fs::path(records).replace_extension(".case")) {
+    std::ifstream in(file_);
+    std::string id;
+    if (std::getline(in, id) && found_.shelf.find(id) != nullptr) found_.shelf.open = id;
+  }
+  void choose(const std::string& id) {
+    records::write_file_atomically(file_, id + "\n");
+    found_.shelf.open = id;
+  }
+  [[nodiscard]] const fs::path& folder() const { return found_.folders.at(found_.shelf.open); }
+
+ private:
+  FoundCases& found_;
+  fs::path file_;
+};
+
+/// What stays while cases come and go.
+struct Station {
+  const ServeArguments& arguments;
+  server::NetworkOptions& options;
+  records::AttemptKeeper& records;
+  const server::Log& log_line;
+  fs::path web;
+  std::shared_ptr<server::AttemptOwners> owners = std::make_shared<server::AttemptOwners>();
+};
+
+/// Serves the open case until it is stopped, or another is chosen: returns that one's id, or "".
+std::string serve_one(Station& s, const server::CaseShelf& shelf, const cases::CaseData& data) {
+  const procedure::ProcedureList& procedures = procedures::built_in();
+  std::string chosen;
+  std::function<void()> stop;
+  const auto choose = [&](const std::string& id) {
+    if (shelf.find(id) == nullptr) return false;
+    chosen = id;
+    stop();
+    return true;
+  };
+  server::Station station(data, procedures, s.records, s.log_line, {}, {choose, s.owners});
+  const server::StationHttp http(data, procedures, case_io::make_case_glb(data), s.records,
+                                 station.owners(), s.web, shelf);
+  server::NetworkServer network(
+      s.options, [&http](const server::HttpRequest& request) { return http.answer(request); },
+      station);
+  stop = [&network] { network.stop(); };
+  network.stop_on_signals();
+  station.attach(network);
+  s.options.port = network.port();  // the next case is where this one was
+  const std::string url = network.url();
+  const LinkFile link_file(s.arguments.link_file,
+                           s.options.links ? link(url, s.options.links->instructor) : url);
+  say_ready(s.arguments, s.options, url, data, s.log_line);
+  network.run();
+  station.detach();
+  return chosen;
+}
+
 void run(const ServeArguments& arguments) {
   const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
   make_parent_folder(arguments.records);
-  const server::NetworkOptions options = network_options(arguments);
+  server::NetworkOptions options = network_options(arguments);
+  FoundCases found = find_cases(arguments.cases);
   server::LogWriter log(STDERR_FILENO);
-  const auto log_line = [&log](const std::string& line) { log.write("carpus: " + line); };
+  const server::Log log_line = [&log](const std::string& line) { log.write("carpus: " + line); };
   records::AttemptKeeper records(arguments.records, log_line);
-  const cases::CaseData data = load_case(arguments.case_folder);
-  const procedure::ProcedureList& procedures = procedures::built_in();
-  server::Station station(data, procedures, records, log_line);
-  const server::StationHttp http(data, procedures, case_io::make_case_glb(data), records,
-                                 station.owners(), web);
-  server::NetworkServer network(
-      options, [&http](const server::HttpRequest& request) { return http.answer(request); },
-      station);
-  network.stop_on_signals();
-  station.attach(network);
-  const std::string url = network.url();
-  const LinkFile link_file(arguments.link_file,
-                           options.links ? link(url, options.links->instructor) : url);
-  say_ready(arguments, options, url, data, log_line);
-  network.run();
-  station.detach();
+  OpenCase open(found, arguments.records);
+  Station station{arguments, options, records, log_line, web};
+  cases::CaseData data = load_case(open.folder());
+  while (true) {
+    const std::string chosen = serve_one(station, found.shelf, data);
+    if (chosen.empty()) break;
+    try {
+      data = load_case(found.folders.at(chosen));
+      open.choose(chosen);
+    } catch (const Error& error) {
+      log_line(std::string("the case stays as it was: ") + error.what());
+    }
+  }
   if (const std::size_t waiting = records.settle(); waiting > 0) {
     throw IoError(std::to_string(waiting) + " attempts could not be stored in " +
                   arguments.records + "; the messages above say where they are");
@@ -184,7 +246,9 @@ void run(const ServeArguments& arguments) {
 void add_serve_command(CLI::App& app) {
   auto arguments = std::make_shared<ServeArguments>();
   CLI::App* command = app.add_subcommand("serve", "Serve the trainer to a browser");
-  command->add_option("--case", arguments->case_folder, "Case folder to operate on")
+  command
+      ->add_option("--case", arguments->cases,
+                   "Case folder to operate on, or a folder of them; several times for a choice")
       ->capture_default_str();
   command->add_option("--records", arguments->records, "File for the attempts")
       ->capture_default_str();

@@ -46,6 +46,7 @@ struct OperationRecord {
   Tick ticks = 0;                     ///< duration
   std::uint32_t completed_steps = 0;  ///< bit i: step i
   bool finished = false;
+  std::uint8_t declined_for = 0;  ///< bit i: Procedure::decline.reasons[i]; 0: not declined
 };
 
 }  // namespace carpus::procedure

@@ -71,6 +71,7 @@ struct Procedure {
   std::vector<Step> steps;                         ///< at most kMaxSteps
   std::vector<NamedView> views;
   ScoreRules rules;
+  DeclineRules decline;
   /// @throws InvalidInput when it cannot be done on this case, saying why.
   Opening (*opening)(const cases::CaseData& data) = nullptr;
   ScoreReport (*score)(const cases::CaseData& data, const OperationRecord& record) = nullptr;

@@ -65,6 +65,19 @@ TEST(ReadProcedure, ReadsWhatIsDeclared) {
   EXPECT_EQ(read.views.front().label, "PA");
 }
 
+TEST(ReadProcedure, ReadsWhenNotToOperate) {
+  Json file = good();
+  EXPECT_TRUE(read_procedure(file.dump(), "lunate.json", kPredicates).decline.reasons.empty());
+  file["decline"] = {{"reasons", {{{"id", "worn"}, {"label", "It is worn"}}}}};
+  const Procedure read = read_procedure(file.dump(), "lunate.json", kPredicates);
+  ASSERT_EQ(read.decline.reasons.size(), 1U);
+  EXPECT_EQ(read.decline.reasons[0].label, "It is worn");
+  file["decline"]["reasons"].push_back(file["decline"]["reasons"][0]);
+  EXPECT_NE(problem_of(file).find("two of this id"), std::string::npos);
+  file["decline"]["reasons"] = Json::array();
+  EXPECT_NE(problem_of(file).find("must be 1 to 7"), std::string::npos);
+}
+
 TEST(ReadProcedure, TellsFilePlaceAndFieldOfEveryMistake) {
   EXPECT_EQ(problem_of(good()), "");
   EXPECT_EQ(spoilt("/steps/1/done", "driven"),

@@ -24,6 +24,7 @@ ScoreReport locked_where_void(ScoreReport report) {
   ScoreReport locked;
   locked.must_haves = std::move(missing);
   locked.is_void = true;
+  locked.declined_for = std::move(report.declined_for);
   return locked;
 }
 

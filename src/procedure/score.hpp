@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cases/lesson.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::procedure {
@@ -56,11 +57,20 @@ struct PlacementPicture {
   double screw_tail_diameter_mm = 0.0;
 };
 
+/// What a case's lesson says of it, for afterwards.
+struct CaseAnswer {
+  std::string title;
+  cases::RightAnswer right_answer = cases::RightAnswer::Fix;
+  std::string reason;
+};
+
 /// The score of one operation.
 struct ScoreReport {
   double overall = 0.0;  ///< 0 to 100, sum of the items' points
   bool is_fixation_acceptable = false;
-  bool is_void = false;  ///< assessed, and there was nothing to assess
+  bool is_void = false;                   ///< assessed, and there was nothing to assess
+  std::vector<std::string> declined_for;  ///< reasons in words; empty: it was not declined
+  std::optional<CaseAnswer> answer;       ///< none where the case has no lesson
   std::vector<MustHave> must_haves;
   std::vector<ScoreItem> items;
 

@@ -5,6 +5,7 @@
 // without which no fixation is safe. A surgeon corrects them in procedure.json, without a compiler.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -44,6 +45,19 @@ struct SafetyRule {
 struct ScoreRules {
   std::vector<SafetyRule> safety;
   std::vector<ScoreRule> items;
+};
+
+/// Why one may decline to operate: a thing that is seen on the pictures.
+struct DeclineReason {
+  std::string id;     ///< as lessons name it (cases/lesson.hpp)
+  std::string label;  ///< for people
+};
+
+/// When not to operate: what may be said, and how that is judged.
+struct DeclineRules {
+  static constexpr std::size_t kMostReasons = 7;  ///< beside one bit of a byte
+  std::vector<DeclineReason> reasons;             ///< none: the procedure is never declined
+  ScoreRules rules;
 };
 
 }  // namespace carpus::procedure

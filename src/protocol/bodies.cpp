@@ -32,6 +32,16 @@ void write(FieldWriter& out, const CaseDescription& in) {
   out.list("bones", in.bones, 32);
 }
 
+void read(FieldReader& in, CaseList& out) {
+  out.open = in.string("open", 64);
+  in.records("cases", 0, 200, out.cases);
+}
+
+void write(FieldWriter& out, const CaseList& in) {
+  out.text("open", in.open, 64);
+  out.records("cases", in.cases);
+}
+
 void read(FieldReader& in, ProcedureList& out) { in.records("procedures", 0, 64, out.procedures); }
 
 void write(FieldWriter& out, const ProcedureList& in) { out.records("procedures", in.procedures); }
@@ -93,6 +103,23 @@ Result<CaseDescription> parse_case_description(std::string_view text) {
 }
 
 std::string serialize(const CaseDescription& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<CaseList> parse_case_list(std::string_view text) {
+  JsonText json(text, 2097152);
+  FieldReader in(json);
+  CaseList out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const CaseList& body, int indent) {
   JsonWriter json;
   FieldWriter out = json.root();
   write(out, body);

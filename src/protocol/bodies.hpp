@@ -44,6 +44,21 @@ struct CaseDescription {
 /// @param indent  spaces a level; negative writes one line.
 [[nodiscard]] std::string serialize(const CaseDescription& body, int indent = -1);
 
+/// Most `cases` of one CaseList.
+inline constexpr std::size_t kMaxCaseListCases = 200;
+/// GET /api/cases. Those that can be chosen, in order; the picture of one that has it is at
+/// /api/cases/<id>/preview.png. No right answer: that is for afterwards.
+struct CaseList {
+  /// id of the one that is served now
+  std::string open;
+  std::vector<CaseCard> cases;
+  bool operator==(const CaseList&) const = default;
+};
+
+[[nodiscard]] Result<CaseList> parse_case_list(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const CaseList& body, int indent = -1);
+
 /// Most `procedures` of one ProcedureList.
 inline constexpr std::size_t kMaxProcedureListProcedures = 64;
 /// GET /api/procedures. What can be practised on this case.

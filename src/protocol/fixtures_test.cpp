@@ -54,6 +54,7 @@ const std::map<std::string, RoundTrip>& readers() {
       {"http/case_description", round_trip(&parse_case_description, kSerialize)},
       {"http/instrument_list", round_trip(&parse_instrument_list, kSerialize)},
       {"http/procedure_list", round_trip(&parse_procedure_list, kSerialize)},
+      {"http/case_list", round_trip(&parse_case_list, kSerialize)},
       {"http/attempt", round_trip(&parse_attempt, kSerialize)},
       {"http/attempt_list", round_trip(&parse_attempt_list, kSerialize)},
       {"stored/stored_score",

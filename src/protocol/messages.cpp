@@ -50,6 +50,13 @@ void write(FieldWriter& out, const Start& in) {
   out.value("seed", in.seed);
 }
 
+void read(FieldReader& in, ChooseCase& out) { out.case_ = in.string("case", 64); }
+
+void write(FieldWriter& out, const ChooseCase& in) {
+  out.name("type", "choose_case");
+  out.text("case", in.case_, 64);
+}
+
 void read(FieldReader& in, Hand& out) {
   out.sequence = in.integer("sequence", 0, 4294967295);
   out.hand = in.integer("hand", 0, 1);
@@ -83,6 +90,7 @@ void read(FieldReader& in, Act& out) {
   if (in.has("hand")) out.hand = in.integer("hand", 0, 1);
   if (in.has("instrument")) out.instrument = in.string("instrument", 64);
   if (in.has("item")) out.item = in.integer("item", 0, 254);
+  if (in.has("reasons")) in.list("reasons", 0, 8, 32, out.reasons.emplace());
 }
 
 void write(FieldWriter& out, const Act& in) {
@@ -102,6 +110,11 @@ void write(FieldWriter& out, const Act& in) {
     out.value("item", *in.item);
   } else {
     out.null("item");
+  }
+  if (in.reasons) {
+    out.list("reasons", *in.reasons, 32);
+  } else {
+    out.null("reasons");
   }
 }
 
@@ -202,6 +215,7 @@ void read(FieldReader& in, Exercise& out) {
   in.records("instruments", 0, 128, out.instruments);
   in.records("bodies", 0, 32, out.bodies);
   in.record("wrist_limits", out.wrist_limits);
+  in.records("decline_reasons", 0, 8, out.decline_reasons);
 }
 
 void write(FieldWriter& out, const Exercise& in) {
@@ -214,6 +228,7 @@ void write(FieldWriter& out, const Exercise& in) {
   out.records("instruments", in.instruments);
   out.records("bodies", in.bodies);
   out.record("wrist_limits", in.wrist_limits);
+  out.records("decline_reasons", in.decline_reasons);
 }
 
 void read(FieldReader& in, Snapshot& out) {
@@ -414,10 +429,11 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 14> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 15> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
+     {"choose_case", &read_as<PageMessage, ChooseCase>},
      {"hand", &read_as<PageMessage, Hand>},
      {"wrist", &read_as<PageMessage, Wrist>},
      {"act", &read_as<PageMessage, Act>},

@@ -54,6 +54,14 @@ struct Start {
   bool operator==(const Start&) const = default;
 };
 
+/// Opens another of GET /api/cases: what runs is stored as unfinished, the connection ends, and the
+/// host is away for the seconds that loading takes.
+struct ChooseCase {
+  /// its id
+  std::string case_;
+  bool operator==(const ChooseCase&) const = default;
+};
+
 /// Where a hand wants the instrument that it holds; the newest of each hand counts.
 struct Hand {
   /// 0 to 4294967295
@@ -86,6 +94,8 @@ struct Act {
   std::optional<std::string> instrument;
   /// of pick_up and pick_up_far_end 0 to 254
   std::optional<std::int64_t> item;
+  /// of decline: ids of exercise.decline_reasons, at least one
+  std::optional<std::vector<std::string>> reasons;
   bool operator==(const Act&) const = default;
 };
 
@@ -152,6 +162,7 @@ struct Pause {
 using PageMessage = std::variant<Hello,
                                  End,
                                  Start,
+                                 ChooseCase,
                                  Hand,
                                  Wrist,
                                  Act,
@@ -197,6 +208,8 @@ struct Exercise {
   /// in the order of snapshot.bodies
   std::vector<Body> bodies;
   WristLimits wrist_limits;
+  /// none: it cannot be declined
+  std::vector<DeclineReason> decline_reasons;
   bool operator==(const Exercise&) const = default;
 };
 

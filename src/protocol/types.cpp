@@ -90,6 +90,28 @@ void write(FieldWriter& out, const NamedView& in) {
   out.value("tilt_deg", in.tilt_deg);
 }
 
+void read(FieldReader& in, CaseCard& out) {
+  out.id = in.string("id", 64);
+  out.title = in.string("title", 128);
+  out.history = in.string("history", 1024);
+  out.goal = in.string("goal", 1024);
+  if (in.has("difficulty")) out.difficulty = in.number("difficulty", 0.0, 100.0);
+  out.has_preview = in.boolean("has_preview");
+}
+
+void write(FieldWriter& out, const CaseCard& in) {
+  out.text("id", in.id, 64);
+  out.text("title", in.title, 128);
+  out.text("history", in.history, 1024);
+  out.text("goal", in.goal, 1024);
+  if (in.difficulty) {
+    out.value("difficulty", *in.difficulty);
+  } else {
+    out.null("difficulty");
+  }
+  out.value("has_preview", in.has_preview);
+}
+
 void read(FieldReader& in, ProcedureSummary& out) {
   out.id = in.string("id", 64);
   out.title = in.string("title", 128);
@@ -456,11 +478,35 @@ void write(FieldWriter& out, const Placement& in) {
   }
 }
 
+void read(FieldReader& in, DeclineReason& out) {
+  out.id = in.string("id", 32);
+  out.label = in.string("label", 128);
+}
+
+void write(FieldWriter& out, const DeclineReason& in) {
+  out.text("id", in.id, 32);
+  out.text("label", in.label, 128);
+}
+
+void read(FieldReader& in, CaseAnswer& out) {
+  out.title = in.string("title", 128);
+  out.right_answer = static_cast<RightAnswer>(in.choice("right_answer", kRightAnswerNames));
+  out.reason = in.string("reason", 1024);
+}
+
+void write(FieldWriter& out, const CaseAnswer& in) {
+  out.text("title", in.title, 128);
+  out.name("right_answer", name_of(in.right_answer));
+  out.text("reason", in.reason, 1024);
+}
+
 void read(FieldReader& in, ScoreReport& out) {
   out.score_version = in.integer("score_version", 1, 2);
   out.overall = in.number("overall", 0.0, 100.0);
   out.fixation_acceptable = in.boolean("fixation_acceptable");
   if (in.has("is_void")) out.is_void = in.boolean("is_void");
+  if (in.has("declined_for")) in.list("declined_for", 0, 8, 128, out.declined_for.emplace());
+  if (in.has("answer")) in.record("answer", out.answer.emplace());
   in.records("must_haves", 0, 32, out.must_haves);
   in.records("items", 0, 64, out.items);
   out.central_axis_length_mm = in.number("central_axis_length_mm", 0.0, 1000.0);
@@ -486,6 +532,16 @@ void write(FieldWriter& out, const ScoreReport& in) {
     out.value("is_void", *in.is_void);
   } else {
     out.null("is_void");
+  }
+  if (in.declined_for) {
+    out.list("declined_for", *in.declined_for, 128);
+  } else {
+    out.null("declined_for");
+  }
+  if (in.answer) {
+    out.record("answer", *in.answer);
+  } else {
+    out.null("answer");
   }
   out.records("must_haves", in.must_haves);
   out.records("items", in.items);

@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 8;
+inline constexpr std::int64_t kProtocolVersion = 9;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -63,10 +63,12 @@ enum class ActionId : std::uint8_t {
   ReadGauge,
   TakeShot,
   Undo,
-  Finish
+  Finish,
+  Decline
 };
-inline constexpr std::array<std::string_view, 8> kActionIdNames{
-    "take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish"};
+inline constexpr std::array<std::string_view, 9> kActionIdNames{
+    "take",      "pick_up", "pick_up_far_end", "put_down", "read_gauge",
+    "take_shot", "undo",    "finish",          "decline"};
 [[nodiscard]] constexpr std::string_view name_of(ActionId value) noexcept {
   return kActionIdNames[static_cast<std::size_t>(value)];
 }
@@ -77,6 +79,14 @@ enum class AngleReference : std::uint8_t { HeldForearm, Room };
 inline constexpr std::array<std::string_view, 2> kAngleReferenceNames{"held_forearm", "room"};
 [[nodiscard]] constexpr std::string_view name_of(AngleReference value) noexcept {
   return kAngleReferenceNames[static_cast<std::size_t>(value)];
+}
+
+/// What should be done about a case's fracture.
+enum class RightAnswer : std::uint8_t { Fix, ReduceFirst, Decline };
+inline constexpr std::array<std::string_view, 3> kRightAnswerNames{"fix", "reduce_first",
+                                                                   "decline"};
+[[nodiscard]] constexpr std::string_view name_of(RightAnswer value) noexcept {
+  return kRightAnswerNames[static_cast<std::size_t>(value)];
 }
 
 /// Of a drawn part.
@@ -200,6 +210,21 @@ struct NamedView {
   /// [deg] -60 to 60
   double tilt_deg = 0.0;
   bool operator==(const NamedView&) const = default;
+};
+
+/// A case that can be chosen, with what its lesson says; only id and title where it has none.
+struct CaseCard {
+  /// of its folder
+  std::string id;
+  std::string title;
+  /// what the patient tells: no diagnosis
+  std::string history;
+  /// what is to be learnt; with the title, what an assessed trainee finds out
+  std::string goal;
+  /// 0 easy to 100, from geometry 0 to 100
+  std::optional<double> difficulty;
+  bool has_preview = false;
+  bool operator==(const CaseCard&) const = default;
 };
 
 /// An operation that can be practised.
@@ -502,6 +527,21 @@ struct Placement {
   bool operator==(const Placement&) const = default;
 };
 
+/// Why one may decline to operate.
+struct DeclineReason {
+  std::string id;
+  std::string label;
+  bool operator==(const DeclineReason&) const = default;
+};
+
+/// What the case's lesson says of it, for afterwards.
+struct CaseAnswer {
+  std::string title;
+  RightAnswer right_answer = RightAnswer::Fix;
+  std::string reason;
+  bool operator==(const CaseAnswer&) const = default;
+};
+
 /// The truth about a finished operation (docs/scoring.md). Records hold it in this form.
 struct ScoreReport {
   /// 1 to 2
@@ -511,6 +551,10 @@ struct ScoreReport {
   bool fixation_acceptable = false;
   /// an assessed operation that ended before there was anything to assess: the truth stays locked
   std::optional<bool> is_void;
+  /// reasons in words, where it was declined to operate
+  std::optional<std::vector<std::string>> declined_for;
+  /// none where the case has no lesson, or the truth is locked
+  std::optional<CaseAnswer> answer;
   std::vector<MustHave> must_haves;
   std::vector<ScoreItem> items;
   /// [mm] 0 to 1000

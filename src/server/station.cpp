@@ -35,13 +35,15 @@ Station::Station(const cases::CaseData& data,
                  const procedure::ProcedureList& procedures,
                  records::AttemptKeeper& records,
                  Log log,
-                 StationPatience patience)
+                 StationPatience patience,
+                 OverCases over_cases)
     : data_(data),
       procedures_(procedures),
       case_fingerprint_(simulation::fingerprint_of(data)),
       records_(records),
       log_(std::move(log)),
       patience_(patience),
+      over_cases_(std::move(over_cases)),
       exercise_number_(number_of_now()) {}
 
 void Station::attach(NetworkServer& network) {
@@ -142,6 +144,11 @@ void Station::on_message(const protocol::Hello&) {}
 
 void Station::on_message(const protocol::End&) {}
 
+void Station::on_message(const protocol::ChooseCase& chosen) {
+  if (over_cases_.choose && over_cases_.choose(chosen.case_)) return;
+  refuse("There is no case '" + chosen.case_ + "' here", "Choose one of those that are shown.");
+}
+
 void Station::on_message(const protocol::Hand& hand) {
   if (has_exercise()) exercise_->loop().hold(exercise_->session().take(hand));
 }
@@ -154,7 +161,7 @@ void Station::on_message(const protocol::Act& act) {
   if (!has_exercise()) return;
   const Result<Command> asked = exercise_->session().take(act);
   if (!asked) return refuse(asked.error(), "Choose one of the actions that the page shows.");
-  if (asked->kind == CommandKind::Finish) {
+  if (asked->kind == CommandKind::Finish || asked->kind == CommandKind::Decline) {
     // Time must pass for the operation to end.
     paused_by_page_ = false;
     apply_pause();

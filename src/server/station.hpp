@@ -20,6 +20,7 @@
 #include "protocol/messages.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/attempt_owners.hpp"
+#include "server/case_shelf.hpp"
 #include "server/exercise.hpp"
 #include "server/journal_watch.hpp"
 #include "server/network_server.hpp"
@@ -56,7 +57,8 @@ class Station : public PageHandler {
           const procedure::ProcedureList& procedures,
           records::AttemptKeeper& records,
           Log log,
-          StationPatience patience = {});
+          StationPatience patience = {},
+          OverCases over_cases = {});
   ~Station() override;
 
   /// Begins to serve: pictures and states go out through this network. What a station that was
@@ -66,7 +68,7 @@ class Station : public PageHandler {
   void detach();
 
   /// From which browser the attempts were made.
-  [[nodiscard]] const AttemptOwners& owners() const noexcept { return owners_; }
+  [[nodiscard]] const AttemptOwners& owners() const noexcept { return *over_cases_.owners; }
 
   void on_open(const std::shared_ptr<PageConnection>& page) override;
   void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) override;
@@ -106,6 +108,7 @@ class Station : public PageHandler {
   void on_message(const protocol::Hello& hello);
   void on_message(const protocol::End& end);
   void on_message(const protocol::Start& start);
+  void on_message(const protocol::ChooseCase& chosen);
   void on_message(const protocol::Hand& hand);
   void on_message(const protocol::Wrist& wrist);
   void on_message(const protocol::Act& act);
@@ -174,6 +177,7 @@ class Station : public PageHandler {
   records::AttemptKeeper& records_;
   Log log_;
   StationPatience patience_;
+  OverCases over_cases_;
   std::shared_ptr<PageConnection> operator_;
   std::string operator_word_;   ///< what it said in hello
   std::string owner_word_;      ///< of the page that began the exercise
@@ -193,7 +197,6 @@ class Station : public PageHandler {
   JournalWatch journal_watch_;
   std::chrono::steady_clock::time_point last_heard_;
   NetworkServer* network_ = nullptr;
-  AttemptOwners owners_;
   std::unique_ptr<PictureWorker> pictures_;
   std::unique_ptr<QuizDesk> quiz_;  ///< none before it is asked for
   std::mutex stored_mutex_;

@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::string_view kAttempts = "/api/attempts";
 constexpr std::string_view kReplay = "/replay";
+constexpr std::string_view kCases = "/api/cases/";
+constexpr std::string_view kPreview = "/preview.png";
 
 HttpResponse no_such_attempt() { return make_problem(404, "There is no such attempt."); }
 
@@ -30,9 +32,12 @@ StationHttp::StationHttp(const cases::CaseData& data,
                          std::string scene_glb,
                          const records::AttemptKeeper& records,
                          const AttemptOwners& owners,
-                         const std::filesystem::path& web_root)
+                         const std::filesystem::path& web_root,
+                         CaseShelf shelf)
     : case_fingerprint_(hexadecimal(simulation::fingerprint_of(data))),
       case_json_(serialize(session::case_description(data))),
+      shelf_(std::move(shelf)),
+      cases_json_(serialize(message_of(shelf_))),
       procedures_json_(serialize(session::procedure_list(procedures))),
       instruments_json_(serialize(session::instrument_list())),
       scene_glb_(std::make_shared<const std::string>(std::move(scene_glb))),
@@ -62,6 +67,8 @@ std::size_t StationHttp::lane_of(const HttpRequest& request) {
 
 HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& request) const {
   if (path == "/api/case") return make_json(case_json_);
+  if (path == "/api/cases") return make_json(cases_json_);
+  if (path.starts_with(kCases)) return answer_preview(path.substr(kCases.size()));
   if (path == "/api/procedures") return make_json(procedures_json_);
   if (path == "/api/instruments") return make_json(instruments_json_);
   if (path == "/api/scene.glb") {
@@ -75,6 +82,17 @@ HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& r
     return answer_attempt(path.substr(kAttempts.size() + 1), request);
   }
   return make_problem(404, "There is no such thing here; protocol/README.md lists what there is.");
+}
+
+HttpResponse StationHttp::answer_preview(std::string_view rest) const {
+  const bool is_preview = rest.ends_with(kPreview);
+  const ShelvedCase* found =
+      is_preview ? shelf_.find(rest.substr(0, rest.size() - kPreview.size())) : nullptr;
+  if (found == nullptr || !found->preview) return make_problem(404, "There is no such picture.");
+  HttpResponse response;
+  response.content_type = "image/png";
+  response.body = found->preview;
+  return response;
 }
 
 bool StationHttp::may_see(const Guest& guest, std::int64_t attempt) const {

@@ -14,6 +14,7 @@
 #include "procedure/procedure.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/attempt_owners.hpp"
+#include "server/case_shelf.hpp"
 #include "server/http_message.hpp"
 #include "server/static_files.hpp"
 
@@ -29,7 +30,8 @@ class StationHttp {
               std::string scene_glb,
               const records::AttemptKeeper& records,
               const AttemptOwners& owners,
-              const std::filesystem::path& web_root);
+              const std::filesystem::path& web_root,
+              CaseShelf shelf = {});
   ~StationHttp();
 
   /// Never throws for a bad request; IoError when the records cannot be read.
@@ -42,6 +44,7 @@ class StationHttp {
 
  private:
   [[nodiscard]] HttpResponse answer_api(std::string_view path, const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse answer_preview(std::string_view rest) const;
   [[nodiscard]] HttpResponse answer_attempts(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_attempt(std::string_view rest,
                                             const HttpRequest& request) const;
@@ -52,6 +55,8 @@ class StationHttp {
 
   std::string case_fingerprint_;
   std::string case_json_;
+  CaseShelf shelf_;
+  std::string cases_json_;
   std::string procedures_json_;
   std::string instruments_json_;
   std::shared_ptr<const std::string> scene_glb_;

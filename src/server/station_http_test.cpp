@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -25,7 +26,7 @@ class StationHttpTest : public ::testing::Test {
   StationHttpTest()
       : folder_(new_folder()),
         records_(folder_ / "attempts.sqlite"),
-        http_(wrist_, procedures_, "glTF", records_, owners_, folder_) {}
+        http_(wrist_, procedures_, "glTF", records_, owners_, folder_, shelf()) {}
   ~StationHttpTest() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] HttpResponse ask(const std::string& target, const Guest& guest) const {
@@ -36,6 +37,12 @@ class StationHttpTest : public ::testing::Test {
     return Json::parse(*ask(target, guest).body);
   }
 
+  static CaseShelf shelf() {
+    return {{{"easy", "An easy one", "Fell.", "Find it.", 20.0,
+              std::make_shared<const std::string>("PNG")},
+             {"plain", "plain", "", "", {}, nullptr}},
+            "easy"};
+  }
   static std::filesystem::path new_folder() {
     std::string name =
         (std::filesystem::temp_directory_path() / "carpus-station-http-XXXXXX").string();
@@ -55,6 +62,24 @@ class StationHttpTest : public ::testing::Test {
   AttemptOwners owners_;
   StationHttp http_;
 };
+
+TEST_F(StationHttpTest, TellsWhichCasesCanBeChosenWithTheirPictures) {
+  const Json list = get("/api/cases");
+  EXPECT_EQ(list["open"], "easy");
+  ASSERT_EQ(list["cases"].size(), 2U);
+  EXPECT_EQ(list["cases"][0]["history"], "Fell.");
+  EXPECT_EQ(list["cases"][0]["goal"], "Find it.");
+  EXPECT_EQ(list["cases"][0]["difficulty"], 20.0);
+  EXPECT_EQ(list["cases"][1]["difficulty"], nullptr);
+  EXPECT_EQ(list["cases"][1]["has_preview"], false);
+  const HttpResponse picture = ask("/api/cases/easy/preview.png", {Role::Trainee, {}});
+  EXPECT_EQ(picture.content_type, "image/png");
+  EXPECT_EQ(*picture.body, "PNG");
+  for (const char* target : {"/api/cases/plain/preview.png", "/api/cases/none/preview.png",
+                             "/api/cases/easy/case.json"}) {
+    EXPECT_EQ(ask(target, {Role::Instructor, {}}).status, 404) << target;
+  }
+}
 
 TEST_F(StationHttpTest, TellsWhetherAnAttemptWasMadeOnTheOpenCase) {
   records::Attempt here;

@@ -113,7 +113,7 @@ void Station::take_stored() {
 
 void Station::tell_stored(const ConcludedExercise& concluded) {
   const records::KeptAttempt& kept = concluded.kept;
-  if (kept.id > 0) owners_.add(kept.id, concluded.browser);
+  if (kept.id > 0) over_cases_.owners->add(kept.id, concluded.browser);
   log_("attempt " + (kept.id > 0 ? std::to_string(kept.id) : std::string("(not stored)")) +
        concluded.in_words);
   if (!kept.problem.empty()) {

@@ -34,8 +34,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":8,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":8,"page":"second"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":9,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":9,"page":"second"})";
 constexpr const char* kStart = R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
                                R"("input_device":"mouse","seed":7})";
 constexpr const char* kHand =
@@ -58,7 +58,14 @@ class StationTest : public ::testing::Test {
     std::ofstream(folder_ / "index.html") << "<title>Carpus</title>";
     records_ = std::make_unique<records::AttemptKeeper>(folder_ / "attempts.sqlite");
     station_ = std::make_unique<Station>(
-        wrist(), procedures(), *records_, [](const std::string&) {}, patience());
+        wrist(), procedures(), *records_, [](const std::string&) {}, patience(),
+        OverCases{[this](const std::string& id) {
+                    if (id != "other") return false;
+                    chosen_ = id;
+                    network_->stop();
+                    return true;
+                  },
+                  owners_});
     http_ = std::make_unique<StationHttp>(wrist(), procedures(), "glTF", *records_,
                                           station_->owners(), folder_);
     NetworkOptions options = network();
@@ -134,7 +141,26 @@ class StationTest : public ::testing::Test {
   std::unique_ptr<StationHttp> http_;
   std::unique_ptr<NetworkServer> network_;
   std::thread thread_;
+  std::string chosen_;  ///< the case that a page chose
+  std::shared_ptr<AttemptOwners> owners_ = std::make_shared<AttemptOwners>();
 };
+
+TEST_F(StationTest, ChoosingAnotherCaseStoresWhatRunsAndEndsTheStation) {
+  const auto page = operate(port());
+  (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 50; });
+  page->send(R"({"type":"choose_case","case":"none"})");
+  EXPECT_THAT(page->wait_for_type("error"), HasSubstr("There is no case 'none'"));
+  PageClient guest(port());
+  guest.send(R"({"type":"choose_case","case":"other"})");
+  EXPECT_THAT(guest.wait_for_type("error"), HasSubstr("does not operate"));
+  page->send(R"({"type":"choose_case","case":"other"})");
+  thread_.join();
+  station_->detach();
+  EXPECT_EQ(chosen_, "other");
+  ASSERT_EQ(records_->list().size(), 1U);
+  EXPECT_EQ(records_->list().front().outcome, records::Outcome::Unfinished);
+  EXPECT_EQ(&station_->owners(), owners_.get()) << "whose they are is known to the next one";
+}
 
 TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
   const auto page = operate(port());

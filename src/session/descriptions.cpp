@@ -149,6 +149,9 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
         {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
   }
   message.wrist_limits = message_of(data.hand_motion.limits);
+  for (const procedure::DeclineReason& reason : procedure.decline.reasons) {
+    message.decline_reasons.push_back({reason.id, reason.label});
+  }
   return message;
 }
 

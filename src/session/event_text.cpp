@@ -62,7 +62,7 @@ class Sentence {
       case EventKind::Undone:
         return "Back to the last checkpoint";
       case EventKind::Finished:
-        return "Operation finished";
+        return event_.detail == 0 ? "Operation finished" : "Declined to operate";
       case EventKind::Refused:
         return std::string(text_of(static_cast<simulation::Refusal>(event_.detail)));
       case EventKind::WrongBone:

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/page_input.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/units.hpp"
 #include "instruments/instrument.hpp"
@@ -38,8 +41,17 @@ std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
       return CommandKind::Undo;
     case protocol::ActionId::Finish:
       return CommandKind::Finish;
+    case protocol::ActionId::Decline:
+      return CommandKind::Decline;
     case protocol::ActionId::TakeShot:
       break;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> place_of(const procedure::DeclineRules& decline, std::string_view id) {
+  for (std::size_t i = 0; i < decline.reasons.size(); ++i) {
+    if (decline.reasons[i].id == id) return i;
   }
   return std::nullopt;
 }
@@ -95,7 +107,7 @@ void hold(HeldInput& held, const protocol::Pedal& message) noexcept {
   ++held.pedal_heard;
 }
 
-Result<Command> command_of(const protocol::Act& message) {
+Result<Command> command_of(const protocol::Act& message, const procedure::Procedure& procedure) {
   const auto kind = kind_of(message.id);
   if (!kind) return Refusal{"A picture is asked for with take_shot"};
   Command command;
@@ -106,6 +118,13 @@ Result<Command> command_of(const protocol::Act& message) {
     const auto index = instruments::instrument_of(*message.instrument);
     if (!index) return Refusal{"There is no instrument '" + *message.instrument + "'"};
     command.index = *index;
+  }
+  if (*kind == CommandKind::Decline) {
+    for (const std::string& said : message.reasons.value_or(std::vector<std::string>{})) {
+      const std::optional<std::size_t> place = place_of(procedure.decline, said);
+      if (!place) return Refusal{"There is no reason '" + said + "'"};
+      command.index = static_cast<std::uint8_t>(command.index | (1U << *place));
+    }
   }
   if (*kind == CommandKind::PickUp || *kind == CommandKind::PickUpFarEnd) {
     if (!message.item) return Refusal{"pick_up needs an item"};

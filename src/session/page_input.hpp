@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/result.hpp"
+#include "procedure/procedure.hpp"
 #include "protocol/messages.hpp"
 #include "session/held_input.hpp"
 #include "simulation/snapshot.hpp"
@@ -25,7 +26,9 @@ void hold(HeldInput& held, const protocol::Pedal& message) noexcept;
 
 /// A refusal says what is missing or not known, for the page that sent it. Whether it makes sense
 /// now, the simulation says.
-[[nodiscard]] Result<simulation::Command> command_of(const protocol::Act& message);
+/// @param procedure  whose reasons a decline names.
+[[nodiscard]] Result<simulation::Command> command_of(const protocol::Act& message,
+                                                     const procedure::Procedure& procedure);
 /// @param wrist  as it is held now: angles may be counted from it.
 [[nodiscard]] simulation::Command command_of(const protocol::TakeShot& message,
                                              const simulation::WristPose& wrist) noexcept;

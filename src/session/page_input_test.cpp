@@ -27,6 +27,18 @@ TEST(PageInput, EachHandIsHeldAndHeardByItself) {
   EXPECT_EQ(held.hands[1].guidance, simulation::Guidance::Planned);
 }
 
+TEST(PageInput, ADeclineNamesTheProceduresReasons) {
+  procedure::Procedure procedure;
+  procedure.decline.reasons = {{"flexed", ""}, {"no_fracture", ""}, {"bone_lost", ""}};
+  protocol::Act message;
+  message.id = protocol::ActionId::Decline;
+  message.reasons = {"flexed", "bone_lost"};
+  EXPECT_EQ(command_of(message, procedure)->kind, simulation::CommandKind::Decline);
+  EXPECT_EQ(command_of(message, procedure)->index, 0b101);
+  message.reasons = {"bored"};
+  EXPECT_FALSE(command_of(message, procedure));
+}
+
 TEST(PageInput, WristIsTakenInRadians) {
   HeldInput held;
   protocol::Wrist message;

@@ -12,6 +12,8 @@ constexpr std::int64_t kScoreVersion = 2;
 // The enumeration of protocol.json is in the order of the procedure's.
 static_assert(static_cast<int>(protocol::Grade::NotMeasured) ==
               static_cast<int>(procedure::Grade::NotMeasured));
+static_assert(static_cast<int>(protocol::RightAnswer::Decline) ==
+              static_cast<int>(cases::RightAnswer::Decline));
 
 protocol::Placement placement_message(const procedure::PlacementPicture& picture) {
   protocol::Placement placement;
@@ -40,6 +42,12 @@ protocol::ScoreReport score_message(const procedure::ScoreReport& report) {
   message.overall = report.overall;
   message.fixation_acceptable = report.is_fixation_acceptable;
   if (report.is_void) message.is_void = true;
+  if (!report.declined_for.empty()) message.declined_for = report.declined_for;
+  if (report.answer) {
+    message.answer = protocol::CaseAnswer{
+        report.answer->title, static_cast<protocol::RightAnswer>(report.answer->right_answer),
+        report.answer->reason};
+  }
   for (const procedure::MustHave& must : report.must_haves) {
     message.must_haves.push_back({must.id, must.label, must.fulfilled});
   }

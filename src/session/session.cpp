@@ -32,7 +32,7 @@ const HeldInput& Session::take(const protocol::Wrist& message) noexcept {
 }
 
 Result<simulation::Command> Session::take(const protocol::Act& message) const {
-  return command_of(message);
+  return command_of(message, procedure_);
 }
 
 simulation::Command Session::take(const protocol::TakeShot& message) noexcept {

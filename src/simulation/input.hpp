@@ -34,8 +34,9 @@ enum class CommandKind : std::uint8_t {
   Finish = 7,     ///< end the operation
   ForgetCheckpoints = 8,  ///< a host went on from a keyframe: undo does not reach back before now
   PickUpFarEnd = 9,       ///< `hand` takes hold of item `index` at its other end, beyond the bone
+  Decline = 10,  ///< end it without a fixation; bit i of `index`: for the procedure's reason i
 };
-inline constexpr std::uint8_t kCommandKinds = 10;
+inline constexpr std::uint8_t kCommandKinds = 11;
 
 struct Command {
   CommandKind kind = CommandKind::None;

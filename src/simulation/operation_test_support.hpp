@@ -131,6 +131,7 @@ inline const procedure::Procedure& exercise() {
                {"look", "Look", "", {}, &has_looked_since, &is_out, false},
                {"measure", "Measure", "", {}, &is_measured, &is_out, false},
                {"screw", "Screw", "", {}, &is_seated, &is_unseated, true}};
+    p.decline.reasons = {{"flexed", "It is flexed"}, {"worn", "It is worn"}};
     p.opening = &open_flexed;
     p.score = &score;
     return p;

@@ -140,6 +140,11 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::Undo:
       if (now.mode == procedure::Mode::Assessed) return Refusal::NoUndoWhenAssessed;
       return now.can_undo ? Refusal::None : Refusal::NothingToUndo;
+    case CommandKind::Decline: {
+      const std::size_t known = procedure.decline.reasons.size();
+      const bool is_said = command.index != 0 && (command.index >> known) == 0;
+      return is_said ? Refusal::None : Refusal::NoReasonToDecline;
+    }
     case CommandKind::Finish:
     case CommandKind::ForgetCheckpoints:
       return Refusal::None;
@@ -148,7 +153,7 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 19> kNames{"none",
+  static constexpr std::array<std::string_view, 20> kNames{"none",
                                                            "finished",
                                                            "unknown_command",
                                                            "no_such_hand",
@@ -166,7 +171,8 @@ std::string_view name_of(Refusal refusal) noexcept {
                                                            "nothing_to_undo",
                                                            "no_undo_when_assessed",
                                                            "end_is_inside",
-                                                           "wire_is_bent"};
+                                                           "wire_is_bent",
+                                                           "no_reason_to_decline"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

@@ -34,8 +34,9 @@ enum class Refusal : std::uint8_t {
   NoGaugeInHand,
   NothingToUndo,
   NoUndoWhenAssessed,
-  EndIsInside,  ///< that end of the wire is in the body, or was never double-pointed
-  WireIsBent,   ///< what has a bore does not run over it
+  EndIsInside,        ///< that end of the wire is in the body, or was never double-pointed
+  WireIsBent,         ///< what has a bore does not run over it
+  NoReasonToDecline,  ///< none was said, or one that the procedure does not know
 };
 
 /// Plain comparisons on what the last tick left: real-time.

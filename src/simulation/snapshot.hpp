@@ -85,7 +85,7 @@ enum class EventKind : std::uint8_t {
   Seated = 9,          ///< a screw's tail is level with the surface; value: buried mm
   StepCompleted = 10,  ///< detail: step
   Undone = 11,
-  Finished = 12,
+  Finished = 12,       ///< detail: for which of the procedure's reasons it was declined, bits
   Refused = 13,        ///< a command that makes no sense now; detail: Refusal
   WrongBone = 14,      ///< a bone was entered that is neither target nor allowed; detail: body
   Slipped = 15,        ///< a turning tip slipped along a surface it met too flat; detail: body

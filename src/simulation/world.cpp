@@ -156,7 +156,7 @@ void World::State::emit(EventKind kind,
 void World::State::step(const Model& model, const Input& raw) noexcept {
   snapshot.event_count = 0;
   snapshot.events = {};
-  if (spent.finished) return;
+  if (spent.ended != 0) return;
   ++spent.tick;
   const Input input = quantised(raw);
   is_finishing = false;
@@ -192,8 +192,8 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   }
   tick_off_steps(model);
   if (is_finishing) {
-    spent.finished = true;
-    emit(EventKind::Finished, kNoItem, 0, 0.0);
+    spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);
+    emit(EventKind::Finished, kNoItem, spent.ended >> 1U, 0.0);
   }
   for (detail::HandState& hand : spent.hands) {
     hand.forward_is_held = hand.wish.driver == Driver::Forward;
@@ -251,7 +251,8 @@ procedure::OperationRecord World::operation_record() const {
   record.undos = state.spent.undos;
   record.ticks = state.spent.tick;
   record.completed_steps = state.now.completed_steps;
-  record.finished = state.spent.finished;
+  record.finished = state.spent.ended != 0;
+  record.declined_for = static_cast<std::uint8_t>(state.spent.ended >> 1U);
   return record;
 }
 

@@ -493,6 +493,20 @@ TEST(World, ARandomOperatorBreaksNothing) {
   EXPECT_EQ(world.faults().forces_zeroed, 0U);
 }
 
+TEST(World, IsDeclinedForReasonsThatTheProcedureKnows) {
+  Operator op;
+  op.command(simple(CommandKind::Decline));
+  EXPECT_FALSE(op.now().finished) << "no reason was said";
+  Command decline = simple(CommandKind::Decline);
+  decline.index = 0x80;
+  op.command(decline);
+  EXPECT_FALSE(op.now().finished) << "there is no such reason";
+  decline.index = 0b11;
+  op.command(decline);
+  EXPECT_TRUE(op.now().finished);
+  EXPECT_EQ(op.world().operation_record().declined_for, 0b11);
+}
+
 TEST(World, StandsStillOnceFinished) {
   Operator op;
   op.command(simple(CommandKind::Finish));

@@ -109,11 +109,10 @@ cases::CaseData reconstructed(phantom::Phantom&& wrist,
                               const std::string& made_at,
                               const Progress& progress) {
   reconstruct::ReconstructOptions options;
-  options.pseudonym = item.lesson.title;
+  // The title is a diagnosis, and the case's name is on the screen while it is made.
+  options.pseudonym = "patient " + std::to_string(item.wrist.seed);
   options.provenance.simulated = true;
-  options.provenance.source = "simulated wrist, fracture " +
-                              std::string(name_of(item.wrist.fracture)) + ", seed " +
-                              std::to_string(item.wrist.seed);
+  options.provenance.source = "simulated wrist, seed " + std::to_string(item.wrist.seed);
   options.provenance.made_by = "carpus " + std::string(kProgramVersion);
   options.provenance.made_at = made_at;
   options.progress = progress;
@@ -127,8 +126,11 @@ bool is_made(const fs::path& folder, const StockItem& item) {
     return false;
   try {
     const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
-    return lesson && lesson->title == item.lesson.title && lesson->goal == item.lesson.goal &&
-           lesson->reason == item.lesson.reason && lesson->right_answer == item.lesson.right_answer;
+    if (!lesson) return false;
+    cases::Lesson wanted = item.lesson;
+    wanted.difficulty = lesson->difficulty;
+    wanted.expert = lesson->expert;
+    return *lesson == wanted;
   } catch (const Error&) {
     return false;  // damaged, or of another program: made anew
   }

@@ -27,6 +27,7 @@ StockItem read_item(JsonFields fields) {
   });
   if (!is_plain) fields.refuse("id is not of a-z, 0-9 and _");
   item.lesson.title = fields.text("title");
+  item.lesson.history = fields.text("history");
   item.lesson.goal = fields.text("goal");
   std::vector<std::string_view> kinds;
   for (const phantom::FractureKind kind : phantom::kAllFractureKinds) {
@@ -40,6 +41,7 @@ StockItem read_item(JsonFields fields) {
   item.lesson.right_answer =
       static_cast<cases::RightAnswer>(fields.choice("right_answer", cases::kRightAnswers));
   item.lesson.reason = fields.text("reason");
+  item.lesson.decline_for = fields.texts_or_none("decline_for");
   fields.refuse_unknown_fields();
   return item;
 }

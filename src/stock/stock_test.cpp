@@ -31,6 +31,10 @@ TEST(StockList, HasEveryKindSizeSideAndAnswer) {
     sizes.insert(item.lesson.size);
     sides.insert(item.wrist.side);
     answers.insert(item.lesson.right_answer);
+    EXPECT_FALSE(item.lesson.history.empty()) << item.id;
+    EXPECT_EQ(item.lesson.decline_for.empty(),
+              item.lesson.right_answer != cases::RightAnswer::Decline)
+        << item.id;
     const bool is_in_place = item.lesson.right_answer == cases::RightAnswer::Fix;
     const bool is_two = item.wrist.fracture == phantom::FractureKind::Displaced ||
                         item.wrist.fracture == phantom::FractureKind::Humpback;
@@ -47,7 +51,7 @@ TEST(StockList, HasEveryKindSizeSideAndAnswer) {
 
 TEST(StockList, RefusesWhatIsWrong) {
   const std::string item =
-      R"({"id":"a","title":"t","goal":"g","fracture":"waist","side":"left","scale":1,)"
+      R"({"id":"a","title":"t","history":"h","goal":"g","fracture":"waist","side":"left","scale":1,)"
       R"("size":"small","seed":1,"right_answer":"fix","reason":"r"})";
   const auto list = [](const std::string& items) {
     return R"({"schema_version":1,"cases":[)" + items + "]}";
@@ -77,7 +81,8 @@ TEST(StockCase, IsMadeOfACaseALessonAndAPicture) {
   const cases::CaseData data = case_io::read_case(folder);
   EXPECT_TRUE(data.provenance.simulated);
   EXPECT_EQ(data.side, item.wrist.side);
-  EXPECT_EQ(data.pseudonym, item.lesson.title);
+  EXPECT_EQ(data.pseudonym, "patient 1") << "it is on the screen, and tells no diagnosis";
+  EXPECT_EQ(data.provenance.source.find("nonunion"), std::string::npos);
 
   StockItem reworded = item;
   reworded.lesson.goal = "Something else.";

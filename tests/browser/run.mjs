@@ -9,6 +9,7 @@
 import { operateAssessed } from "./assessed.mjs";
 import { expectAccessible } from "./accessibility.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
+import { chooseAmongCases } from "./cases.mjs";
 import { check, counted, expect } from "./checks.mjs";
 import { withPictures } from "./c_arm.mjs";
 import { firstMinutes } from "./first_minutes.mjs";
@@ -617,6 +618,7 @@ try {
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);
+  await chooseAmongCases(browser);
 } finally {
   await browser.close();
   await station.stop();

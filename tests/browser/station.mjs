@@ -28,19 +28,24 @@ function need(path, how) {
   return path;
 }
 
+export function demoCase() {
+  return need(
+    process.env.CARPUS_CASE ?? join(root, "build/system/demo"),
+    "Make it with tests/system/end_to_end, or set CARPUS_CASE to a case folder.",
+  );
+}
+
 /**
  * @param options  of `carpus serve` besides; --open unless the link is what is tried
+ * @param where  a case folder, or a folder of them, in place of the demo's
  * @return {url, caseFolder, stop}
  */
-export async function startStation(options = ["--open"]) {
+export async function startStation(options = ["--open"], where) {
   const program = need(
     process.env.CARPUS_BIN ?? join(root, "build/release/bin/carpus"),
     "Build it with ./run --build-only, or set CARPUS_BIN.",
   );
-  const caseFolder = need(
-    process.env.CARPUS_CASE ?? join(root, "build/system/demo"),
-    "Make it with tests/system/end_to_end, or set CARPUS_CASE to a case folder.",
-  );
+  const caseFolder = where ?? demoCase();
   const page = need(
     join(root, "web/dist"),
     "Build the page with: npm --prefix web run build",

@@ -76,4 +76,23 @@ ScoreRules read_score_rules(JsonFields& fields) {
   return rules;
 }
 
+DeclineRules read_decline_rules(JsonFields& fields) {
+  DeclineRules decline;
+  if (!fields.has("decline")) return decline;
+  JsonFields place = fields.object("decline");
+  std::set<std::string> ids;
+  for (JsonFields& entry : place.objects("reasons")) {
+    decline.reasons.push_back({entry.text("id"), entry.text("label")});
+    entry.refuse_unknown_fields();
+    if (!ids.insert(decline.reasons.back().id).second) entry.refuse("there are two of this id");
+  }
+  if (decline.reasons.empty() || decline.reasons.size() > DeclineRules::kMostReasons) {
+    place.refuse("reasons: there are " + std::to_string(decline.reasons.size()) +
+                 ", must be 1 to " + std::to_string(DeclineRules::kMostReasons));
+  }
+  decline.rules = read_score_rules(place);
+  place.refuse_unknown_fields();
+  return decline;
+}
+
 }  // namespace carpus::procedure::detail

@@ -11,4 +11,7 @@ namespace carpus::procedure::detail {
 /// @throws InvalidInput "dorsal.json: score[2]: fail lies inside good".
 [[nodiscard]] ScoreRules read_score_rules(JsonFields& fields);
 
+/// Reads "decline"; no reasons where there is none.
+[[nodiscard]] DeclineRules read_decline_rules(JsonFields& fields);
+
 }  // namespace carpus::procedure::detail

@@ -169,6 +169,25 @@ Measure views(const Facts& facts, const char* id, bool of_screw, unsigned wanted
   return measure;
 }
 
+std::optional<procedure::CaseAnswer> answer_of(const cases::CaseData& data) {
+  if (!data.lesson) return std::nullopt;
+  return procedure::CaseAnswer{data.lesson->title, data.lesson->right_answer, data.lesson->reason};
+}
+
+/// Nothing was placed: what is told of the case is its lesson.
+procedure::ScoreReport score_of_declining(const cases::CaseData& data,
+                                          const procedure::OperationRecord& record,
+                                          const procedure::Procedure& procedure) {
+  procedure::ScoreReport report;
+  report.answer = answer_of(data);
+  for (std::size_t i = 0; i < procedure.decline.reasons.size(); ++i) {
+    if ((record.declined_for >> i & 1U) == 0) continue;
+    report.declined_for.push_back(procedure.decline.reasons[i].label);
+  }
+  procedure::grade(report, procedure.decline.rules, decline_measures(data, record, procedure));
+  return report;
+}
+
 Measure wires_left_in(const Facts& facts) {
   Measure measure{"wires_left_in", 0.0, ""};
   for (const procedure::LineFacts& line : facts.record.lines) {
@@ -207,10 +226,13 @@ std::vector<Measure> conduct_measures(const Facts& facts) {
 procedure::ScoreReport score(const cases::CaseData& data,
                              const procedure::OperationRecord& record,
                              const Fixation& fixation) {
+  if (record.declined_for != 0) return score_of_declining(data, record, *fixation.procedure);
   const Facts facts = facts_of(data, record, fixation);
   procedure::ScoreReport report = references_of(facts);
+  report.answer = answer_of(data);
   std::vector<Measure> measures = placement_measures(facts);
   for (Measure& measure : conduct_measures(facts)) measures.push_back(std::move(measure));
+  measures.push_back(fixing_is_right(data));
   procedure::grade(report, fixation.procedure->rules, measures);
   return report;
 }

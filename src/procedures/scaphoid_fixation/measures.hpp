@@ -23,7 +23,16 @@ namespace carpus::procedures::scaphoid_fixation {
 /// `views_with_screw`, `wires_left_in`, and procedure::thrift_measures.
 [[nodiscard]] std::vector<procedure::Measure> conduct_measures(const Facts& facts);
 
-/// Both, graded by the procedure's rules.
+/// Whether to fix or to decline was right, by the case's lesson: `fixing_is_right` (1 or 0; left
+/// out where nobody wrote a lesson) and, of declining, `declining_is_right`,
+/// `right_reasons_percent`, `wrong_reasons`, `views_before_declining`, `bone_entered`.
+[[nodiscard]] procedure::Measure fixing_is_right(const cases::CaseData& data);
+[[nodiscard]] std::vector<procedure::Measure> decline_measures(
+    const cases::CaseData& data,
+    const procedure::OperationRecord& record,
+    const procedure::Procedure& procedure);
+
+/// Placement and conduct, graded by the procedure's rules; of an operation that was declined, that.
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record,
                                            const Fixation& fixation);

@@ -29,6 +29,9 @@ void write(FieldWriter& out, const LoggedEvent& in);
 void read(FieldReader& in, NamedView& out);
 void write(FieldWriter& out, const NamedView& in);
 
+void read(FieldReader& in, CaseCard& out);
+void write(FieldWriter& out, const CaseCard& in);
+
 void read(FieldReader& in, ProcedureSummary& out);
 void write(FieldWriter& out, const ProcedureSummary& in);
 
@@ -88,6 +91,12 @@ void write(FieldWriter& out, const PlacedScrew& in);
 
 void read(FieldReader& in, Placement& out);
 void write(FieldWriter& out, const Placement& in);
+
+void read(FieldReader& in, DeclineReason& out);
+void write(FieldWriter& out, const DeclineReason& in);
+
+void read(FieldReader& in, CaseAnswer& out);
+void write(FieldWriter& out, const CaseAnswer& in);
 
 void read(FieldReader& in, ScoreReport& out);
 void write(FieldWriter& out, const ScoreReport& in);

@@ -35,6 +35,10 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       return read_gauge(model, command.hand);
     case CommandKind::Undo:
       return undo(model);
+    case CommandKind::Decline:
+      spent.ended = static_cast<std::uint8_t>(command.index << 1U);
+      is_finishing = true;
+      return;
     case CommandKind::Finish:
       is_finishing = true;
       return;

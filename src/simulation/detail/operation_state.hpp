@@ -228,7 +228,9 @@ struct Spent {
   std::uint32_t live_ticks = 0;  ///< since the pedal went down; 0 while it is up
   std::uint32_t live_look = 0;   ///< its number
   CArmInput c_arm;
-  bool finished = false;
+  /// 0 while it goes on, 1 once finished; declined: besides, bit i + 1 for the procedure's reason
+  /// i.
+  std::uint8_t ended = 0;
   bool wrist_is_told = false;  ///< that it came to its limit or is held
   WristPose wrist;             ///< as it is held now
   std::array<HandState, kHands> hands{};
@@ -253,7 +255,7 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
   v(spent.c_arm.rotation_deg);
   v(spent.c_arm.tilt_deg);
   v(spent.c_arm.pedal_is_down);
-  v(spent.finished);
+  v(spent.ended);
   v(spent.wrist_is_told);
   v(spent.wrist.flexion_rad);
   v(spent.wrist.radial_deviation_rad);

@@ -150,6 +150,7 @@ bool is_possible(const Operated& now, const Spent& spent, const StateBounds& bou
     if (!is_displacement_possible(moved)) return false;
   }
   if (!is_displacement_possible(now.carried)) return false;
+  if (spent.ended != 0 && (spent.ended & 1U) == 0) return false;
   return are_held_items_possible(now) && are_tracks_possible(now, bounds.bodies) &&
          are_passes_possible(spent, bounds) && are_counts_possible(now, spent, bounds.steps) &&
          is_near(now.gauge_reading_mm) && is_near(now.reamed_mm) && is_near(now.holding_share) &&

@@ -102,7 +102,7 @@ void World::State::publish_state(const Model& model) noexcept {
     if (steps[i].passes_over_earlier && (now.completed_steps >> i & 1U) != 0) current = i;
   }
   while (current < steps.size() && (now.completed_steps >> current & 1U) != 0) ++current;
-  snapshot.step = static_cast<std::uint8_t>(spent.finished ? steps.size() : current);
+  snapshot.step = static_cast<std::uint8_t>(spent.ended != 0 ? steps.size() : current);
   for (std::size_t i = 0; i < kMaxItems; ++i) publish_item(model, i);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) snapshot.patient_from_bone[b] = poses[b];
   snapshot.wrist = spent.wrist;
@@ -121,8 +121,8 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.looks = spent.looks;
   snapshot.pulses = spent.pulses;
   snapshot.undos = spent.undos;
-  snapshot.can_undo = checkpoint_count > 0 && !spent.finished;
-  snapshot.finished = spent.finished;
+  snapshot.can_undo = checkpoint_count > 0 && spent.ended == 0;
+  snapshot.finished = spent.ended != 0;
 }
 
 void World::State::publish(const Model& model) noexcept {

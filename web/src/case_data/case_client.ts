@@ -7,11 +7,13 @@ import {
   parseAttemptList,
   parseCArmPicture,
   parseCaseDescription,
+  parseCaseList,
   parseProcedureList,
   type Attempt,
   type AttemptList,
   type CArmPicture,
   type CaseDescription,
+  type CaseList,
   type Parsed,
   type ProcedureSummary,
 } from "../protocol";
@@ -46,6 +48,11 @@ async function ask<T>(path: string, parse: (text: string) => Parsed<T>): Promise
 
 export function fetchCase(): Promise<CaseDescription> {
   return ask("/api/case", parseCaseDescription);
+}
+
+/** Those that can be chosen, and which is open. */
+export function fetchCases(): Promise<CaseList> {
+  return ask("/api/cases", parseCaseList);
 }
 
 /** What can be practised on the case. */

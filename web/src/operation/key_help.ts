@@ -88,6 +88,7 @@ export const HELP: readonly HelpGroup[] = [
     lines: [
       { keys: "{KeyZ}", text: "undo: back to the last checkpoint" },
       { keys: "{KeyF}", text: "finish (asks first)" },
+      { keys: "Del", text: "decline to operate (asks for the reasons)" },
       { keys: "{KeyP}", text: "pause" },
       { keys: "{Backquote}", text: "sound on or off" },
       { keys: "?, F1", text: "this help" },
@@ -145,6 +146,7 @@ const KEYS_OF: Readonly<Record<string, string>> = {
   read_gauge: "{KeyM}",
   undo: "{KeyZ}",
   finish: "{KeyF}",
+  decline: "Del",
 };
 
 /** Each action's keys; one that the page has no key for is passed over. */

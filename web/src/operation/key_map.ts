@@ -38,6 +38,7 @@ export type OnceAction =
         | "switch_hand"
         | "undo"
         | "finish"
+        | "decline"
         | "pause"
         | "camera"
         | "skin"
@@ -94,6 +95,7 @@ const PLACES: Readonly<Record<string, OnceAction>> = {
   Semicolon: { kind: "beam" },
   Backslash: { kind: "save_picture" },
   Enter: { kind: "aim_along_sight" },
+  Delete: { kind: "decline" },
   F1: { kind: "help" },
   PageUp: { kind: "choose_screw", by: -1 },
   PageDown: { kind: "choose_screw", by: 1 },

@@ -12,11 +12,13 @@ export interface Asked {
   readonly instrument?: string;
   /** Of pick_up and pick_up_far_end. */
   readonly item?: number;
+  /** Of decline: ids of the procedure's reasons. */
+  readonly reasons?: readonly string[];
 }
 
 export function actMessage(asked: Asked): ActMessage {
-  const { id, hand = null, instrument = null, item = null } = asked;
-  return { type: "act", id, hand, instrument, item };
+  const { id, hand = null, instrument = null, item = null, reasons = null } = asked;
+  return { type: "act", id, hand, instrument, item, reasons };
 }
 
 export class OfferedActions {

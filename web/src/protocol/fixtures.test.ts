@@ -9,6 +9,7 @@ import { describe, expect, it } from "vitest";
 import {
   parseAttempt,
   parseAttemptList,
+  parseCaseList,
   parseCaseDescription,
   parseHostMessage,
   parseInstrumentList,
@@ -26,6 +27,7 @@ const READERS: readonly (readonly [string, (text: string) => Parsed<unknown>])[]
   ["http/instrument_list", parseInstrumentList],
   ["http/procedure_list", parseProcedureList],
   ["http/attempt_list", parseAttemptList],
+  ["http/case_list", parseCaseList],
   ["http/attempt", parseAttempt],
 ];
 const DIRECTIONS = ["page_to_host", "host_to_page", "http"];

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 8;
+export const PROTOCOL_VERSION = 9;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -24,10 +24,13 @@ export type Driver = "off" | "forward" | "reverse";
 export type Guidance = "direct" | "planned";
 
 /** Things done once rather than held. */
-export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish";
+export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline";
 
 /** What angles of the C-arm are counted from: the forearm as it is held now, or as it was scanned, which is how the room stands. */
 export type AngleReference = "held_forearm" | "room";
+
+/** What should be done about a case's fracture. */
+export type RightAnswer = "fix" | "reduce_first" | "decline";
 
 /** Of a drawn part. */
 export type Material = "steel" | "titanium" | "handle" | "black";
@@ -112,6 +115,20 @@ export interface NamedView {
   readonly rotation_deg: number;
   /** [deg] -60 to 60 */
   readonly tilt_deg: number;
+}
+
+/** A case that can be chosen, with what its lesson says; only id and title where it has none. */
+export interface CaseCard {
+  /** of its folder */
+  readonly id: string;
+  readonly title: string;
+  /** what the patient tells: no diagnosis */
+  readonly history: string;
+  /** what is to be learnt; with the title, what an assessed trainee finds out */
+  readonly goal: string;
+  /** 0 easy to 100, from geometry 0 to 100 */
+  readonly difficulty: number | null;
+  readonly has_preview: boolean;
 }
 
 /** An operation that can be practised. */
@@ -391,6 +408,19 @@ export interface Placement {
   readonly screw: PlacedScrew | null;
 }
 
+/** Why one may decline to operate. */
+export interface DeclineReason {
+  readonly id: string;
+  readonly label: string;
+}
+
+/** What the case's lesson says of it, for afterwards. */
+export interface CaseAnswer {
+  readonly title: string;
+  readonly right_answer: RightAnswer;
+  readonly reason: string;
+}
+
 /** The truth about a finished operation (docs/scoring.md). Records hold it in this form. */
 export interface ScoreReport {
   /** 1 to 2 */
@@ -400,6 +430,10 @@ export interface ScoreReport {
   readonly fixation_acceptable: boolean;
   /** an assessed operation that ended before there was anything to assess: the truth stays locked */
   readonly is_void: boolean | null;
+  /** reasons in words, where it was declined to operate */
+  readonly declined_for: readonly string[] | null;
+  /** none where the case has no lesson, or the truth is locked */
+  readonly answer: CaseAnswer | null;
   readonly must_haves: readonly MustHave[];
   readonly items: readonly ScoreItem[];
   /** [mm] 0 to 1000 */
@@ -497,6 +531,13 @@ export interface StartMessage {
   readonly seed: number;
 }
 
+/** Opens another of GET /api/cases: what runs is stored as unfinished, the connection ends, and the host is away for the seconds that loading takes. */
+export interface ChooseCaseMessage {
+  readonly type: "choose_case";
+  /** its id */
+  readonly case: string;
+}
+
 /** Where a hand wants the instrument that it holds; the newest of each hand counts. */
 export interface HandMessage {
   readonly type: "hand";
@@ -529,6 +570,8 @@ export interface ActMessage {
   readonly instrument: string | null;
   /** of pick_up and pick_up_far_end 0 to 254 */
   readonly item: number | null;
+  /** of decline: ids of exercise.decline_reasons, at least one */
+  readonly reasons: readonly string[] | null;
 }
 
 /** One fluoroscopy picture. */
@@ -592,6 +635,7 @@ export type PageMessage =
   | HelloMessage
   | EndMessage
   | StartMessage
+  | ChooseCaseMessage
   | HandMessage
   | WristMessage
   | ActMessage
@@ -632,6 +676,8 @@ export interface ExerciseMessage {
   /** in the order of snapshot.bodies */
   readonly bodies: readonly Body[];
   readonly wrist_limits: WristLimits;
+  /** none: it cannot be declined */
+  readonly decline_reasons: readonly DeclineReason[];
 }
 
 /** State, about 60 times a second while an exercise runs. */
@@ -780,6 +826,13 @@ export interface CaseDescription {
   readonly bones: readonly string[];
 }
 
+/** GET /api/cases. Those that can be chosen, in order; the picture of one that has it is at /api/cases/<id>/preview.png. No right answer: that is for afterwards. */
+export interface CaseList {
+  /** id of the one that is served now */
+  readonly open: string;
+  readonly cases: readonly CaseCard[];
+}
+
 /** GET /api/procedures. What can be practised on this case. */
 export interface ProcedureList {
   readonly procedures: readonly ProcedureSummary[];
@@ -824,6 +877,11 @@ export function parseHostMessage(text: string): Parsed<HostMessage> {
 /** Validates the body of an HTTP answer; never throws. */
 export function parseCaseDescription(text: string): Parsed<CaseDescription> {
   return parseBody(text, rules.CASE_DESCRIPTION, 131072, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseCaseList(text: string): Parsed<CaseList> {
+  return parseBody(text, rules.CASE_LIST, 2097152, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

@@ -12,8 +12,9 @@ export const SCHEMA: Schema = {
     input_device: { values: ["mouse", "keyboard", "gamepad", "arm", "headset", "script"] },
     driver: { values: ["off", "forward", "reverse"] },
     guidance: { values: ["direct", "planned"] },
-    action_id: { values: ["take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish"] },
+    action_id: { values: ["take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish", "decline"] },
     angle_reference: { values: ["held_forearm", "room"] },
+    right_answer: { values: ["fix", "reduce_first", "decline"] },
     material: { values: ["steel", "titanium", "handle", "black"] },
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
@@ -55,6 +56,14 @@ export const SCHEMA: Schema = {
       label: {"type": "string", "max_length": 64},
       rotation_deg: {"type": "number", "min": -180, "max": 180},
       tilt_deg: {"type": "number", "min": -60, "max": 60},
+    } },
+    case_card: { fields: {
+      id: {"type": "string", "max_length": 64},
+      title: {"type": "string", "max_length": 128},
+      history: {"type": "string", "max_length": 1024},
+      goal: {"type": "string", "max_length": 1024},
+      difficulty: {"type": "number", "min": 0, "max": 100, "optional": true},
+      has_preview: {"type": "boolean"},
     } },
     procedure_summary: { fields: {
       id: {"type": "string", "max_length": 64},
@@ -211,11 +220,22 @@ export const SCHEMA: Schema = {
       wire: {"type": "placed_wire", "optional": true},
       screw: {"type": "placed_screw", "optional": true},
     } },
+    decline_reason: { fields: {
+      id: {"type": "string", "max_length": 32},
+      label: {"type": "string", "max_length": 128},
+    } },
+    case_answer: { fields: {
+      title: {"type": "string", "max_length": 128},
+      right_answer: {"type": "right_answer"},
+      reason: {"type": "string", "max_length": 1024},
+    } },
     score_report: { fields: {
       score_version: {"type": "integer", "min": 1, "max": 2},
       overall: {"type": "number", "min": 0, "max": 100},
       fixation_acceptable: {"type": "boolean"},
       is_void: {"type": "boolean", "optional": true},
+      declined_for: {"type": "array", "of": {"type": "string", "max_length": 128}, "max_items": 8, "optional": true},
+      answer: {"type": "case_answer", "optional": true},
       must_haves: {"type": "array", "of": {"type": "must_have"}, "max_items": 32},
       items: {"type": "array", "of": {"type": "score_item"}, "max_items": 64},
       central_axis_length_mm: {"type": "number", "min": 0, "max": 1000},
@@ -272,6 +292,9 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     input_device: {"type": "input_device"},
     seed: {"type": "integer", "min": 0, "max": 4294967295},
   },
+  choose_case: {
+    case: {"type": "string", "max_length": 64},
+  },
   hand: {
     sequence: {"type": "integer", "min": 0, "max": 4294967295},
     hand: {"type": "integer", "min": 0, "max": 1},
@@ -292,6 +315,7 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     hand: {"type": "integer", "min": 0, "max": 1, "optional": true},
     instrument: {"type": "string", "max_length": 64, "optional": true},
     item: {"type": "integer", "min": 0, "max": 254, "optional": true},
+    reasons: {"type": "array", "of": {"type": "string", "max_length": 32}, "max_items": 8, "optional": true},
   },
   take_shot: {
     rotation_deg: {"type": "number", "min": -180, "max": 180},
@@ -340,6 +364,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     instruments: {"type": "array", "of": {"type": "instrument"}, "max_items": 128},
     bodies: {"type": "array", "of": {"type": "body"}, "max_items": 32},
     wrist_limits: {"type": "wrist_limits"},
+    decline_reasons: {"type": "array", "of": {"type": "decline_reason"}, "max_items": 8},
   },
   snapshot: {
     tick: {"type": "integer", "min": 0, "max": 9007199254740991},
@@ -421,6 +446,11 @@ export const CASE_DESCRIPTION: Rules = {
   wrist_from_patient: {"type": "array", "of": {"type": "number", "min": -100000, "max": 100000}, "length": 16},
   scan: {"type": "wrist_pose"},
   bones: {"type": "array", "of": {"type": "string", "max_length": 32}, "max_items": 64},
+};
+
+export const CASE_LIST: Rules = {
+  open: {"type": "string", "max_length": 64},
+  cases: {"type": "array", "of": {"type": "case_card"}, "max_items": 200},
 };
 
 export const PROCEDURE_LIST: Rules = {

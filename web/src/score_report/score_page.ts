@@ -12,6 +12,7 @@ import { eventList } from "./event_list";
 import { itemPicture } from "./item_picture";
 import { placementPictures } from "./placement_pictures";
 import { GRADE_SIGNS, GRADE_WORDS, longestLineText, valueText } from "./score_model";
+import { answerText, isDeclined, verdictText } from "./verdict_model";
 import "./score.css";
 
 export function mountScore(app: HTMLElement, attemptId: number): () => void {
@@ -106,7 +107,7 @@ function show(
       "Measured on the case's own geometry; simulated training, not a medical device.",
     ),
   );
-  if (report.is_void === true) {
+  if (report.is_void === true || isDeclined(report)) {
     pictures.remove();
     return;
   }
@@ -153,15 +154,9 @@ function verdict(report: ScoreReport): HTMLElement {
       make("strong", {}, String(Math.round(report.overall))),
       make("span", {}, " of 100"),
     ),
-    make(
-      `p.${report.fixation_acceptable ? "good" : "harm"}` as "p",
-      {},
-      report.is_void === true
-        ? "✕ Void: the operation ended before a screw was in. What is true of this case stays closed."
-        : report.fixation_acceptable
-          ? "✓ The fixation is acceptable."
-          : "✕ The fixation is not acceptable: nothing earns points without it.",
-    ),
+    make(`p.${report.fixation_acceptable ? "good" : "harm"}` as "p", {}, verdictText(report)),
+    ...(report.declined_for ?? []).map((reason) => make("p", {}, `Said: ${reason}.`)),
+    ...(report.answer === null ? [] : [make("p.case-answer", {}, answerText(report.answer))]),
     make(
       "ul.must-haves",
       {},

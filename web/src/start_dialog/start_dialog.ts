@@ -3,7 +3,8 @@
 //
 // Who operates, on which case, and that it is no patient where it is none.
 import { button, make, setText } from "../dom";
-import type { CaseDescription, Mode, ProcedureSummary } from "../protocol";
+import type { CaseDescription, CaseList, Mode, ProcedureSummary } from "../protocol";
+import { CaseCards } from "./case_cards";
 import { nameProblem } from "./name_model";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
@@ -65,6 +66,7 @@ export class StartDialog {
   private readonly start: HTMLButtonElement;
   private readonly resume: HTMLButtonElement;
   private readonly end: HTMLButtonElement;
+  private cards: CaseCards | undefined;
   private readonly note = make("p.start-note", { role: "status" });
 
   constructor(
@@ -133,6 +135,10 @@ export class StartDialog {
       onStart(this.choice());
     });
     this.element = make("dialog.start", { "aria-labelledby": "start-title" }, form);
+    form.addEventListener("change", () => {
+      this.followMode();
+    });
+    this.followMode();
     // Escape has nothing to go back to.
     this.element.addEventListener("cancel", (event) => {
       event.preventDefault();
@@ -153,8 +159,16 @@ export class StartDialog {
       "dl.start-facts",
       {},
       ...row("Case", ...patient),
-      ...row("Side", `${d.side} wrist, scanned ${scanned}${brokenText(d.bones)}`),
-      ...row("From", d.source === "" ? "not stated" : withTimesSigns(d.source)),
+      ...row(
+        "Side",
+        `${d.side} wrist, scanned ${scanned}`,
+        make("span.start-diagnosis", {}, brokenText(d.bones)),
+      ),
+      ...row(
+        "From",
+        make("span.start-diagnosis", {}, d.source === "" ? "not stated" : withTimesSigns(d.source)),
+        make("span.start-untold", {}, "told afterwards"),
+      ),
     );
   }
 
@@ -207,12 +221,30 @@ export class StartDialog {
     const trainee = this.name.value.trim();
     const checked = this.element.querySelector<HTMLInputElement>("input[name=procedure]:checked");
     const procedure = checked?.value ?? "";
-    const wanted = this.element.querySelector<HTMLInputElement>("input[name=mode]:checked")?.value;
-    const mode: Mode = wanted === "assessed" ? "assessed" : "practice";
+    const { mode } = this;
     remember(MODE_KEY, mode);
     remember(NAME_KEY, trainee);
     remember(PROCEDURE_KEY, procedure);
     return { trainee, procedure, mode };
+  }
+
+  /** What can be chosen, before what is known of the open one; nothing where there is no choice. */
+  showCases(list: CaseList, choose: (id: string) => void): void {
+    if (list.cases.length < 2) return;
+    this.cards = new CaseCards(list, choose);
+    this.cards.show(this.mode);
+    this.element.querySelector(".start-facts")?.before(this.cards.element);
+  }
+
+  private get mode(): Mode {
+    const input = this.element.querySelector<HTMLInputElement>("input[name=mode]:checked");
+    return input?.value === "assessed" ? "assessed" : "practice";
+  }
+
+  /** What the way to operate leaves to be found out is not told beforehand. */
+  private followMode(): void {
+    this.element.classList.toggle("assessed", this.mode === "assessed");
+    this.cards?.show(this.mode);
   }
 
   open(): void {

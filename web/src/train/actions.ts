@@ -39,6 +39,8 @@ export interface ActionRoom {
   say(text: string): void;
   /** Asks before the operation ends. */
   finish(): void;
+  /** Asks for what reasons. */
+  decline(): void;
   pause(): void;
 }
 
@@ -119,6 +121,9 @@ export class Actions {
       case "finish":
         if (!this.isRefused({ id: "finish" })) this.room.finish();
         break;
+      case "decline":
+        if (!this.isRefused({ id: "decline" })) this.room.decline();
+        break;
       case "pause":
         this.room.pause();
         break;
@@ -176,6 +181,7 @@ export class Actions {
       putDown: offered.whyNot({ id: "put_down", hand }),
       undo: offered.whyNot({ id: "undo" }),
       finish: offered.whyNot({ id: "finish" }),
+      decline: offered.whyNot({ id: "decline" }),
       canPickUp: offered.pickUps(hand).length > 0,
       canPickUpFarEnd: offered.farEnds(hand).some((one) => one.allowed),
     };

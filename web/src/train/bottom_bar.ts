@@ -18,6 +18,7 @@ export interface BottomBarHandlers {
   undo(): void;
   restart(): void;
   finish(): void;
+  decline(): void;
 }
 
 /** Why each way cannot be gone now, in the host's words; nothing where it can. */
@@ -26,6 +27,7 @@ export interface ClosedWays {
   readonly putDown: string | undefined;
   readonly undo: string | undefined;
   readonly finish: string | undefined;
+  readonly decline: string | undefined;
   /** Whether anything lies in bone that the hand could take hold of. */
   readonly canPickUp: boolean;
   readonly canPickUpFarEnd: boolean;
@@ -54,7 +56,10 @@ export class BottomBar {
   private readonly holding = make("span");
   private readonly sparkline = new Sparkline();
   private readonly ways: Readonly<
-    Record<"measure" | "putDown" | "pickUp" | "pickUpFarEnd" | "undo" | "finish", HTMLButtonElement>
+    Record<
+      "measure" | "putDown" | "pickUp" | "pickUpFarEnd" | "undo" | "finish" | "decline",
+      HTMLButtonElement
+    >
   >;
   private exercise: ExerciseMessage | undefined;
 
@@ -74,6 +79,7 @@ export class BottomBar {
       pickUpFarEnd: button("Other end", "Shift + {KeyG}", handlers.pickUpFarEnd, ".quiet"),
       undo: button("Undo", "{KeyZ}", handlers.undo, ".quiet"),
       finish: button("Finish", "{KeyF}", handlers.finish),
+      decline: button("Decline…", "Del", handlers.decline, ".quiet"),
     };
     this.element = make(
       "footer.bottom-bar",
@@ -105,6 +111,7 @@ export class BottomBar {
         this.ways.putDown,
         this.ways.undo,
         button("Restart", "", handlers.restart, ".quiet"),
+        this.ways.decline,
         this.ways.finish,
       ),
     );
@@ -141,6 +148,7 @@ export class BottomBar {
     show(this.ways.putDown, ways.putDown);
     show(this.ways.undo, ways.undo);
     show(this.ways.finish, ways.finish);
+    show(this.ways.decline, ways.decline);
     this.ways.pickUp.hidden = !ways.canPickUp;
     this.ways.pickUpFarEnd.hidden = !ways.canPickUpFarEnd;
   }

@@ -31,6 +31,7 @@ export function layOut(app: HTMLElement, panels: Panels): HTMLElement {
     panels.help.element,
     panels.tray.element,
     panels.finishQuestion.element,
+    panels.declineQuestion.element,
     panels.anewQuestion.element,
     panels.endQuestion.element,
   );

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Loads the case and shows the room, or says why it cannot be shown.
-import { fetchCase, fetchProcedures } from "../case_data";
+import { fetchCase, fetchCases, fetchProcedures } from "../case_data";
 import { button, make } from "../dom";
 import { loadCaseScene } from "../theatre";
 import { TrainPage } from "./train_page";
@@ -15,12 +15,15 @@ export function mountTrain(app: HTMLElement): () => void {
   let left = false;
   void (async () => {
     try {
-      const [description, procedures, scene] = await Promise.all([
+      const [description, procedures, cases, scene] = await Promise.all([
         fetchCase(),
         fetchProcedures(),
+        fetchCases(),
         loadCaseScene("/api/scene.glb"),
       ]);
-      if (!left) page = new TrainPage(app, description, procedures, scene);
+      if (left) return;
+      page = new TrainPage(app, description, procedures, scene);
+      page.offerCases(cases);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       const again = button("Try again", "", () => {

@@ -13,6 +13,7 @@ import { StartDialog, type StartChoice } from "../start_dialog";
 import type { ViewId } from "../theatre";
 import { BottomBar } from "./bottom_bar";
 import { ConfirmDialog } from "./confirm_dialog";
+import { DeclineDialog } from "./decline_dialog";
 import { DriveControls, type DriveHandlers } from "./drive_controls";
 import { Notice } from "./notice";
 import { StepPanel } from "./step_panel";
@@ -43,6 +44,8 @@ export interface Wishes {
   /** Ends what another page does here; was asked and is sure. */
   endOther(): void;
   finish(): void;
+  /** Was asked for what reasons. */
+  decline(reasons: readonly string[]): void;
 }
 
 export interface Panels {
@@ -59,6 +62,7 @@ export interface Panels {
   readonly tray: TrayDialog;
   readonly wrist: WristPanel;
   readonly finishQuestion: ConfirmDialog;
+  readonly declineQuestion: DeclineDialog;
   readonly anewQuestion: ConfirmDialog;
   readonly endQuestion: ConfirmDialog;
   /** Over the scene while there is no connection. */
@@ -84,6 +88,7 @@ export function makePanels(
       | "put_down"
       | "undo"
       | "finish"
+      | "decline"
       | "sound",
   ) => {
     return (): void => {
@@ -131,6 +136,7 @@ export function makePanels(
         wishes.restart();
       },
       finish: act("finish"),
+      decline: act("decline"),
     }),
     drive: new DriveControls(wishes.drive),
     notice: new Notice(),
@@ -162,6 +168,9 @@ export function makePanels(
         wishes.finish();
       },
     ),
+    declineQuestion: new DeclineDialog((reasons) => {
+      wishes.decline(reasons);
+    }),
     anewQuestion: new ConfirmDialog(
       "Start anew?",
       "What was done so far is stored as unfinished.",

@@ -109,6 +109,7 @@ export class TakingPart {
     panels.frozen.hidden = panels.pausedSign.hidden = true;
     for (const { element } of [
       panels.finishQuestion,
+      panels.declineQuestion,
       panels.anewQuestion,
       panels.endQuestion,
       panels.tray,
@@ -157,6 +158,12 @@ export class TakingPart {
         ? ""
         : openStepsText(doing?.steps ?? [], latest?.completed_steps ?? []);
     this.room.panels.finishQuestion.ask(open);
+  }
+
+  /** Asks for what reasons it is declined. */
+  askToDecline(): void {
+    if (!this.operates) return;
+    this.room.panels.declineQuestion.ask(this.room.seen.doing?.decline_reasons ?? []);
   }
 
   /** The operation was scored. */

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
+import { fetchCases } from "../case_data";
 import { faceNames, makeFrameMap } from "../frames";
 import { GamepadHand } from "../gamepad";
 import { followLayout } from "../key_caps";
-import type { CaseDescription, HostMessage, ProcedureSummary } from "../protocol";
+import type { CaseDescription, CaseList, HostMessage, ProcedureSummary } from "../protocol";
 import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
@@ -24,6 +25,8 @@ import { whatIsDone } from "./what_is_done";
 import { whatIsHeard } from "./what_is_heard";
 import { WhatIsSeen } from "./what_is_seen";
 
+const OPENING = "Opening the case…";
+
 export class TrainPage {
   private readonly panels: Panels;
   private readonly theatre: Theatre;
@@ -37,6 +40,10 @@ export class TrainPage {
   private readonly connection: Connection;
   private readonly abort = new AbortController();
   private readonly stops: (() => void)[];
+  /** Id of the case that is shown; unknown until offerCases. */
+  private openCase: string | undefined;
+  /** Another was asked for, and the host is away to open it. */
+  private isOpening = false;
 
   constructor(
     app: HTMLElement,
@@ -75,6 +82,29 @@ export class TrainPage {
     this.panels.start.open();
     this.connection = this.connect();
     this.stops = [showToTests(this.theatre, this.seen, this.sound), this.startLoop()];
+  }
+
+  /** Lets another case be chosen, and goes with the host where it has opened another. */
+  offerCases(list: CaseList): void {
+    this.openCase = list.open;
+    this.panels.start.showCases(list, (id) => {
+      if (this.isOpening || !this.connection.tell({ type: "choose_case", case: id })) return;
+      this.isOpening = true;
+      this.panels.start.setReady(false, OPENING);
+    });
+  }
+
+  private async followCase(): Promise<void> {
+    let open: string;
+    try {
+      ({ open } = await fetchCases());
+    } catch {
+      return; // the host goes and comes; its next welcome asks again
+    }
+    if (this.openCase !== undefined && open !== this.openCase) return location.reload();
+    if (!this.isOpening) return;
+    this.isOpening = false;
+    this.panels.start.setReady(true, "That case could not be opened; this one stays.");
   }
 
   dispose(): void {
@@ -174,6 +204,9 @@ export class TrainPage {
       finish: () => {
         this.actions.ask({ id: "finish" });
       },
+      decline: (reasons) => {
+        this.actions.ask({ id: "decline", reasons });
+      },
     });
   }
 
@@ -235,6 +268,9 @@ export class TrainPage {
       finish: () => {
         this.part.askToFinish();
       },
+      decline: () => {
+        this.part.askToDecline();
+      },
       pause: () => {
         this.part.togglePause();
       },
@@ -264,7 +300,7 @@ export class TrainPage {
   private connect(): Connection {
     return new Connection({
       onLink: (state, text) => {
-        this.part.showLink(state, text);
+        this.part.showLink(state, this.isOpening && state !== "open" ? OPENING : text);
       },
       onMessage: (message) => {
         this.receive(message);
@@ -331,6 +367,7 @@ export class TrainPage {
         );
         break;
       case "welcome":
+        void this.followCase();
         this.part.arrive(message.exercise, {
           trainee: message.trainee,
           startedAt: message.started_at,

@@ -1,0 +1,114 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/find_cases.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "case_io/lesson_file.hpp"
+#include "core/error.hpp"
+#include "core/json_fields.hpp"
+#include "records/atomic_file.hpp"
+
+namespace carpus::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostCases = 200;
+constexpr std::size_t kLongestId = 64;
+constexpr std::size_t kLongestTitle = 128;
+constexpr std::uintmax_t kLargestPreview = std::uintmax_t{1} << 20U;
+constexpr double kWithoutLesson = 101;  // after all that have one
+
+bool is_case(const fs::path& folder) { return fs::exists(folder / "case.json"); }
+
+std::vector<fs::path> cases_in(const fs::path& place) {
+  // A single one may be damaged or missing: whoever loads it says so.
+  if (is_case(place) || !fs::is_directory(place)) return {place};
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(place)) {
+    if (entry.is_directory() && is_case(entry.path())) found.push_back(entry.path());
+  }
+  if (found.empty()) return {place};
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::string id_of(const fs::path& folder) {
+  const fs::path name = fs::absolute(folder).lexically_normal();
+  return (name.has_filename() ? name : name.parent_path())
+      .filename()
+      .string()
+      .substr(0, kLongestId);
+}
+
+/// As the case calls itself; its id where that cannot be read: whoever loads it says why.
+std::string pseudonym_of(const fs::path& folder, const std::string& id) {
+  try {
+    const std::vector<std::byte> bytes = records::read_file(folder / "case.json");
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const nlohmann::json json = parse_json_text(text, "case.json");
+    return JsonFields(json, "case.json", "").text("pseudonym").substr(0, kLongestTitle);
+  } catch (const Error&) {
+    return id;
+  }
+}
+
+server::ShelvedCase shelved(const fs::path& folder) {
+  server::ShelvedCase result;
+  result.id = id_of(folder);
+  result.title = pseudonym_of(folder, result.id);
+  const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
+  if (!lesson) return result;
+  result.title = lesson->title;
+  result.history = lesson->history;
+  result.goal = lesson->goal;
+  result.difficulty = lesson->difficulty.overall;
+  const fs::path preview = folder / case_io::kPreviewFile;
+  if (fs::is_regular_file(preview) && fs::file_size(preview) <= kLargestPreview) {
+    const std::vector<std::byte> bytes = records::read_file(preview);
+    result.preview = std::make_shared<const std::string>(
+        reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return result;
+}
+
+void sort_by_difficulty(std::vector<server::ShelvedCase>& all) {
+  std::stable_sort(
+      all.begin(), all.end(), [](const server::ShelvedCase& a, const server::ShelvedCase& b) {
+        return a.difficulty.value_or(kWithoutLesson) < b.difficulty.value_or(kWithoutLesson);
+      });
+}
+
+}  // namespace
+
+FoundCases find_cases(const std::vector<std::string>& places) {
+  FoundCases found;
+  for (const std::string& place : places) {
+    const std::size_t before = found.shelf.cases.size();
+    for (const fs::path& folder : cases_in(place)) {
+      server::ShelvedCase one = shelved(folder);
+      if (!found.folders.emplace(one.id, folder).second) {
+        throw InvalidInput("two cases are called '" + one.id +
+                           "'; rename the folder of one, or serve one of them");
+      }
+      found.shelf.cases.push_back(std::move(one));
+    }
+    if (before > 0) continue;
+    sort_by_difficulty(found.shelf.cases);
+    found.shelf.open = found.shelf.cases.front().id;
+  }
+  if (found.shelf.cases.size() > kMostCases) {
+    throw InvalidInput("there are " + std::to_string(found.shelf.cases.size()) +
+                       " cases; serve at most " + std::to_string(kMostCases));
+  }
+  sort_by_difficulty(found.shelf.cases);
+  return found;
+}
+
+}  // namespace carpus::cli

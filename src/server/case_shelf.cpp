@@ -1,0 +1,17 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/case_shelf.hpp"
+
+namespace carpus::server {
+
+protocol::CaseList message_of(const CaseShelf& shelf) {
+  protocol::CaseList list;
+  list.open = shelf.open;
+  for (const ShelvedCase& each : shelf.cases) {
+    list.cases.push_back(
+        {each.id, each.title, each.history, each.goal, each.difficulty, each.preview != nullptr});
+  }
+  return list;
+}
+
+}  // namespace carpus::server

@@ -1,0 +1,125 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Several cases at one station: what their cards say in either way to operate, going from one to
+// another, and declining where that is the right answer. The cases are the demo twice, each with a
+// lesson of its own.
+import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { expectAccessible } from "./accessibility.mjs";
+import { newPage } from "./browser.mjs";
+import { check, expect } from "./checks.mjs";
+import { Operator } from "./operator.mjs";
+import { demoCase, startStation } from "./station.mjs";
+
+const lesson = (title, overall, more) => ({
+  format: "carpus lesson",
+  schema_version: 2,
+  title,
+  history: `Told by patient ${overall}.`,
+  goal: `Learn from ${title}.`,
+  size: "average",
+  reason: `Because it is: ${title}.`,
+  difficulty: {
+    corridor_clearance_mm: 1,
+    corridor_length_mm: 20,
+    smaller_part_mm: 9,
+    gap_mm: 0.5,
+    step_mm: 0,
+    flexion_deg: 0,
+    overall,
+  },
+  ...more,
+});
+
+function twoCases() {
+  const folder = mkdtempSync(join(tmpdir(), "carpus-cases-"));
+  const put = (name, what) => {
+    cpSync(demoCase(), join(folder, name), { recursive: true });
+    writeFileSync(join(folder, name, "lesson.json"), JSON.stringify(what));
+  };
+  put("easy", lesson("Easy one", 20, { right_answer: "fix" }));
+  put(
+    "humpback",
+    lesson("Old humpback", 70, {
+      right_answer: "decline",
+      decline_for: ["flexed", "bone_lost"],
+    }),
+  );
+  return folder;
+}
+
+const ready = (page) =>
+  page.locator("dialog.start button[type=submit]:not([disabled])").waitFor();
+
+async function chooseAndDecline(page, station) {
+  const card = (id) => page.locator(`.case-card[data-case=${id}]`);
+  await check(page, "cards show the cases, easiest first", async () => {
+    await page.goto(station.url);
+    await ready(page);
+    await page.check("input[name=mode][value=practice]");
+    const texts = await page.locator(".case-card").allTextContents();
+    expect(texts.length === 2, `${texts.length} cards`);
+    expect(texts[0].includes("Easy one"), `the first says '${texts[0]}'`);
+    expect(
+      texts[1].includes("Old humpback") &&
+        texts[1].includes("Difficulty 70 of 100") &&
+        texts[1].includes("Learn from"),
+      `the second says '${texts[1]}'`,
+    );
+    await expectAccessible(page, 4);
+  });
+  await check(page, "whoever is assessed is told no diagnosis", async () => {
+    await page.check("input[name=mode][value=assessed]");
+    const said = await page.locator("dialog.start").innerText();
+    for (const told of ["humpback", "Learn from", "in 2 parts", "fracture waist"])
+      expect(!said.includes(told), `the start says '${told}'`);
+    expect(said.includes("Told by patient 70."), "the history is not told");
+  });
+  await check(page, "another case opens, and the page goes with it", async () => {
+    await card("humpback").click();
+    await page
+      .locator(".case-card[data-case=humpback][aria-current=true]")
+      .waitFor();
+    await ready(page);
+    const { open } = await (await fetch(`${station.url}/api/cases`)).json();
+    expect(open === "humpback", `'${open}' is open`);
+  });
+  const operator = new Operator(page);
+  await check(page, "one declines, with reasons, after looking", async () => {
+    await operator.start(
+      station.url,
+      "Browser test, cases",
+      "volar_scaphoid_fixation",
+      "assessed",
+    );
+    for (const key of ["1", "2"]) await operator.shot(key);
+    await page.keyboard.press("Delete");
+    const dialog = page.locator("dialog.decline[open]");
+    await dialog.waitFor();
+    const yes = dialog.getByRole("button", { name: "Decline and end" });
+    expect(await yes.isDisabled(), "it can be declined without a reason");
+    await expectAccessible(page, 4);
+    await dialog.getByLabel(/humpback/).check();
+    await dialog.getByLabel(/Bone is lost/).check();
+    await yes.click();
+    await page.locator(".verdict", { hasText: "Declined, rightly" }).waitFor();
+    const verdict = await page.locator(".verdict").innerText();
+    expect(verdict.startsWith("100"), `the verdict says '${verdict}'`);
+    expect(verdict.includes("Because it is"), "the lesson is not told afterwards");
+  });
+}
+
+export async function chooseAmongCases(browser) {
+  const folder = twoCases();
+  const station = await startStation(["--open"], folder);
+  const page = await newPage(browser);
+  try {
+    await chooseAndDecline(page, station);
+  } finally {
+    await page.close();
+    await station.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+}

@@ -1,0 +1,38 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { answerText, verdictText } from "./verdict_model";
+
+describe("verdictText", () => {
+  const text = (
+    good: boolean,
+    isVoid: boolean | null,
+    declined: readonly string[] | null,
+  ): string => verdictText({ fixation_acceptable: good, is_void: isVoid, declined_for: declined });
+
+  it("tells a fixation", () => {
+    expect(text(true, null, null)).toContain("fixation is acceptable");
+    expect(text(false, null, null)).toContain("not acceptable");
+    expect(text(false, true, null)).toContain("before a screw was in");
+  });
+
+  it("tells a decline, right, wrong, and made without a look", () => {
+    expect(text(true, null, ["It is flexed"])).toBe("✓ Declined, rightly.");
+    expect(text(false, null, ["There is no fracture"])).toContain("not as it should be");
+    expect(text(false, true, ["There is no fracture"])).toContain("before it was looked at");
+  });
+});
+
+describe("answerText", () => {
+  it("says what was right and why", () => {
+    const answer = {
+      title: "Old humpback",
+      right_answer: "decline",
+      reason: "It is flexed.",
+    } as const;
+    expect(answerText(answer)).toBe(
+      "Old humpback. Right is to decline, and to say why. It is flexed.",
+    );
+    expect(answerText(null)).toBe("");
+  });
+});

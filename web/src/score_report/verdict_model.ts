@@ -1,0 +1,40 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What was achieved, in one sentence, and what the case was about.
+import type { CaseAnswer, RightAnswer, ScoreReport } from "../protocol";
+
+type Told = Pick<ScoreReport, "fixation_acceptable" | "is_void" | "declined_for">;
+
+export function isDeclined(report: Pick<ScoreReport, "declined_for">): boolean {
+  return (report.declined_for ?? []).length > 0;
+}
+
+export function verdictText(report: Told): string {
+  const good = report.fixation_acceptable;
+  if (report.is_void === true) {
+    return isDeclined(report)
+      ? "✕ Void: it was declined before it was looked at. What is true of this case stays closed."
+      : "✕ Void: the operation ended before a screw was in. What is true of this case stays closed.";
+  }
+  if (isDeclined(report)) {
+    return good
+      ? "✓ Declined, rightly."
+      : "✕ Declined, and not as it should be: nothing earns points without it.";
+  }
+  return good
+    ? "✓ The fixation is acceptable."
+    : "✕ The fixation is not acceptable: nothing earns points without it.";
+}
+
+const ANSWERS: Readonly<Record<RightAnswer, string>> = {
+  fix: "Right is to fix it as it lies.",
+  reduce_first: "Right is to reduce it first, then to fix it.",
+  decline: "Right is to decline, and to say why.",
+};
+
+/** "Old humpback: Right is to decline, and to say why. The distal part …" */
+export function answerText(answer: CaseAnswer | null): string {
+  if (answer === null) return "";
+  return `${answer.title}. ${ANSWERS[answer.right_answer]} ${answer.reason}`;
+}
