@@ -47,7 +47,7 @@ class ComposedRenderer {
   [[nodiscard]] Image render(const BeamScene& scene, const Exposure& exposure);
 
   /// The attenuation behind it.
-  [[nodiscard]] AttenuationMap project(const BeamScene& scene);
+  [[nodiscard]] AttenuationMap project(const BeamScene& scene, double tube_kv = 60.0);
 
   /// Bodies whose shadows were computed anew for the last picture, of those there are; soft tissue
   /// counts as one more.
@@ -64,7 +64,8 @@ class ComposedRenderer {
   std::optional<CArmPose> pose_;  ///< what the layers are of
   AttenuationMap soft_tissue_;
   std::vector<BodyLayer> bodies_;
-  AttenuationMap sum_;
+  AttenuationMap sum_;  ///< of both, at `sum_kv_`
+  double sum_kv_ = 0.0;
   std::size_t redone_ = 0;
 };
 

@@ -43,6 +43,8 @@ struct OperationRecord {
   double most_bend_rad = 0.0;  ///< by which any wire was bent for good
   std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;
+  std::uint8_t aids = 0;              ///< bit i: Aid i was used
+  std::uint32_t aids_used = 0;        ///< how often any was
   Tick ticks = 0;                     ///< duration
   std::uint32_t completed_steps = 0;  ///< bit i: step i
   bool finished = false;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,6 +49,9 @@ struct NamedView {
   std::string label;
   double rotation_deg = 0.0;  ///< from the forearm as it is held
   double tilt_deg = 0.0;
+  /// How the hand is held for it; none: as it is.
+  std::optional<double> flexion_deg = std::nullopt;
+  std::optional<double> radial_deviation_deg = std::nullopt;
 };
 
 /// How the operation begins on a case: computed before it, may use trigonometry. The hand waits in

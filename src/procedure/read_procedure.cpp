@@ -93,6 +93,10 @@ NamedView read_view(JsonFields& fields) {
   view.label = fields.text("label");
   view.rotation_deg = fields.number("rotation_deg", -180, 180);
   view.tilt_deg = fields.number("tilt_deg", -60, 60);
+  if (fields.has("flexion_deg")) view.flexion_deg = fields.number("flexion_deg", -90, 90);
+  if (fields.has("radial_deviation_deg")) {
+    view.radial_deviation_deg = fields.number("radial_deviation_deg", -60, 60);
+  }
   fields.refuse_unknown_fields();
   return view;
 }

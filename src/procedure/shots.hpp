@@ -16,14 +16,18 @@ inline constexpr double kDifferentViewDeg = 20.0;
 /// How far from its nominal angles a shot may be taken and still count as a view [deg] [E].
 inline constexpr double kViewToleranceDeg = 15.0;
 
-/// Dose-area product of one shot [cGy cm2], an engineering figure: five seconds of a mini
-/// C-arm at 0.1 mA (fluoroscopy/detector.hpp); a whole conventional operation takes 45.6 cGy cm2
-/// [navigatedndscaphoid].
+/// Dose-area product of one shot at the usual setting [cGy cm2], an engineering figure: five
+/// seconds of a mini C-arm at 0.1 mA (fluoroscopy/detector.hpp); a whole conventional operation
+/// takes 45.6 cGy cm2 [navigatedndscaphoid].
 inline constexpr double kDosePerShotCgyCm2 = 0.5;
 
-/// Of so many pulses of the tube.
-[[nodiscard]] constexpr double dose_cgy_cm2(std::uint64_t pulses) noexcept {
-  return kDosePerShotCgyCm2 * static_cast<double>(pulses) / kPulsesPerShot;
+/// Of so many pulses' dose_units.
+[[nodiscard]] constexpr double dose_cgy_cm2(std::uint64_t units) noexcept {
+  return kDosePerShotCgyCm2 * static_cast<double>(units) / (kPulsesPerShot * kUsualDoseUnits);
+}
+
+[[nodiscard]] constexpr std::uint64_t dose_units_of(const Shot& shot) noexcept {
+  return std::uint64_t{shot.pulses} * dose_units(shot.tube);
 }
 
 [[nodiscard]] constexpr bool is_near_angle(double value_deg,

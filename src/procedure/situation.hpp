@@ -15,6 +15,7 @@
 #include "core/units.hpp"
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
+#include "procedure/tube_setting.hpp"
 
 namespace carpus::procedure {
 
@@ -48,6 +49,7 @@ struct Shot {
   double along_aim = 0.0;    ///< |cos| between beam and the aim's line: 1 looks down it, the ring
   Look look = Look::Single;
   std::uint32_t pulses = kPulsesPerShot;
+  TubeSetting tube = kUsualTube;
   bool operator==(const Shot&) const = default;
 };
 
@@ -84,6 +86,10 @@ struct Aim {
   Vec3 direction{0, 0, 1};       ///< unit, into the bone
   double length_mm = 0.0;        ///< of the longest way through the bone
   double entry_within_mm = 0.0;  ///< of `entry` an entry is right
+  double chord_mm = 0.0;         ///< of this line in the bone
+  /// The screw for it, and how deep its tail lies; kNoInstrument: none fits.
+  instruments::InstrumentIndex screw = instruments::kNoInstrument;
+  double screw_tail_mm = 0.0;
 };
 
 /// How the fragments of a target in two pieces lie (anatomy/reduction.hpp); whole bones have none.

@@ -90,6 +90,7 @@ void read(FieldReader& in, Act& out) {
   if (in.has("hand")) out.hand = in.integer("hand", 0, 1);
   if (in.has("instrument")) out.instrument = in.string("instrument", 64);
   if (in.has("item")) out.item = in.integer("item", 0, 254);
+  if (in.has("aid")) out.aid = static_cast<Aid>(in.choice("aid", kAidNames));
   if (in.has("reasons")) in.list("reasons", 0, 8, 32, out.reasons.emplace());
 }
 
@@ -111,6 +112,11 @@ void write(FieldWriter& out, const Act& in) {
   } else {
     out.null("item");
   }
+  if (in.aid) {
+    out.name("aid", name_of(*in.aid));
+  } else {
+    out.null("aid");
+  }
   if (in.reasons) {
     out.list("reasons", *in.reasons, 32);
   } else {
@@ -129,6 +135,17 @@ void write(FieldWriter& out, const TakeShot& in) {
   out.value("rotation_deg", in.rotation_deg);
   out.value("tilt_deg", in.tilt_deg);
   out.name("reference", name_of(in.reference));
+}
+
+void read(FieldReader& in, Tube& out) {
+  out.tube_kv = in.number("tube_kv", 40.0, 80.0);
+  out.dose_level = static_cast<DoseLevel>(in.choice("dose_level", kDoseLevelNames));
+}
+
+void write(FieldWriter& out, const Tube& in) {
+  out.name("type", "tube");
+  out.value("tube_kv", in.tube_kv);
+  out.name("dose_level", name_of(in.dose_level));
 }
 
 void read(FieldReader& in, CArm& out) {
@@ -215,6 +232,7 @@ void read(FieldReader& in, Exercise& out) {
   in.records("instruments", 0, 128, out.instruments);
   in.records("bodies", 0, 32, out.bodies);
   in.record("wrist_limits", out.wrist_limits);
+  if (in.has("ideal")) in.record("ideal", out.ideal.emplace());
   in.records("decline_reasons", 0, 8, out.decline_reasons);
 }
 
@@ -228,6 +246,11 @@ void write(FieldWriter& out, const Exercise& in) {
   out.records("instruments", in.instruments);
   out.records("bodies", in.bodies);
   out.record("wrist_limits", in.wrist_limits);
+  if (in.ideal) {
+    out.record("ideal", *in.ideal);
+  } else {
+    out.null("ideal");
+  }
   out.records("decline_reasons", in.decline_reasons);
 }
 
@@ -429,7 +452,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 15> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 16> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -438,6 +461,7 @@ constexpr std::array<MessageKind<PageMessage>, 15> kPageMessageKinds{
      {"wrist", &read_as<PageMessage, Wrist>},
      {"act", &read_as<PageMessage, Act>},
      {"take_shot", &read_as<PageMessage, TakeShot>},
+     {"tube", &read_as<PageMessage, Tube>},
      {"c_arm", &read_as<PageMessage, CArm>},
      {"pedal", &read_as<PageMessage, Pedal>},
      {"quiz_begin", &read_as<PageMessage, QuizBegin>},

@@ -94,6 +94,8 @@ struct Act {
   std::optional<std::string> instrument;
   /// of pick_up and pick_up_far_end 0 to 254
   std::optional<std::int64_t> item;
+  /// of use_aid, which is counted
+  std::optional<Aid> aid;
   /// of decline: ids of exercise.decline_reasons, at least one
   std::optional<std::vector<std::string>> reasons;
   bool operator==(const Act&) const = default;
@@ -107,6 +109,14 @@ struct TakeShot {
   double tilt_deg = 0.0;
   AngleReference reference = AngleReference::HeldForearm;
   bool operator==(const TakeShot&) const = default;
+};
+
+/// How the C-arm's tube is set from now on; the nearest voltage that it has.
+struct Tube {
+  /// [kV] 40 to 80
+  double tube_kv = 0.0;
+  DoseLevel dose_level = DoseLevel::Low;
+  bool operator==(const Tube&) const = default;
 };
 
 /// Where the C-arm is moved to; it stays there in the room when the forearm turns. take_shot moves
@@ -167,6 +177,7 @@ using PageMessage = std::variant<Hello,
                                  Wrist,
                                  Act,
                                  TakeShot,
+                                 Tube,
                                  CArm,
                                  Pedal,
                                  QuizBegin,
@@ -208,6 +219,8 @@ struct Exercise {
   /// in the order of snapshot.bodies
   std::vector<Body> bodies;
   WristLimits wrist_limits;
+  /// in practice only, to be shown on request
+  std::optional<Ideal> ideal;
   /// none: it cannot be declined
   std::vector<DeclineReason> decline_reasons;
   bool operator==(const Exercise&) const = default;

@@ -81,6 +81,9 @@ void read(FieldReader& in, NamedView& out) {
   out.label = in.string("label", 64);
   out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
   out.tilt_deg = in.number("tilt_deg", -60.0, 60.0);
+  if (in.has("flexion_deg")) out.flexion_deg = in.number("flexion_deg", -90.0, 90.0);
+  if (in.has("radial_deviation_deg"))
+    out.radial_deviation_deg = in.number("radial_deviation_deg", -60.0, 60.0);
 }
 
 void write(FieldWriter& out, const NamedView& in) {
@@ -88,6 +91,32 @@ void write(FieldWriter& out, const NamedView& in) {
   out.text("label", in.label, 64);
   out.value("rotation_deg", in.rotation_deg);
   out.value("tilt_deg", in.tilt_deg);
+  if (in.flexion_deg) {
+    out.value("flexion_deg", *in.flexion_deg);
+  } else {
+    out.null("flexion_deg");
+  }
+  if (in.radial_deviation_deg) {
+    out.value("radial_deviation_deg", *in.radial_deviation_deg);
+  } else {
+    out.null("radial_deviation_deg");
+  }
+}
+
+void read(FieldReader& in, Ideal& out) {
+  out.entry_mm = in.vec3("entry_mm", 10000.0, 0.0);
+  out.direction = in.vec3("direction", 1.001, 0.0);
+  out.length_mm = in.number("length_mm", 0.0, 1000.0);
+  out.screw = in.string("screw", 64);
+  out.screw_tail_mm = in.number("screw_tail_mm", -1000.0, 1000.0);
+}
+
+void write(FieldWriter& out, const Ideal& in) {
+  out.vec3("entry_mm", in.entry_mm);
+  out.vec3("direction", in.direction);
+  out.value("length_mm", in.length_mm);
+  out.text("screw", in.screw, 64);
+  out.value("screw_tail_mm", in.screw_tail_mm);
 }
 
 void read(FieldReader& in, CaseCard& out) {
@@ -248,12 +277,16 @@ void read(FieldReader& in, CArmStand& out) {
   out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
   out.tilt_deg = in.number("tilt_deg", -60.0, 60.0);
   out.live = in.boolean("live");
+  out.tube_kv = in.number("tube_kv", 0.0, 200.0);
+  out.dose_level = static_cast<DoseLevel>(in.choice("dose_level", kDoseLevelNames));
 }
 
 void write(FieldWriter& out, const CArmStand& in) {
   out.value("rotation_deg", in.rotation_deg);
   out.value("tilt_deg", in.tilt_deg);
   out.value("live", in.live);
+  out.value("tube_kv", in.tube_kv);
+  out.name("dose_level", name_of(in.dose_level));
 }
 
 void read(FieldReader& in, Range& out) {

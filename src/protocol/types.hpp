@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 9;
+inline constexpr std::int64_t kProtocolVersion = 10;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -64,11 +64,12 @@ enum class ActionId : std::uint8_t {
   TakeShot,
   Undo,
   Finish,
-  Decline
+  Decline,
+  UseAid
 };
-inline constexpr std::array<std::string_view, 9> kActionIdNames{
+inline constexpr std::array<std::string_view, 10> kActionIdNames{
     "take",      "pick_up", "pick_up_far_end", "put_down", "read_gauge",
-    "take_shot", "undo",    "finish",          "decline"};
+    "take_shot", "undo",    "finish",          "decline",  "use_aid"};
 [[nodiscard]] constexpr std::string_view name_of(ActionId value) noexcept {
   return kActionIdNames[static_cast<std::size_t>(value)];
 }
@@ -87,6 +88,20 @@ inline constexpr std::array<std::string_view, 3> kRightAnswerNames{"fix", "reduc
                                                                    "decline"};
 [[nodiscard]] constexpr std::string_view name_of(RightAnswer value) noexcept {
   return kRightAnswerNames[static_cast<std::size_t>(value)];
+}
+
+/// What helps in practice, on request: a ghost of the ideal, bones cut open, a hint in words.
+enum class Aid : std::uint8_t { Ghost, Section, Hint };
+inline constexpr std::array<std::string_view, 3> kAidNames{"ghost", "section", "hint"};
+[[nodiscard]] constexpr std::string_view name_of(Aid value) noexcept {
+  return kAidNames[static_cast<std::size_t>(value)];
+}
+
+/// Of the C-arm's tube.
+enum class DoseLevel : std::uint8_t { Low, Usual, High };
+inline constexpr std::array<std::string_view, 3> kDoseLevelNames{"low", "usual", "high"};
+[[nodiscard]] constexpr std::string_view name_of(DoseLevel value) noexcept {
+  return kDoseLevelNames[static_cast<std::size_t>(value)];
 }
 
 /// Of a drawn part.
@@ -209,7 +224,25 @@ struct NamedView {
   double rotation_deg = 0.0;
   /// [deg] -60 to 60
   double tilt_deg = 0.0;
+  /// how the hand is held for it; none: as it is [deg] -90 to 90
+  std::optional<double> flexion_deg;
+  /// [deg] -60 to 60
+  std::optional<double> radial_deviation_deg;
   bool operator==(const NamedView&) const = default;
+};
+
+/// The line and the screw that the procedure is after, frame of the target as scanned.
+struct Ideal {
+  Vec3 entry_mm;
+  /// unit, into the bone
+  Vec3 direction;
+  /// of the line in the bone [mm] 0 to 1000
+  double length_mm = 0.0;
+  /// id of the instrument; empty where none fits
+  std::string screw;
+  /// from the entry to its tail [mm] -1000 to 1000
+  double screw_tail_mm = 0.0;
+  bool operator==(const Ideal&) const = default;
 };
 
 /// A case that can be chosen, with what its lesson says; only id and title where it has none.
@@ -352,6 +385,9 @@ struct CArmStand {
   double tilt_deg = 0.0;
   /// the pedal is down: live pictures come
   bool live = false;
+  /// [kV] 0 to 200
+  double tube_kv = 0.0;
+  DoseLevel dose_level = DoseLevel::Low;
   bool operator==(const CArmStand&) const = default;
 };
 

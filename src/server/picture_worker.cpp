@@ -25,7 +25,7 @@ void append(std::string& bytes, double value) {
 std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& image) {
   const bool is_single = shot.kind == PictureKind::Shot || shot.kind == PictureKind::Quiz;
   std::string bytes = "CARM";
-  append(bytes, 2, 4);
+  append(bytes, 3, 4);
   append(bytes, static_cast<std::uint32_t>(shot.kind), 4);
   append(bytes, shot.number, 4);
   append(bytes, static_cast<std::uint32_t>(image.width), 2);
@@ -34,7 +34,9 @@ std::string encode_picture(const TakenShot& shot, const fluoroscopy::Image& imag
   append(bytes,
          simulation::held_rotation_deg(shot.rotation_deg, shot.snapshot.wrist.pronation_rad));
   append(bytes, shot.tilt_deg);
-  append(bytes, procedure::dose_cgy_cm2(is_single ? procedure::kPulsesPerShot : 1U));
+  append(bytes, procedure::dose_cgy_cm2(std::uint64_t{is_single ? procedure::kPulsesPerShot : 1U} *
+                                        procedure::dose_units(shot.snapshot.tube)));
+  append(bytes, static_cast<double>(procedure::kTubeKv[procedure::voltage_of(shot.snapshot.tube)]));
   bytes.append(image.grey.begin(), image.grey.end());
   return bytes;
 }

@@ -175,6 +175,10 @@ void Station::on_message(const protocol::TakeShot& shot) {
   exercise_->loop().hold(exercise_->session().held());
 }
 
+void Station::on_message(const protocol::Tube& tube) {
+  if (has_exercise()) command(session::Session::take(tube));
+}
+
 void Station::on_message(const protocol::CArm& c_arm) {
   if (has_exercise()) exercise_->loop().hold(exercise_->session().take(c_arm));
 }

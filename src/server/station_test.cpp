@@ -34,8 +34,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":9,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":9,"page":"second"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":10,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":10,"page":"second"})";
 constexpr const char* kStart = R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
                                R"("input_device":"mouse","seed":7})";
 constexpr const char* kHand =
@@ -170,7 +170,7 @@ TEST_F(StationTest, WholeExerciseEndsWithAScoreThatIsInTheRecords) {
   const auto picture = page->wait_for([](const auto& f) { return f.is_binary; });
   ASSERT_TRUE(picture.has_value());
   EXPECT_EQ(picture->content.substr(0, 4), "CARM");
-  EXPECT_EQ(picture->content.size(), 36U + 512U * 512U);
+  EXPECT_EQ(picture->content.size(), 40U + 512U * 512U);
   float rotation = 0;
   std::memcpy(&rotation, picture->content.data() + 24, 4);
   EXPECT_EQ(rotation, 30.0F);
@@ -212,7 +212,7 @@ TEST_F(StationTest, LivePicturesComeWhileThePedalIsHeldAndTheLastOneIsHeld) {
   }
   EXPECT_TRUE(coarse.has_value()) << "at first it is not known whether anything moves";
   ASSERT_TRUE(full.has_value()) << "then all rests";
-  EXPECT_EQ(full->content.size(), 36U + 512U * 512U);
+  EXPECT_EQ(full->content.size(), 40U + 512U * 512U);
   // Nothing more is heard of the pedal: the host lets go.
   const auto held =
       page->wait_for([&](const auto& f) { return f.is_binary && number(f, 8, 4) == 2; });
@@ -318,7 +318,7 @@ TEST_F(StationTest, QuizAsksShowsAndTellsTheTruthOnlyAfterTheAnswer) {
   }
   const auto picture = page.wait_for([](const auto& f) { return f.is_binary; }, 20s);
   ASSERT_TRUE(picture.has_value());
-  EXPECT_EQ(picture->content.size(), 36U + 512U * 512U);
+  EXPECT_EQ(picture->content.size(), 40U + 512U * 512U);
   EXPECT_EQ(picture->content[8], 3) << "a picture of the quiz";
   page.send(R"({"type":"quiz_look","view":"skyline"})");
   ASSERT_TRUE(page.wait_for([](const auto& f) { return f.is_binary; }, 20s).has_value());

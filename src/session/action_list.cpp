@@ -29,6 +29,7 @@ class ActionList {
     add(ActionId::TakeShot, {CommandKind::TakeShot}, "Take a picture").hand = -1;
     add(ActionId::Undo, {CommandKind::Undo}, "Back to the last checkpoint").hand = -1;
     add(ActionId::Finish, {CommandKind::Finish}, "Finish the operation").hand = -1;
+    add(ActionId::UseAid, {CommandKind::UseAid}, "Aids").hand = -1;
     // Whether it can be declined at all: the first reason stands for any.
     add(ActionId::Decline, {CommandKind::Decline, 0, 1}, "Decline to operate").hand = -1;
     return std::move(message_);

@@ -3,6 +3,7 @@
 #include "session/descriptions.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "core/units.hpp"
@@ -82,6 +83,15 @@ protocol::WristLimits message_of(const anatomy::HandLimits& limits) noexcept {
           protocol::Range{limits.traction_n.low, limits.traction_n.high}};
 }
 
+/// None where the procedure is after no line.
+std::optional<protocol::Ideal> ideal_of(const procedure::Aim& aim) {
+  if (!(aim.chord_mm > 0.0)) return std::nullopt;
+  protocol::Ideal ideal{aim.entry, aim.direction, aim.chord_mm, {}, aim.screw_tail_mm};
+  const auto all = instruments::catalogue();
+  if (aim.screw < all.size()) ideal.screw = all[aim.screw].id;
+  return ideal;
+}
+
 }  // namespace
 
 protocol::WristPose message_of(const procedure::WristPose& wrist) noexcept {
@@ -136,7 +146,8 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
   message.procedure = summary_of(procedure);
   for (const procedure::Step& step : procedure.steps) message.steps.push_back(message_of(step));
   for (const procedure::NamedView& view : procedure.views) {
-    message.views.push_back({view.id, view.label, view.rotation_deg, view.tilt_deg});
+    message.views.push_back({view.id, view.label, view.rotation_deg, view.tilt_deg,
+                             view.flexion_deg, view.radial_deviation_deg});
   }
   const auto all = instruments::catalogue();
   for (const instruments::InstrumentIndex index : procedure.tray) {
@@ -148,6 +159,7 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
     message.bodies.push_back(
         {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
   }
+  if (mode == procedure::Mode::Practice) message.ideal = ideal_of(procedure.opening(data).aim);
   message.wrist_limits = message_of(data.hand_motion.limits);
   for (const procedure::DeclineReason& reason : procedure.decline.reasons) {
     message.decline_reasons.push_back({reason.id, reason.label});

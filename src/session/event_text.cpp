@@ -8,6 +8,7 @@
 
 #include "anatomy/bone_words.hpp"
 #include "instruments/instrument.hpp"
+#include "procedure/aid.hpp"
 #include "session/refusal_text.hpp"
 
 namespace carpus::session {
@@ -79,6 +80,8 @@ class Sentence {
         return "The wire broke at the bone";
       case EventKind::ScrewStripped:
         return "The screw turns freely: its thread gave way";
+      case EventKind::AidUsed:
+        return "Aid: " + procedure::in_words(static_cast<procedure::Aid>(event_.detail));
       case EventKind::None:
         break;
     }
@@ -124,12 +127,12 @@ std::string_view felt(EventKind kind) {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 21> kNames{
+  constexpr std::array<std::string_view, 22> kNames{
       "none",           "touched_bone",  "entered_bone", "left_far_side", "withdrawn",
       "shot_taken",     "gauge_read",    "taken",        "put_down",      "seated",
       "step_completed", "undone",        "finished",     "refused",       "wrong_bone",
       "slipped",        "wrist_stopped", "live_ended",   "wire_bent",     "wire_broke",
-      "screw_stripped"};
+      "screw_stripped", "aid_used"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }

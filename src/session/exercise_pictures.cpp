@@ -36,12 +36,23 @@ Vec3 centre_of(const cases::CaseData& data, BoneId target, const simulation::Sna
   return bounds.is_empty() ? Vec3{} : (bounds.low + bounds.high) / 2;
 }
 
-/// Nothing is averaged: what one pulse brings.
-fluoroscopy::Exposure exposure_of_a_pulse(std::uint64_t tick) {
+/// As the tube is set.
+fluoroscopy::Exposure exposure_of(const simulation::Snapshot& now) {
+  constexpr double kUsualHalves = 2.0;
   fluoroscopy::Exposure exposure;
+  const double dose = procedure::kDoseHalves[procedure::dose_level_of(now.tube)] / kUsualHalves;
+  exposure.tube_kv = procedure::kTubeKv[procedure::voltage_of(now.tube)];
+  exposure.beam_mas *= dose;
+  exposure.held_mas *= dose;
+  exposure.seed = now.tick;
+  return exposure;
+}
+
+/// Nothing is averaged: what one pulse brings.
+fluoroscopy::Exposure exposure_of_a_pulse(const simulation::Snapshot& now) {
+  fluoroscopy::Exposure exposure = exposure_of(now);
   exposure.beam_mas /= procedure::kPulsesPerShot;
   exposure.held_mas = exposure.beam_mas;
-  exposure.seed = tick;
   return exposure;
 }
 
@@ -88,9 +99,7 @@ fluoroscopy::Image ExercisePictures::take(const PictureView& view,
   fluoroscopy::BeamScene scene = scene_of(view, now, {});
   const auto metal = metal_in_beam(now);
   scene.metal = metal;
-  fluoroscopy::Exposure exposure;
-  exposure.seed = now.tick;
-  return renderer_.render(scene, exposure);
+  return renderer_.render(scene, exposure_of(now));
 }
 
 fluoroscopy::Image ExercisePictures::take_live(const PictureView& view,
@@ -104,7 +113,7 @@ fluoroscopy::Image ExercisePictures::take_live(const PictureView& view,
   if (!rests) scene.pose.geometry.pixels = kMovingPixels;
   const auto metal = metal_in_beam(now);
   scene.metal = metal;
-  return renderer_.render(scene, exposure_of_a_pulse(now.tick));
+  return renderer_.render(scene, exposure_of_a_pulse(now));
 }
 
 fluoroscopy::Image ExercisePictures::take_held(const PictureView& view,
@@ -113,7 +122,7 @@ fluoroscopy::Image ExercisePictures::take_held(const PictureView& view,
   fluoroscopy::BeamScene scene = scene_of(view, now, {});
   const auto metal = metal_in_beam(now);
   scene.metal = metal;
-  return renderer_.render(scene, exposure_of_a_pulse(now.tick));
+  return renderer_.render(scene, exposure_of_a_pulse(now));
 }
 
 }  // namespace carpus::session

@@ -63,6 +63,20 @@ double roughness(const fluoroscopy::Image& image) {
   return sum / static_cast<double>(image.grey.size() - 1);
 }
 
+TEST(ExercisePictures, TheTubeChangesNoiseAndWhatStandsOut) {
+  simulation::Snapshot now = at_opening();
+  ExercisePictures pictures(wrist());
+  const auto usual = pictures.take({}, now);
+  now.tube = 3;  // 60 kV, low
+  const auto low = pictures.take({}, now);
+  EXPECT_NEAR(low.dose_cgy_cm2, usual.dose_cgy_cm2 / 2, 1e-9);
+  EXPECT_GT(roughness(low), 1.2 * roughness(usual));
+  now.tube = 1;  // 50 kV
+  EXPECT_NE(pictures.take({}, now).grey, usual.grey);
+  now.tube = procedure::kUsualTube;
+  EXPECT_EQ(pictures.take({}, now).grey, usual.grey) << "nothing of it is kept";
+}
+
 TEST(ExercisePictures, TheHeldPictureIsNoCheapShot) {
   const simulation::Snapshot now = at_opening();
   ExercisePictures pictures(wrist());

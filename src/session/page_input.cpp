@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/page_input.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "core/units.hpp"
 #include "instruments/instrument.hpp"
+#include "procedure/aid.hpp"
 #include "simulation/c_arm_angles.hpp"
 
 namespace carpus::session {
@@ -22,6 +24,9 @@ namespace {
 // The enumerations of protocol.json are in the order of the simulation's.
 static_assert(static_cast<int>(protocol::Driver::Reverse) ==
               static_cast<int>(simulation::Driver::Reverse));
+static_assert(static_cast<int>(protocol::Aid::Hint) == static_cast<int>(procedure::Aid::Hint));
+static_assert(static_cast<std::size_t>(protocol::DoseLevel::High) + 1 ==
+              procedure::kDoseHalves.size());
 static_assert(static_cast<int>(protocol::Guidance::Planned) ==
               static_cast<int>(simulation::Guidance::Planned));
 
@@ -41,6 +46,8 @@ std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
       return CommandKind::Undo;
     case protocol::ActionId::Finish:
       return CommandKind::Finish;
+    case protocol::ActionId::UseAid:
+      return CommandKind::UseAid;
     case protocol::ActionId::Decline:
       return CommandKind::Decline;
     case protocol::ActionId::TakeShot:
@@ -126,10 +133,29 @@ Result<Command> command_of(const protocol::Act& message, const procedure::Proced
       command.index = static_cast<std::uint8_t>(command.index | (1U << *place));
     }
   }
+  if (*kind == CommandKind::UseAid) {
+    if (!message.aid) return Refusal{"use_aid needs an aid"};
+    command.index = static_cast<std::uint8_t>(*message.aid);
+  }
   if (*kind == CommandKind::PickUp || *kind == CommandKind::PickUpFarEnd) {
     if (!message.item) return Refusal{"pick_up needs an item"};
     command.index = static_cast<std::uint8_t>(*message.item);
   }
+  return command;
+}
+
+Command command_of(const protocol::Tube& message) noexcept {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < procedure::kTubeKv.size(); ++i) {
+    const auto away = [&](std::size_t at) {
+      return std::abs(message.tube_kv - static_cast<double>(procedure::kTubeKv[at]));
+    };
+    if (away(i) < away(nearest)) nearest = i;
+  }
+  Command command;
+  command.kind = CommandKind::SetTube;
+  command.index = static_cast<std::uint8_t>(nearest * procedure::kDoseHalves.size() +
+                                            static_cast<std::size_t>(message.dose_level));
   return command;
 }
 

@@ -29,6 +29,8 @@ void hold(HeldInput& held, const protocol::Pedal& message) noexcept;
 /// @param procedure  whose reasons a decline names.
 [[nodiscard]] Result<simulation::Command> command_of(const protocol::Act& message,
                                                      const procedure::Procedure& procedure);
+/// The nearest voltage that the tube has.
+[[nodiscard]] simulation::Command command_of(const protocol::Tube& message) noexcept;
 /// @param wrist  as it is held now: angles may be counted from it.
 [[nodiscard]] simulation::Command command_of(const protocol::TakeShot& message,
                                              const simulation::WristPose& wrist) noexcept;

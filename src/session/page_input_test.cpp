@@ -39,6 +39,25 @@ TEST(PageInput, ADeclineNamesTheProceduresReasons) {
   EXPECT_FALSE(command_of(message, procedure));
 }
 
+TEST(PageInput, TheTubeTakesTheNearestVoltage) {
+  protocol::Tube message;
+  message.tube_kv = 52;
+  message.dose_level = protocol::DoseLevel::High;
+  EXPECT_EQ(command_of(message).kind, simulation::CommandKind::SetTube);
+  EXPECT_EQ(command_of(message).index, 2) << "50 kV, high";
+  message.tube_kv = 60;
+  message.dose_level = protocol::DoseLevel::Usual;
+  EXPECT_EQ(command_of(message).index, procedure::kUsualTube);
+}
+
+TEST(PageInput, AnAidIsNamed) {
+  protocol::Act message;
+  message.id = protocol::ActionId::UseAid;
+  EXPECT_FALSE(command_of(message, {}));
+  message.aid = protocol::Aid::Hint;
+  EXPECT_EQ(command_of(message, {})->index, 2);
+}
+
 TEST(PageInput, WristIsTakenInRadians) {
   HeldInput held;
   protocol::Wrist message;

@@ -45,6 +45,8 @@ std::string_view text_of(simulation::Refusal refusal) noexcept {
       return "That end of the wire is inside: it can be held only where it stands out of the skin";
     case Refusal::WireIsBent:
       return "The wire is bent: nothing runs over it any more. Take it out and lay another";
+    case Refusal::NoAidsWhenAssessed:
+      return "In an assessed operation nothing helps but the pictures and the hand";
     case Refusal::NoReasonToDecline:
       return "Say why: choose at least one of the reasons";
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "procedure/aid.hpp"
 #include "session/action_list.hpp"
 #include "session/descriptions.hpp"
 #include "session/entry_hint.hpp"
@@ -40,6 +41,10 @@ simulation::Command Session::take(const protocol::TakeShot& message) noexcept {
   held_.c_arm.rotation_deg = command.rotation_deg;
   held_.c_arm.tilt_deg = command.tilt_deg;
   return command;
+}
+
+simulation::Command Session::take(const protocol::Tube& message) noexcept {
+  return command_of(message);
 }
 
 const HeldInput& Session::take(const protocol::CArm& message) noexcept {
@@ -117,11 +122,28 @@ std::string Session::hint_on(const simulation::Event& event,
   return ". " + entry_hint(data_, aim, then, body, item);
 }
 
+std::string Session::hint_for(std::uint8_t item, const simulation::Snapshot& then) const {
+  if (item >= simulation::kMaxItems ||
+      then.items[item].instrument >= instruments::catalogue().size()) {
+    return "take a wire, then ask again.";
+  }
+  const procedure::Aim aim = procedure_.opening(data_).aim;
+  std::size_t target = 0;
+  while (target < data_.bones.size() && data_.bones[target].bone != procedure_.target) ++target;
+  if (!(aim.length_mm > 0.0) || target == data_.bones.size()) return "this procedure has none.";
+  simulation::ItemView held = then.items[item];
+  if (held.body == simulation::kNoBody) held.entry_in_patient = held.tip_in_patient;
+  return entry_hint(data_, aim, then, target, held);
+}
+
 std::optional<protocol::LoggedEvent> Session::tell(const simulation::Event& event,
                                                    const simulation::Snapshot& then) const {
   if (then.mode == procedure::Mode::Practice) {
     protocol::LoggedEvent told = describe(event);
     if (event.kind == simulation::EventKind::EnteredBone) told.text += hint_on(event, then);
+    const bool is_hint = event.kind == simulation::EventKind::AidUsed &&
+                         event.detail == static_cast<std::int32_t>(procedure::Aid::Hint);
+    if (is_hint) told.text = "Hint: " + hint_for(event.item, then);
     return told;
   }
   return describe_blind(event, procedure_, bodies_);

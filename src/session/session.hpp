@@ -36,6 +36,7 @@ class Session {
   [[nodiscard]] Result<simulation::Command> take(const protocol::Act& message) const;
   /// Moves the C-arm there, too.
   [[nodiscard]] simulation::Command take(const protocol::TakeShot& message) noexcept;
+  [[nodiscard]] static simulation::Command take(const protocol::Tube& message) noexcept;
   const HeldInput& take(const protocol::CArm& message) noexcept;
   const HeldInput& take(const protocol::Pedal& message) noexcept;
   [[nodiscard]] const HeldInput& held() const noexcept { return held_; }
@@ -61,6 +62,8 @@ class Session {
  private:
   using BonePose = Pose<frame::Patient, frame::Bone>;
 
+  /// On request: of what is in that hand, in bone or not.
+  [[nodiscard]] std::string hint_for(std::uint8_t item, const simulation::Snapshot& then) const;
   [[nodiscard]] std::string hint_on(const simulation::Event& event,
                                     const simulation::Snapshot& then) const;
 

@@ -124,9 +124,11 @@ protocol::Snapshot snapshot_message(const simulation::Snapshot& now,
   message.holding_share = std::clamp(now.holding_share, 0.0, 1.0);
   message.passes = now.passes;
   message.c_arm = {simulation::held_rotation_deg(now.c_arm.rotation_deg, now.wrist.pronation_rad),
-                   now.c_arm.tilt_deg, now.c_arm.pedal_is_down && !host.paused && !now.finished};
+                   now.c_arm.tilt_deg, now.c_arm.pedal_is_down && !host.paused && !now.finished,
+                   static_cast<double>(procedure::kTubeKv[procedure::voltage_of(now.tube)]),
+                   static_cast<protocol::DoseLevel>(procedure::dose_level_of(now.tube))};
   message.shots = now.looks;
-  message.dose_cgy_cm2 = procedure::dose_cgy_cm2(now.pulses);
+  message.dose_cgy_cm2 = procedure::dose_cgy_cm2(now.dose_units);
   message.undos = now.undos;
   message.tick_rate_hz = host.tick_rate_hz;
   message.tick_p99_us = host.tick_p99_us;

@@ -37,6 +37,12 @@ class Looker {
     input_.command = {};
     return world.now();
   }
+  void set_tube(std::uint8_t setting, bool pedal = false) {
+    input_.c_arm.pedal_is_down = pedal;
+    input_.command = {CommandKind::SetTube, 0, setting, 0, 0};
+    world.step(input_);
+    input_.command = {};
+  }
   void pronate(double angle_rad) { input_.wrist.pronation_rad = angle_rad; }
   [[nodiscard]] std::vector<procedure::Shot> shots() const {
     return world.operation_record().shots;
@@ -48,6 +54,32 @@ class Looker {
  private:
   Input input_;
 };
+
+TEST(Fluoroscopy, WhatTheTubeIsSetToIsPaidAndNoted) {
+  Looker looker;
+  looker.shoot(0);
+  const std::uint64_t usual = looker.world.now().dose_units;
+  EXPECT_EQ(procedure::dose_cgy_cm2(usual), procedure::kDosePerShotCgyCm2);
+  looker.set_tube(6);  // 70 kV, low
+  looker.shoot(0);
+  EXPECT_EQ(looker.shots()[1].tube, 6);
+  EXPECT_EQ((looker.world.now().dose_units - usual) * 3600 * 2, usual * 4900);
+  looker.set_tube(procedure::kTubeSettings);
+  EXPECT_EQ(looker.world.now().tube, 6) << "there is no such setting";
+}
+
+TEST(Fluoroscopy, ALiveLookIsNotedAnewWhenTheTubeChanges) {
+  Looker looker;
+  looker.look(0, true, 500);
+  looker.set_tube(8, true);
+  looker.look(0, true, 500);
+  const auto shots = looker.shots();
+  ASSERT_EQ(shots.size(), 2U);
+  EXPECT_EQ(shots[0].tube, procedure::kUsualTube);
+  EXPECT_EQ(shots[1].tube, 8);
+  EXPECT_EQ(looker.world.now().dose_units,
+            procedure::dose_units_of(shots[0]) + procedure::dose_units_of(shots[1]));
+}
 
 TEST(Fluoroscopy, PedalGivesTenPulsesASecondAndOneLook) {
   Looker looker;
@@ -106,7 +138,7 @@ TEST(Fluoroscopy, SingleShotCostsWhatFiveSecondsOfLiveLookingDo) {
   Looker live;
   live.look(0, true, 5000);
   EXPECT_EQ(single.world.now().pulses, live.world.now().pulses);
-  EXPECT_DOUBLE_EQ(procedure::dose_cgy_cm2(single.world.now().pulses),
+  EXPECT_DOUBLE_EQ(procedure::dose_cgy_cm2(single.world.now().dose_units),
                    procedure::kDosePerShotCgyCm2);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "procedure/aid.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/world.hpp"
 
@@ -145,6 +146,11 @@ Refusal why_not(const procedure::Procedure& procedure,
       const bool is_said = command.index != 0 && (command.index >> known) == 0;
       return is_said ? Refusal::None : Refusal::NoReasonToDecline;
     }
+    case CommandKind::UseAid:
+      if (command.index >= procedure::kAidCount) return Refusal::UnknownCommand;
+      return now.mode == procedure::Mode::Assessed ? Refusal::NoAidsWhenAssessed : Refusal::None;
+    case CommandKind::SetTube:
+      return command.index < procedure::kTubeSettings ? Refusal::None : Refusal::UnknownCommand;
     case CommandKind::Finish:
     case CommandKind::ForgetCheckpoints:
       return Refusal::None;
@@ -153,7 +159,7 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 20> kNames{"none",
+  static constexpr std::array<std::string_view, 21> kNames{"none",
                                                            "finished",
                                                            "unknown_command",
                                                            "no_such_hand",
@@ -172,7 +178,8 @@ std::string_view name_of(Refusal refusal) noexcept {
                                                            "no_undo_when_assessed",
                                                            "end_is_inside",
                                                            "wire_is_bent",
-                                                           "no_reason_to_decline"};
+                                                           "no_reason_to_decline",
+                                                           "no_aids_when_assessed"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

@@ -37,6 +37,7 @@ enum class Refusal : std::uint8_t {
   EndIsInside,        ///< that end of the wire is in the body, or was never double-pointed
   WireIsBent,         ///< what has a bore does not run over it
   NoReasonToDecline,  ///< none was said, or one that the procedure does not know
+  NoAidsWhenAssessed,
 };
 
 /// Plain comparisons on what the last tick left: real-time.

@@ -94,6 +94,7 @@ enum class EventKind : std::uint8_t {
   WireBent = 18,       ///< bone came against what stands out of it; detail: body, value: degrees
   WireBroke = 19,      ///< likewise, too far; detail: body
   ScrewStripped = 20,  ///< turned on when it was tight, its thread gave way
+  AidUsed = 21,        ///< item: in the hand that asked; detail: procedure::Aid
 };
 
 struct Event {
@@ -129,7 +130,10 @@ struct Snapshot {
   CArmInput c_arm;                    ///< as it stands; pedal_is_down while it is looked through
   std::uint32_t shots = 0;            ///< kept of all looks: OperationRecord::shots
   std::uint32_t looks = 0;            ///< shots taken and times that the pedal went down
-  std::uint32_t pulses = 0;           ///< of the tube in all, for the dose
+  std::uint32_t pulses = 0;           ///< of the tube in all
+  std::uint64_t dose_units = 0;       ///< procedure::dose_units of them
+  procedure::TubeSetting tube = procedure::kUsualTube;
+  std::uint8_t aids = 0;  ///< bit i: procedure::Aid i was used
   std::uint32_t undos = 0;
   bool can_undo = false;
   std::array<Event, kMaxEventsPerTick> events{};

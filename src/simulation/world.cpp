@@ -253,6 +253,8 @@ procedure::OperationRecord World::operation_record() const {
   record.completed_steps = state.now.completed_steps;
   record.finished = state.spent.ended != 0;
   record.declined_for = static_cast<std::uint8_t>(state.spent.ended >> 1U);
+  record.aids = state.spent.aids;
+  record.aids_used = state.spent.aids_used;
   return record;
 }
 

@@ -11,6 +11,7 @@
 #include "core/rng.hpp"
 #include "fields/distance_field.hpp"
 #include "haptics/virtual_coupling.hpp"
+#include "procedure/aid.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/permission.hpp"
 
@@ -505,6 +506,30 @@ TEST(World, IsDeclinedForReasonsThatTheProcedureKnows) {
   op.command(decline);
   EXPECT_TRUE(op.now().finished);
   EXPECT_EQ(op.world().operation_record().declined_for, 0b11);
+}
+
+TEST(World, AidsAreCountedAndForgottenByNoUndo) {
+  Operator op;
+  Command hint = simple(CommandKind::UseAid);
+  hint.index = static_cast<std::uint8_t>(procedure::Aid::Hint);
+  op.command(hint);
+  EXPECT_EQ(op.now().events[0].kind, EventKind::AidUsed);
+  op.command(hint);
+  op.command(simple(CommandKind::Undo));
+  EXPECT_EQ(op.world().operation_record().aids, 0b100);
+  EXPECT_EQ(op.world().operation_record().aids_used, 2U);
+  hint.index = procedure::kAidCount;
+  op.command(hint);
+  EXPECT_EQ(op.now().events[0].kind, EventKind::Refused);
+}
+
+TEST(World, HasNoAidsWhenAssessed) {
+  World world(wrist(), test::exercise(), 1, procedure::Mode::Assessed);
+  Input input;
+  input.command = simple(CommandKind::UseAid);
+  const Snapshot& now = world.step(input);
+  EXPECT_EQ(now.events[0].kind, EventKind::Refused);
+  EXPECT_EQ(world.operation_record().aids_used, 0U);
 }
 
 TEST(World, StandsStillOnceFinished) {

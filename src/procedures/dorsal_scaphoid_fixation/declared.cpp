@@ -73,7 +73,8 @@ procedure::Opening opening(const cases::CaseData& data) {
   opening.wrist = flexed(data);
   opening.tip_in_target = axis.proximal + outward * kWaitingMm;
   opening.shaft_in_target = outward;
-  opening.aim = scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromProximal);
+  opening.aim =
+      scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromProximal, declared().tray);
   return opening;
 }
 

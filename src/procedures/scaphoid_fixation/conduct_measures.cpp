@@ -216,8 +216,9 @@ std::vector<Measure> conduct_measures(const Facts& facts) {
       views(facts, "views_with_screw", true, kViewsOfScrew),
       wires_left_in(facts),
   };
-  for (Measure& measure : procedure::thrift_measures(*facts.fixation.procedure, facts.record,
-                                                     views_taken(facts.record))) {
+  for (Measure& measure :
+       procedure::thrift_measures(*facts.fixation.procedure, facts.record,
+                                  views_taken(facts.record), doses_by_view(facts.record))) {
     all.push_back(std::move(measure));
   }
   return all;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "procedure/shots.hpp"
+#include "procedure/thrift_measures.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
 namespace {
@@ -62,6 +63,26 @@ std::string views_taken(const procedure::OperationRecord& record) {
     words += in_words(view) + " " + std::to_string(count);
   }
   return words + ".";
+}
+
+std::string doses_by_view(const procedure::OperationRecord& record) {
+  std::array<std::uint64_t, kViewCount + 1> units{};
+  for (const procedure::Shot& shot : record.shots) {
+    int view = 0;
+    while (view < kViewCount && !shows(static_cast<View>(view), shot.rotation_deg, shot.tilt_deg)) {
+      ++view;
+    }
+    units.at(static_cast<std::size_t>(view)) += procedure::dose_units_of(shot);
+  }
+  std::string words;
+  for (int i = 0; i <= kViewCount; ++i) {
+    const std::uint64_t dose = units.at(static_cast<std::size_t>(i));
+    if (dose == 0) continue;
+    words += words.empty() ? "" : ", ";
+    words += i == kViewCount ? "other views" : in_words(static_cast<View>(i));
+    words += " " + procedure::text_of(procedure::dose_cgy_cm2(dose));
+  }
+  return words.empty() ? words : words + " cGy cm².";
 }
 
 }  // namespace carpus::procedures::scaphoid_fixation

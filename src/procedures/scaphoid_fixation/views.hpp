@@ -39,4 +39,7 @@ inline constexpr unsigned kViewsOfScrew = 0b1111;
 /// "Taken: PA 2, lateral 2, …."
 [[nodiscard]] std::string views_taken(const procedure::OperationRecord& record);
 
+/// "PA 1.0, lateral 0.5, others 2.0 cGy cm²."
+[[nodiscard]] std::string doses_by_view(const procedure::OperationRecord& record);
+
 }  // namespace carpus::procedures::scaphoid_fixation

@@ -33,7 +33,8 @@ procedure::Opening opening(const cases::CaseData& data) {
   opening.wrist.radial_deviation_rad = -radians_from_degrees(kUlnarDeviationDeg);
   opening.shaft_in_target = away_from_bone(data);
   opening.tip_in_target = data.scaphoid.central_axis.distal + opening.shaft_in_target * kWaitingMm;
-  opening.aim = scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromDistal);
+  opening.aim =
+      scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromDistal, declared().tray);
   return opening;
 }
 

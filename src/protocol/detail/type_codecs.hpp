@@ -29,6 +29,9 @@ void write(FieldWriter& out, const LoggedEvent& in);
 void read(FieldReader& in, NamedView& out);
 void write(FieldWriter& out, const NamedView& in);
 
+void read(FieldReader& in, Ideal& out);
+void write(FieldWriter& out, const Ideal& in);
+
 void read(FieldReader& in, CaseCard& out);
 void write(FieldWriter& out, const CaseCard& in);
 

@@ -35,6 +35,13 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       return read_gauge(model, command.hand);
     case CommandKind::Undo:
       return undo(model);
+    case CommandKind::UseAid:
+      spent.aids = static_cast<std::uint8_t>(spent.aids | (1U << command.index));
+      ++spent.aids_used;
+      return emit(EventKind::AidUsed, now.held[command.hand], command.index, 0.0);
+    case CommandKind::SetTube:
+      spent.tube = command.index;
+      return;
     case CommandKind::Decline:
       spent.ended = static_cast<std::uint8_t>(command.index << 1U);
       is_finishing = true;

@@ -66,7 +66,9 @@ void World::State::note_look(const Model& model,
   shot.look = look;
   shot.pulses = look == Look::Single ? procedure::kPulsesPerShot : 0;
   if (look != Look::LiveOn) ++spent.looks;
+  shot.tube = spent.tube;
   spent.pulses += shot.pulses;
+  spent.dose_units += procedure::dose_units_of(shot);
 }
 
 void World::State::take_shot(const Model& model, const Command& command) noexcept {
@@ -105,15 +107,19 @@ void World::State::pulse(const Model& model) noexcept {
     seen.rotation_deg = held_rotation_deg(stand.rotation_deg, spent.wrist.pronation_rad);
     seen.tilt_deg = stand.tilt_deg;
     note_what_shows(model, seen);
-    is_new = last.look == Look::Single || last.shows_wire != seen.shows_wire ||
-             last.shows_screw != seen.shows_screw || procedure::are_different_views(seen, last);
+    is_new = last.look == Look::Single || last.tube != spent.tube ||
+             last.shows_wire != seen.shows_wire || last.shows_screw != seen.shows_screw ||
+             procedure::are_different_views(seen, last);
   }
   if (is_new && spent.shot_count < kMaxShots) {
     note_look(model, stand.rotation_deg, stand.tilt_deg, is_first ? Look::Live : Look::LiveOn);
   }
   if (is_first) spent.live_look = spent.looks;
+  // Where there was no room for an entry of its own, it is told with the setting of the last.
+  procedure::Shot& shot = shots[spent.shot_count - 1];
   ++spent.pulses;
-  ++shots[spent.shot_count - 1].pulses;
+  ++shot.pulses;
+  spent.dose_units += procedure::dose_units(shot.tube);
 }
 
 }  // namespace carpus::simulation

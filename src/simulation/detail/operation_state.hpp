@@ -231,6 +231,10 @@ struct Spent {
   /// 0 while it goes on, 1 once finished; declined: besides, bit i + 1 for the procedure's reason
   /// i.
   std::uint8_t ended = 0;
+  procedure::TubeSetting tube = procedure::kUsualTube;
+  std::uint64_t dose_units = 0;  ///< of all pulses
+  std::uint8_t aids = 0;         ///< bit i: procedure::Aid i was used
+  std::uint32_t aids_used = 0;
   bool wrist_is_told = false;  ///< that it came to its limit or is held
   WristPose wrist;             ///< as it is held now
   std::array<HandState, kHands> hands{};
@@ -256,6 +260,10 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
   v(spent.c_arm.tilt_deg);
   v(spent.c_arm.pedal_is_down);
   v(spent.ended);
+  v(spent.tube);
+  v(spent.dose_units);
+  v(spent.aids);
+  v(spent.aids_used);
   v(spent.wrist_is_told);
   v(spent.wrist.flexion_rad);
   v(spent.wrist.radial_deviation_rad);
@@ -293,6 +301,7 @@ void visit_shot(SomeShot& shot, Visitor&& v) noexcept {
   v(shot.wrist.traction_n);
   v(shot.look);
   v(shot.pulses);
+  v(shot.tube);
 }
 
 }  // namespace carpus::simulation::detail

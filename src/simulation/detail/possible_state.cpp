@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "procedure/aid.hpp"
+#include "procedure/shots.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/bodies.hpp"
 #include "simulation/recording.hpp"
@@ -151,6 +153,8 @@ bool is_possible(const Operated& now, const Spent& spent, const StateBounds& bou
   }
   if (!is_displacement_possible(now.carried)) return false;
   if (spent.ended != 0 && (spent.ended & 1U) == 0) return false;
+  if (spent.tube >= procedure::kTubeSettings || spent.aids >> procedure::kAidCount != 0)
+    return false;
   return are_held_items_possible(now) && are_tracks_possible(now, bounds.bodies) &&
          are_passes_possible(spent, bounds) && are_counts_possible(now, spent, bounds.steps) &&
          is_near(now.gauge_reading_mm) && is_near(now.reamed_mm) && is_near(now.holding_share) &&
@@ -162,6 +166,7 @@ bool is_possible(const Operated& now, const Spent& spent, const StateBounds& bou
 bool are_possible(std::span<const procedure::Shot> shots, const Spent& spent) noexcept {
   std::uint64_t looks = 0;
   std::uint64_t pulses = 0;
+  std::uint64_t dose_units = 0;
   Tick before = 0;
   for (const procedure::Shot& shot : shots) {
     if (shot.look > procedure::Look::LiveOn || shot.tick < before || shot.tick > spent.tick ||
@@ -170,9 +175,11 @@ bool are_possible(std::span<const procedure::Shot> shots, const Spent& spent) no
     }
     before = shot.tick;
     looks += shot.look == procedure::Look::LiveOn ? 0 : 1;
+    if (shot.tube >= procedure::kTubeSettings) return false;
     pulses += shot.pulses;
+    dose_units += procedure::dose_units_of(shot);
   }
-  return looks == spent.looks && pulses == spent.pulses;
+  return looks == spent.looks && pulses == spent.pulses && dose_units == spent.dose_units;
 }
 
 }  // namespace carpus::simulation::detail

@@ -120,6 +120,9 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.shots = spent.shot_count;
   snapshot.looks = spent.looks;
   snapshot.pulses = spent.pulses;
+  snapshot.dose_units = spent.dose_units;
+  snapshot.tube = spent.tube;
+  snapshot.aids = spent.aids;
   snapshot.undos = spent.undos;
   snapshot.can_undo = checkpoint_count > 0 && spent.ended == 0;
   snapshot.finished = spent.ended != 0;

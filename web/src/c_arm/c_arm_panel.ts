@@ -5,7 +5,7 @@
 // free angles, dose, the last pictures; enlarged, it takes the theatre's place.
 import { button, make, setText } from "../dom";
 import { withKeys } from "../key_caps";
-import type { CArmPicture, CArmStand, NamedView } from "../protocol";
+import type { CArmPicture, CArmStand, DoseLevel, NamedView, WristPose } from "../protocol";
 import "./c_arm.css";
 import { Monitor } from "./monitor";
 import { DoseByView, dosesText } from "./dose_by_view_model";
@@ -27,6 +27,10 @@ export interface CArmHandlers extends PedalHandlers {
   takeShot(rotationDeg: number, tiltDeg: number): void;
   /** The C-arm was moved there, without a picture. */
   stand(rotationDeg: number, tiltDeg: number): void;
+  /** The tube is set so from now on. */
+  tube(kv: number, level: DoseLevel): void;
+  /** The hand is to be held so for a view. */
+  holdWrist(wish: Partial<WristPose>): void;
   /** The pictures and the theatre change places. */
   enlarge(on: boolean): void;
   /** The beam is to be drawn in the theatre, or not, while the C-arm rests. */
@@ -36,10 +40,22 @@ export interface CArmHandlers extends PedalHandlers {
 const HISTORY = 6;
 const RULER_KEYS = "move the cross by arrows (with Shift far) and set a point by Enter.";
 const MAX_TILT_DEG = 60;
-/** What a mini C-arm shows for a wrist; the host's spectrum is one of about 40 keV. */
-const KV_TEXT = "60 kV";
+/** What the host's tube can be set to (src/procedure/tube_setting.hpp). */
+const TUBE_KV = [50, 60, 70] as const;
+const DOSE_LEVELS: readonly DoseLevel[] = ["low", "usual", "high"];
+/** The hand has come to how a view wants it [deg]; or has not moved for so long. */
+const HELD_WITHIN_DEG = 1.5;
+const HELD_PATIENCE_MS = 1500;
 /** What the host says of the C-arm counts again so long after it was moved here. */
 const OWN_WORD_MS = 300;
+
+function kvText({ tubeKv }: CArmPicture): string {
+  return `${Math.round(tubeKv)} kV`;
+}
+
+function next<T>(all: readonly T[], now: T): T {
+  return all[(all.indexOf(now) + 1) % all.length] ?? now;
+}
 
 export class CArmPanel {
   readonly element: HTMLElement;
@@ -58,6 +74,13 @@ export class CArmPanel {
   });
   private views: readonly NamedView[] = [];
   private viewButtons: HTMLButtonElement[] = [];
+  private tubeKv: number = 60;
+  private doseLevel: DoseLevel = "usual";
+  private readonly voltageButton: HTMLButtonElement;
+  private readonly doseButton: HTMLButtonElement;
+  /** A view that waits until the hand is held for it. */
+  private waiting:
+    { readonly view: NamedView; movedAtMs: number; pose: WristPose | undefined } | undefined;
   private readonly invertButton: HTMLButtonElement;
   private shown = -1;
   private inverted = false;
@@ -112,6 +135,15 @@ export class CArmPanel {
       this.toggleBeam();
     });
     this.beamButton.title = "Draws the beam in the theatre, also while the C-arm rests";
+    this.voltageButton = button("60 kV", "F9", () => {
+      this.nextVoltage();
+    });
+    this.voltageButton.title =
+      "Voltage of the tube: lower shows bone against soft tissue, higher costs more";
+    this.doseButton = button("Dose: usual", "F10", () => {
+      this.nextDose();
+    });
+    this.doseButton.title = "Of each picture: low is grainy, high costs double";
     this.referenceBox = make(
       "section.c-arm-reference",
       { "aria-label": "Reference" },
@@ -192,7 +224,18 @@ export class CArmPanel {
         this.shootFree();
       }),
       this.pedal.button,
+      this.voltageButton,
+      this.doseButton,
     );
+  }
+
+  nextVoltage(): void {
+    const now = TUBE_KV.find((kv) => kv === this.tubeKv) ?? TUBE_KV[1];
+    this.handlers.tube(next(TUBE_KV, now), this.doseLevel);
+  }
+
+  nextDose(): void {
+    this.handlers.tube(this.tubeKv, next(DOSE_LEVELS, this.doseLevel));
   }
 
   /** The views that have a button and a digit. */
@@ -221,7 +264,49 @@ export class CArmPanel {
     if (view === undefined) return;
     this.rotationDeg = view.rotation_deg;
     this.tiltDeg = view.tilt_deg;
-    this.shootFree();
+    const { flexion_deg, radial_deviation_deg } = view;
+    if (flexion_deg === null && radial_deviation_deg === null) {
+      this.waiting = undefined;
+      this.shootFree();
+      return;
+    }
+    this.waiting = { view, movedAtMs: performance.now(), pose: undefined };
+    this.handlers.holdWrist({
+      ...(flexion_deg === null ? {} : { flexion_deg }),
+      ...(radial_deviation_deg === null ? {} : { radial_deviation_deg }),
+    });
+    this.turn(0, 0);
+  }
+
+  /** How the hand is held now: a view that waits for it is taken, or given up where it does not go. */
+  takeWrist(now: WristPose): void {
+    const { waiting } = this;
+    if (waiting === undefined) return;
+    const { flexion_deg, label, radial_deviation_deg } = waiting.view;
+    const away = Math.max(
+      flexion_deg === null ? 0 : Math.abs(flexion_deg - now.flexion_deg),
+      radial_deviation_deg === null ? 0 : Math.abs(radial_deviation_deg - now.radial_deviation_deg),
+    );
+    if (away < HELD_WITHIN_DEG) {
+      this.waiting = undefined;
+      this.shootFree();
+      return;
+    }
+    const { pose } = waiting;
+    const isSame =
+      pose !== undefined &&
+      Math.abs(pose.flexion_deg - now.flexion_deg) +
+        Math.abs(pose.radial_deviation_deg - now.radial_deviation_deg) <
+        0.1;
+    if (!isSame) {
+      waiting.pose = now;
+      waiting.movedAtMs = performance.now();
+    } else if (performance.now() - waiting.movedAtMs > HELD_PATIENCE_MS) {
+      this.waiting = undefined;
+      this.handlers.say(
+        `The hand does not go as ${label} needs it: its limit, or an instrument, holds it.`,
+      );
+    }
   }
 
   /** The named view after the one where the C-arm stands; the first where it stands in none. */
@@ -281,7 +366,7 @@ export class CArmPanel {
       this.handlers.say("There is no picture to save yet.");
       return;
     }
-    const overlay = { view: this.nameOf(picture), kv: KV_TEXT };
+    const overlay = { view: this.nameOf(picture), kv: kvText(picture) };
     savePicture(picture, this.inverted, overlay, this.ruler, this.patient);
     this.handlers.say("The picture is saved among the downloads.");
   }
@@ -331,6 +416,7 @@ export class CArmPanel {
   /** Where it stands over the forearm: that turns under it, too. */
   takeStand(stand: CArmStand): void {
     this.showLive(stand.live);
+    this.showTube(stand.tube_kv, stand.dose_level);
     if (performance.now() - this.movedAtMs < OWN_WORD_MS) return;
     const rotationDeg = Math.round(stand.rotation_deg);
     const tiltDeg = Math.round(stand.tilt_deg);
@@ -392,6 +478,18 @@ export class CArmPanel {
     });
   }
 
+  private showTube(kv: number, level: DoseLevel): void {
+    if (kv === this.tubeKv && level === this.doseLevel) return;
+    this.tubeKv = kv;
+    this.doseLevel = level;
+    const say = (b: HTMLButtonElement, text: string): void => {
+      const [label] = b.childNodes;
+      if (label instanceof Text) label.data = text;
+    };
+    say(this.voltageButton, `${Math.round(kv)} kV`);
+    say(this.doseButton, `Dose: ${level}`);
+  }
+
   private showLive(on: boolean): void {
     setText(this.liveSign, on ? "Live" : "");
     this.liveSign.hidden = !on;
@@ -405,7 +503,8 @@ export class CArmPanel {
     const { inverted, kept, picture, ruler } = this;
     const view = picture === undefined ? "" : this.nameOf(picture);
     const { cross } = this;
-    this.monitor.show({ picture, inverted, overlay: { view, kv: KV_TEXT }, ruler, cross });
+    const kv = picture === undefined ? "" : kvText(picture);
+    this.monitor.show({ picture, inverted, overlay: { view, kv }, ruler, cross });
     const mm = picture === undefined ? undefined : rulerMm(ruler, picture);
     setText(this.ruled, mm === undefined ? "" : rulerText(mm));
     setText(this.name, picture === undefined ? "" : `${view}, ${this.whenTaken(picture)}`);
@@ -413,7 +512,7 @@ export class CArmPanel {
     if (kept === undefined) return;
     const keptView = this.nameOf(kept);
     setText(this.referenceName, kept.shot > 0 ? `${keptView}, shot ${kept.shot}` : keptView);
-    const overlay = { view: keptView, kv: KV_TEXT };
+    const overlay = { view: keptView, kv: kvText(kept) };
     this.reference.show({ picture: kept, inverted, overlay });
   }
 

@@ -5,9 +5,10 @@
 import { describe, expect, it } from "vitest";
 import { narrowViewName, signed, viewName, wrapped } from "./view_name_model";
 
+const asItIs = { flexion_deg: null, radial_deviation_deg: null };
 const views = [
-  { id: "pa", label: "PA", rotation_deg: 0, tilt_deg: 0 },
-  { id: "sky", label: "SKY", rotation_deg: 0, tilt_deg: -60 },
+  { id: "pa", label: "PA", rotation_deg: 0, tilt_deg: 0, ...asItIs },
+  { id: "sky", label: "SKY", rotation_deg: 0, tilt_deg: -60, ...asItIs },
 ];
 
 describe("viewName", () => {

@@ -71,6 +71,15 @@ export const HELP: readonly HelpGroup[] = [
       { keys: "{Quote}", text: "ruler: two clicks, or arrows and Enter: mm at the isocentre" },
       { keys: "{Semicolon}", text: "draw the beam in the theatre" },
       { keys: "{Backslash}", text: "save the picture" },
+      { keys: "F9 / F10", text: "the tube's voltage / dose: next" },
+    ],
+  },
+  {
+    title: "Aids, in practice",
+    lines: [
+      { keys: "F2", text: "ghost: the planned line and screw" },
+      { keys: "F4", text: "cut the bones along that line, then across the sight" },
+      { keys: "F8", text: "hint: what to change, in words; all are counted" },
     ],
   },
   {

@@ -39,6 +39,11 @@ export type OnceAction =
         | "undo"
         | "finish"
         | "decline"
+        | "ghost"
+        | "cut"
+        | "hint"
+        | "voltage"
+        | "dose"
         | "pause"
         | "camera"
         | "skin"
@@ -97,6 +102,11 @@ const PLACES: Readonly<Record<string, OnceAction>> = {
   Enter: { kind: "aim_along_sight" },
   Delete: { kind: "decline" },
   F1: { kind: "help" },
+  F2: { kind: "ghost" },
+  F4: { kind: "cut" },
+  F8: { kind: "hint" },
+  F9: { kind: "voltage" },
+  F10: { kind: "dose" },
   PageUp: { kind: "choose_screw", by: -1 },
   PageDown: { kind: "choose_screw", by: 1 },
   Equal: { kind: "zoom_in" },

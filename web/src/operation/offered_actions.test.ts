@@ -62,6 +62,8 @@ describe("actMessage", () => {
       hand: null,
       instrument: null,
       item: null,
+      reasons: null,
+      aid: null,
     });
   });
 });

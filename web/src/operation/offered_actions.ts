@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the host offers now: whether something would be done and, in its words, why not.
-import type { Action, ActionId, ActMessage, Instrument } from "../protocol";
+import type { Action, ActionId, Aid, ActMessage, Instrument } from "../protocol";
 
 /** What is asked for. */
 export interface Asked {
@@ -14,11 +14,13 @@ export interface Asked {
   readonly item?: number;
   /** Of decline: ids of the procedure's reasons. */
   readonly reasons?: readonly string[];
+  /** Of use_aid. */
+  readonly aid?: Aid;
 }
 
 export function actMessage(asked: Asked): ActMessage {
-  const { id, hand = null, instrument = null, item = null, reasons = null } = asked;
-  return { type: "act", id, hand, instrument, item, reasons };
+  const { id, hand = null, instrument = null, item = null, reasons = null, aid = null } = asked;
+  return { type: "act", id, hand, instrument, item, aid, reasons };
 }
 
 export class OfferedActions {

@@ -6,9 +6,9 @@ import { describe, expect, it } from "vitest";
 import { parseCArmPicture } from "./c_arm_picture";
 
 function frame(width: number, height: number, pixels = width * height): DataView {
-  const view = new DataView(new ArrayBuffer(36 + pixels));
+  const view = new DataView(new ArrayBuffer(40 + pixels));
   view.setUint32(0, 0x4341524d, false);
-  view.setUint32(4, 2, true);
+  view.setUint32(4, 3, true);
   view.setUint32(8, 2, true);
   view.setUint32(12, 7, true);
   view.setUint16(16, width, true);
@@ -17,7 +17,8 @@ function frame(width: number, height: number, pixels = width * height): DataView
   view.setFloat32(24, 45, true);
   view.setFloat32(28, -10, true);
   view.setFloat32(32, 0.5, true);
-  for (let i = 0; i < pixels; ++i) view.setUint8(36 + i, i % 256);
+  view.setFloat32(36, 50, true);
+  for (let i = 0; i < pixels; ++i) view.setUint8(40 + i, i % 256);
   return view;
 }
 
@@ -34,13 +35,14 @@ describe("parseCArmPicture", () => {
         mmPerPixel: 0.25,
         rotationDeg: 45,
         tiltDeg: -10,
+        tubeKv: 50,
       },
     });
     expect(parsed.ok && [...parsed.value.grey]).toEqual([0, 1, 2, 3, 4, 5]);
   });
 
   it.each([
-    ["too short", () => new DataView(new ArrayBuffer(35))],
+    ["too short", () => new DataView(new ArrayBuffer(39))],
     ["pixels missing", () => frame(3, 2, 5)],
     ["pixels too many", () => frame(3, 2, 7)],
     ["no pixels", () => frame(0, 2)],

@@ -18,12 +18,13 @@ export interface CArmPicture {
   readonly rotationDeg: number;
   readonly tiltDeg: number;
   readonly doseCgyCm2: number;
+  readonly tubeKv: number;
   /** Grey, row by row from the top. */
   readonly grey: Uint8Array;
 }
 
-const HEADER_BYTES = 36;
-const VERSION = 2;
+const HEADER_BYTES = 40;
+const VERSION = 3;
 /** No receptor of a mini C-arm has more; a larger picture is a broken frame. */
 const MAX_SIDE = 4096;
 
@@ -57,9 +58,11 @@ export function parseCArmPicture(buffer: ArrayBuffer): Parsed<CArmPicture> {
     rotationDeg: view.getFloat32(24, true),
     tiltDeg: view.getFloat32(28, true),
     doseCgyCm2: view.getFloat32(32, true),
+    tubeKv: view.getFloat32(36, true),
     grey: new Uint8Array(buffer, HEADER_BYTES),
   };
-  const figures = [picture.mmPerPixel, picture.rotationDeg, picture.tiltDeg, picture.doseCgyCm2];
+  const { doseCgyCm2, mmPerPixel, rotationDeg, tiltDeg, tubeKv } = picture;
+  const figures = [mmPerPixel, rotationDeg, tiltDeg, doseCgyCm2, tubeKv];
   if (!figures.every(Number.isFinite)) return refuse("a figure of the header is not finite");
   return { ok: true, value: picture };
 }

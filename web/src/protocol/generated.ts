@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 9;
+export const PROTOCOL_VERSION = 10;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -24,13 +24,19 @@ export type Driver = "off" | "forward" | "reverse";
 export type Guidance = "direct" | "planned";
 
 /** Things done once rather than held. */
-export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline";
+export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline" | "use_aid";
 
 /** What angles of the C-arm are counted from: the forearm as it is held now, or as it was scanned, which is how the room stands. */
 export type AngleReference = "held_forearm" | "room";
 
 /** What should be done about a case's fracture. */
 export type RightAnswer = "fix" | "reduce_first" | "decline";
+
+/** What helps in practice, on request: a ghost of the ideal, bones cut open, a hint in words. */
+export type Aid = "ghost" | "section" | "hint";
+
+/** Of the C-arm's tube. */
+export type DoseLevel = "low" | "usual" | "high";
 
 /** Of a drawn part. */
 export type Material = "steel" | "titanium" | "handle" | "black";
@@ -115,6 +121,23 @@ export interface NamedView {
   readonly rotation_deg: number;
   /** [deg] -60 to 60 */
   readonly tilt_deg: number;
+  /** how the hand is held for it; none: as it is [deg] -90 to 90 */
+  readonly flexion_deg: number | null;
+  /** [deg] -60 to 60 */
+  readonly radial_deviation_deg: number | null;
+}
+
+/** The line and the screw that the procedure is after, frame of the target as scanned. */
+export interface Ideal {
+  readonly entry_mm: Vec3;
+  /** unit, into the bone */
+  readonly direction: Vec3;
+  /** of the line in the bone [mm] 0 to 1000 */
+  readonly length_mm: number;
+  /** id of the instrument; empty where none fits */
+  readonly screw: string;
+  /** from the entry to its tail [mm] -1000 to 1000 */
+  readonly screw_tail_mm: number;
 }
 
 /** A case that can be chosen, with what its lesson says; only id and title where it has none. */
@@ -247,6 +270,9 @@ export interface CArmStand {
   readonly tilt_deg: number;
   /** the pedal is down: live pictures come */
   readonly live: boolean;
+  /** [kV] 0 to 200 */
+  readonly tube_kv: number;
+  readonly dose_level: DoseLevel;
 }
 
 /** From low to high. */
@@ -570,6 +596,8 @@ export interface ActMessage {
   readonly instrument: string | null;
   /** of pick_up and pick_up_far_end 0 to 254 */
   readonly item: number | null;
+  /** of use_aid, which is counted */
+  readonly aid: Aid | null;
   /** of decline: ids of exercise.decline_reasons, at least one */
   readonly reasons: readonly string[] | null;
 }
@@ -582,6 +610,14 @@ export interface TakeShotMessage {
   /** towards proximal (positive) or distal [deg] -60 to 60 */
   readonly tilt_deg: number;
   readonly reference: AngleReference;
+}
+
+/** How the C-arm's tube is set from now on; the nearest voltage that it has. */
+export interface TubeMessage {
+  readonly type: "tube";
+  /** [kV] 40 to 80 */
+  readonly tube_kv: number;
+  readonly dose_level: DoseLevel;
 }
 
 /** Where the C-arm is moved to; it stays there in the room when the forearm turns. take_shot moves it too. */
@@ -640,6 +676,7 @@ export type PageMessage =
   | WristMessage
   | ActMessage
   | TakeShotMessage
+  | TubeMessage
   | CArmMessage
   | PedalMessage
   | QuizBeginMessage
@@ -676,6 +713,8 @@ export interface ExerciseMessage {
   /** in the order of snapshot.bodies */
   readonly bodies: readonly Body[];
   readonly wrist_limits: WristLimits;
+  /** in practice only, to be shown on request */
+  readonly ideal: Ideal | null;
   /** none: it cannot be declined */
   readonly decline_reasons: readonly DeclineReason[];
 }

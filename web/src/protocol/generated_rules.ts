@@ -12,9 +12,11 @@ export const SCHEMA: Schema = {
     input_device: { values: ["mouse", "keyboard", "gamepad", "arm", "headset", "script"] },
     driver: { values: ["off", "forward", "reverse"] },
     guidance: { values: ["direct", "planned"] },
-    action_id: { values: ["take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish", "decline"] },
+    action_id: { values: ["take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish", "decline", "use_aid"] },
     angle_reference: { values: ["held_forearm", "room"] },
     right_answer: { values: ["fix", "reduce_first", "decline"] },
+    aid: { values: ["ghost", "section", "hint"] },
+    dose_level: { values: ["low", "usual", "high"] },
     material: { values: ["steel", "titanium", "handle", "black"] },
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
@@ -56,6 +58,15 @@ export const SCHEMA: Schema = {
       label: {"type": "string", "max_length": 64},
       rotation_deg: {"type": "number", "min": -180, "max": 180},
       tilt_deg: {"type": "number", "min": -60, "max": 60},
+      flexion_deg: {"type": "number", "min": -90, "max": 90, "optional": true},
+      radial_deviation_deg: {"type": "number", "min": -60, "max": 60, "optional": true},
+    } },
+    ideal: { fields: {
+      entry_mm: {"type": "vec3", "limit": 10000},
+      direction: {"type": "vec3", "limit": 1.001},
+      length_mm: {"type": "number", "min": 0, "max": 1000},
+      screw: {"type": "string", "max_length": 64},
+      screw_tail_mm: {"type": "number", "min": -1000, "max": 1000},
     } },
     case_card: { fields: {
       id: {"type": "string", "max_length": 64},
@@ -128,6 +139,8 @@ export const SCHEMA: Schema = {
       rotation_deg: {"type": "number", "min": -180, "max": 180},
       tilt_deg: {"type": "number", "min": -60, "max": 60},
       live: {"type": "boolean"},
+      tube_kv: {"type": "number", "min": 0, "max": 200},
+      dose_level: {"type": "dose_level"},
     } },
     range: { fields: {
       low: {"type": "number", "min": -1000, "max": 1000},
@@ -315,12 +328,17 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     hand: {"type": "integer", "min": 0, "max": 1, "optional": true},
     instrument: {"type": "string", "max_length": 64, "optional": true},
     item: {"type": "integer", "min": 0, "max": 254, "optional": true},
+    aid: {"type": "aid", "optional": true},
     reasons: {"type": "array", "of": {"type": "string", "max_length": 32}, "max_items": 8, "optional": true},
   },
   take_shot: {
     rotation_deg: {"type": "number", "min": -180, "max": 180},
     tilt_deg: {"type": "number", "min": -60, "max": 60},
     reference: {"type": "angle_reference"},
+  },
+  tube: {
+    tube_kv: {"type": "number", "min": 40, "max": 80},
+    dose_level: {"type": "dose_level"},
   },
   c_arm: {
     rotation_deg: {"type": "number", "min": -180, "max": 180},
@@ -364,6 +382,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     instruments: {"type": "array", "of": {"type": "instrument"}, "max_items": 128},
     bodies: {"type": "array", "of": {"type": "body"}, "max_items": 32},
     wrist_limits: {"type": "wrist_limits"},
+    ideal: {"type": "ideal", "optional": true},
     decline_reasons: {"type": "array", "of": {"type": "decline_reason"}, "max_items": 8},
   },
   snapshot: {

@@ -50,6 +50,7 @@ export class DrawingSurface {
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.renderer.setPixelRatio(this.pixelRatio());
+    this.renderer.localClippingEnabled = true;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = THREE.ACESFilmicToneMapping;

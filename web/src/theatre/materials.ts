@@ -11,7 +11,7 @@ export const ACCENT_COLOR = "#5cc8ff";
 export const ATTENTION_COLOR = "#f0c36a";
 
 /** Value noise in the bone's own mm, three octaves: bone is not one even colour or gloss. */
-const NOISE_GLSL = /* glsl */ `
+export const NOISE_GLSL = /* glsl */ `
 float hash3(vec3 p) {
   p = fract(p * vec3(0.1031, 0.1030, 0.0973));
   p += dot(p, p.yxz + 33.33);

@@ -6,14 +6,17 @@
 // frame, under one group that carries the conversion (frames/).
 import * as THREE from "three";
 import type { FaceNames, FrameMap } from "../frames";
-import type { BodyPose, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
+import type { BodyPose, Ideal, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
 import { backdrop } from "./backdrop";
 import { Beam } from "./beam";
 import { BeamShown, roomAngles, towardsSource } from "./beam_model";
 import { BoneNames } from "./bone_names";
 import { BoneRays } from "./bone_rays";
 import type { CaseScene } from "./case_scene";
+import { CutBones } from "./cut_bones";
+import { cutPlane, type Cut } from "./cut_plane_model";
 import { DrawingSurface } from "./drawing_surface";
+import { Ghost } from "./ghost";
 import { studioLight, type StudioLight } from "./light";
 import { MovingBones } from "./moving_bones";
 import { OrientationCube } from "./orientation_cube";
@@ -34,6 +37,16 @@ export class Theatre {
   private readonly instruments = new ShownInstruments();
   private readonly beam = new Beam();
   private readonly beamShown = new BeamShown();
+  private readonly ghost = new Ghost();
+  private readonly cutBones: CutBones;
+  private cut: Cut = "off";
+  private ideal: Ideal | null = null;
+  private readonly scratch = {
+    plane: new THREE.Plane(),
+    sight: new THREE.Vector3(),
+    entry: new THREE.Vector3(),
+    axis: new THREE.Vector3(),
+  };
   private target: readonly string[] = [];
   private readonly radialIsRight: boolean;
   private readonly cube: OrientationCube;
@@ -61,6 +74,7 @@ export class Theatre {
     this.light = studioLight(this.surface.renderer, this.scene);
     this.cube = new OrientationCube(facing);
     this.bones = new MovingBones(caseScene);
+    this.cutBones = new CutBones(caseScene.bones);
     this.names = new BoneNames(caseScene.bones);
     this.names.canvas.hidden = true;
     this.patient.matrixAutoUpdate = false;
@@ -202,6 +216,58 @@ export class Theatre {
     this.stale = true;
   }
 
+  /** The line and the screw to be shown on request; none in an assessed operation. */
+  setIdeal(ideal: Ideal | null, instruments: readonly Instrument[]): void {
+    this.ideal = ideal;
+    this.ghost.set(ideal, instruments);
+    this.ghost.group.visible = false;
+    this.setCut("off");
+  }
+
+  get ghostIsShown(): boolean {
+    return this.ghost.group.visible;
+  }
+
+  showGhost(on: boolean): void {
+    this.targetBone()?.add(this.ghost.group);
+    this.ghost.group.visible = on;
+    this.stale = true;
+  }
+
+  get cutIs(): Cut {
+    return this.cut;
+  }
+
+  setCut(cut: Cut): void {
+    this.cut = cut;
+    this.stale = true;
+  }
+
+  private targetBone(): THREE.Object3D | undefined {
+    const [first] = this.target;
+    return this.caseScene.bones.find((bone) => bone.name === first);
+  }
+
+  /** The plane goes with the camera, and with the bone in which the axis lies. */
+  private followCut(): void {
+    const bone = this.targetBone();
+    if (this.cut === "off" || bone === undefined) return this.cutBones.cut(undefined);
+    const { axis, entry, plane, sight } = this.scratch;
+    this.sight.camera.getWorldDirection(sight);
+    const isAlong = this.cut === "axis" && this.ideal !== null;
+    if (isAlong && this.ideal !== null) {
+      entry.set(...this.ideal.entry_mm).applyMatrix4(bone.matrixWorld);
+      axis.set(...this.ideal.direction).transformDirection(bone.matrixWorld);
+    } else {
+      entry.copy(middleOf(this.caseScene, this.target));
+    }
+    const found = cutPlane(entry.toArray(), sight.toArray(), isAlong ? axis.toArray() : undefined);
+    if (found === undefined) return this.cutBones.cut(undefined);
+    plane.normal.set(...found.normal);
+    plane.constant = found.constant;
+    this.cutBones.cut(plane);
+  }
+
   /** Whether the pointer's main button, or one finger, turns the view. */
   setDragLooks(on: boolean): void {
     this.sight.setDragLooks(on);
@@ -255,6 +321,7 @@ export class Theatre {
     this.drawn = this.shown;
     this.sight.watch(this.tool);
     if (this.shown !== undefined) this.instruments.pose(this.shown, this.towardsViewer);
+    this.followCut();
     this.light.follow(this.sight.camera, this.sight.target);
     renderer.render(this.scene, this.sight.camera);
     this.cube.draw(renderer, this.sight.camera, 8, 8, CUBE_PX);
@@ -268,6 +335,8 @@ export class Theatre {
     this.cube.dispose();
     this.bones.dispose();
     this.instruments.dispose();
+    this.ghost.dispose();
+    this.cutBones.dispose();
     this.scene.traverse((node) => {
       if (node instanceof THREE.Mesh) (node as THREE.Mesh).geometry.dispose();
     });

@@ -14,9 +14,9 @@ import {
   type OfferedActions,
   type OnceAction,
 } from "../operation";
-import type { PageMessage, SnapshotMessage } from "../protocol";
+import type { Aid, PageMessage, SnapshotMessage } from "../protocol";
 import type { Sound } from "../sound";
-import { VIEWS, type Theatre, type ViewId } from "../theatre";
+import { nextCut, VIEWS, type Theatre, type ViewId } from "../theatre";
 import type { ClosedWays } from "./bottom_bar";
 import type { Hand } from "./hand";
 import type { TrayDialog } from "./tray_dialog";
@@ -121,6 +121,25 @@ export class Actions {
       case "finish":
         if (!this.isRefused({ id: "finish" })) this.room.finish();
         break;
+      case "ghost":
+        this.useAid("ghost", theatre.ghostIsShown, () => {
+          theatre.showGhost(!theatre.ghostIsShown);
+        });
+        break;
+      case "cut":
+        this.useAid("section", theatre.cutIs !== "off", () => {
+          theatre.setCut(nextCut(theatre.cutIs));
+        });
+        break;
+      case "hint":
+        this.ask({ id: "use_aid", hand: hand.active, aid: "hint" });
+        break;
+      case "voltage":
+        arm.nextVoltage();
+        break;
+      case "dose":
+        arm.nextDose();
+        break;
       case "decline":
         if (!this.isRefused({ id: "decline" })) this.room.decline();
         break;
@@ -164,6 +183,17 @@ export class Actions {
     if (hand === this.room.hand.active) return;
     this.room.hand.switchHand();
     this.room.say(`Mouse and keys move the ${hand === 0 ? "first" : "second"} hand.`);
+  }
+
+  /** Turning one on is asked for, and counted; what is on may be changed and turned off. */
+  private useAid(aid: Aid, isOn: boolean, change: () => void): void {
+    const asked: Asked = { id: "use_aid", aid };
+    if (!isOn) {
+      if (this.isRefused(asked)) return;
+      this.room.tell(actMessage(asked));
+    }
+    change();
+    this.room.views.showAids(this.room.theatre.ghostIsShown, this.room.theatre.cutIs);
   }
 
   /** Asks the host, or says why it would refuse. */

@@ -89,6 +89,9 @@ export function makePanels(
       | "undo"
       | "finish"
       | "decline"
+      | "ghost"
+      | "cut"
+      | "hint"
       | "sound",
   ) => {
     return (): void => {
@@ -120,6 +123,9 @@ export function makePanels(
       names: () => {
         wishes.act({ kind: "labels" });
       },
+      ghost: act("ghost"),
+      cut: act("cut"),
+      hint: act("hint"),
     }),
     arm: new CArmPanel(patientText(description), wishes.cArm),
     bottom: new BottomBar({

@@ -142,6 +142,13 @@ export class TrainPage {
         stand: (rotationDeg, tiltDeg) => {
           if (this.part.operates) this.moveCArm("c_arm", rotationDeg, tiltDeg);
         },
+        tube: (kv, level) => {
+          if (this.part.operates)
+            this.connection.tell({ type: "tube", tube_kv: kv, dose_level: level });
+        },
+        holdWrist: (wish) => {
+          this.panels.wrist.hold(wish);
+        },
         enlarge: (on) => {
           app.firstElementChild?.classList.toggle("enlarged", on);
         },
@@ -356,6 +363,7 @@ export class TrainPage {
         break;
       case "event":
         steps.addLog(message.tick, message.text);
+        if (message.text.startsWith("Hint:")) notice.say(message.text);
         break;
       case "score":
         this.part.finished();

@@ -4,12 +4,15 @@
 // Under the theatre: from where to look, how much skin, names.
 import { button, make } from "../dom";
 import { keyCap } from "../key_caps";
-import { VIEWS, type ViewId } from "../theatre";
+import { VIEWS, type Cut, type ViewId } from "../theatre";
 
 export interface ViewBarHandlers {
   look(view: ViewId): void;
   skin(opacity: number): void;
   names(): void;
+  ghost(): void;
+  cut(): void;
+  hint(): void;
 }
 
 const NAMES: Readonly<Record<ViewId, string>> = {
@@ -20,6 +23,12 @@ const NAMES: Readonly<Record<ViewId, string>> = {
   wire: "Along shaft",
 };
 
+const CUT_NAMES: Readonly<Record<Cut, string>> = {
+  off: "Cut",
+  axis: "Cut: line",
+  camera: "Cut: sight",
+};
+
 /** What `T` goes through [%]. */
 const SKIN_STOPS = [20, 60, 100, 0];
 
@@ -28,6 +37,7 @@ export class ViewBar {
   private readonly looks: Readonly<Record<ViewId, HTMLButtonElement>>;
   private readonly slider: HTMLInputElement;
   private readonly namesButton: HTMLButtonElement;
+  private readonly aids: Readonly<Record<"ghost" | "cut" | "hint", HTMLButtonElement>>;
 
   constructor(private readonly handlers: ViewBarHandlers) {
     const look = (view: ViewId): HTMLButtonElement =>
@@ -59,12 +69,25 @@ export class ViewBar {
     });
     this.namesButton = button("Names", "{KeyL}", handlers.names, ".quiet");
     this.namesButton.setAttribute("aria-pressed", "false");
+    this.aids = {
+      ghost: button("Ghost", "F2", handlers.ghost, ".quiet"),
+      cut: button(CUT_NAMES.off, "F4", handlers.cut, ".quiet"),
+      hint: button("Hint", "F8", handlers.hint, ".quiet"),
+    };
+    this.aids.ghost.title = "The planned line and screw";
+    this.aids.cut.title = "Cuts the bones open: along the planned line, then across the sight";
+    this.aids.hint.title = "What to change, in words";
     this.element = make(
       "div.view-bar",
       { role: "group", "aria-label": "View" },
       make("span.secondary", {}, "View ", keyCap("{KeyV}")),
       ...VIEWS.map((view) => this.looks[view]),
       make("span.gap"),
+      make(
+        "span.aids",
+        { role: "group", "aria-label": "Aids, counted" },
+        ...Object.values(this.aids),
+      ),
       this.namesButton,
       make("label.secondary", { for: "skin-opacity" }, "Skin ", keyCap("{KeyT}")),
       this.slider,
@@ -76,6 +99,7 @@ export class ViewBar {
   showOnlySkin(on: boolean): void {
     this.element.classList.toggle("only-skin", on);
     this.namesButton.disabled = this.slider.disabled = on;
+    for (const aid of Object.values(this.aids)) aid.hidden = on;
   }
 
   /** 0 to 1. */
@@ -92,6 +116,13 @@ export class ViewBar {
   /** @param shown  none once the view was turned or the wire moved */
   showView(shown: ViewId | undefined): void {
     for (const view of VIEWS) this.looks[view].setAttribute("aria-pressed", String(view === shown));
+  }
+
+  showAids(ghost: boolean, cut: Cut): void {
+    this.aids.ghost.setAttribute("aria-pressed", String(ghost));
+    this.aids.cut.setAttribute("aria-pressed", String(cut !== "off"));
+    const [label] = this.aids.cut.childNodes;
+    if (label instanceof Text) label.data = CUT_NAMES[cut];
   }
 
   showNames(on: boolean): void {

@@ -71,7 +71,9 @@ export class WhatIsSeen {
     this.theatre.setTracks([]);
     const assessed = exercise.mode === "assessed";
     this.theatre.showOnlySkin(assessed);
+    this.theatre.setIdeal(exercise.ideal, exercise.instruments);
     views.showOnlySkin(assessed);
+    views.showAids(false, "off");
     top.showProcedure(exercise.procedure.title, assessed);
     steps.setSteps(exercise);
     arm.setViews(exercise.views);
@@ -122,6 +124,7 @@ export class WhatIsSeen {
     drive.show(hand.driver, hand.thrust, hand.coarse);
     wrist.show(s.wrist);
     arm.takeStand(s.c_arm);
+    arm.takeWrist(s.wrist);
     arm.showCount(s.shots, s.dose_cgy_cm2);
     const stuck = hand.driver === "forward" ? whyStuck(s, hand.active, hand.thrust) : undefined;
     if (stuck !== undefined) notice.say(stuck);

@@ -23,6 +23,17 @@ export function nudged(
   return { ...pose, [axis]: Math.min(high, Math.max(low, pose[axis] + by)) };
 }
 
+export function within(pose: WristPose, limits: WristLimits): WristPose {
+  const kept = (axis: WristAxis): number =>
+    Math.min(limits[axis].high, Math.max(limits[axis].low, pose[axis]));
+  return {
+    flexion_deg: kept("flexion_deg"),
+    radial_deviation_deg: kept("radial_deviation_deg"),
+    pronation_deg: kept("pronation_deg"),
+    traction_n: kept("traction_n"),
+  };
+}
+
 /** "−12°", "15 N". */
 export function readingText(axis: WristAxis, value: number): string {
   const whole = Math.round(value);

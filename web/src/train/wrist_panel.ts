@@ -7,7 +7,7 @@ import { make, setText } from "../dom";
 import { keyCap, withKeys } from "../key_caps";
 import { WRIST_KEYS, type WristAxis } from "../operation";
 import type { WristLimits, WristPose } from "../protocol";
-import { nudged, readingText, REST } from "./wrist_model";
+import { nudged, readingText, REST, within } from "./wrist_model";
 
 const NAMES: Readonly<Record<WristAxis, readonly [name: string, more: string, less: string]>> = {
   flexion_deg: ["Flexion", "flex", "extend"],
@@ -69,6 +69,12 @@ export class WristPanel {
   move(axis: WristAxis, by: number): void {
     if (this.limits !== undefined && this.isPlaced)
       this.wish(nudged(this.wished, this.limits, axis, by));
+  }
+
+  /** Within the limits, as a view wants it; the rest stays. */
+  hold(wish: Partial<WristPose>): void {
+    if (this.limits === undefined || !this.isPlaced) return;
+    this.wish(within({ ...this.wished, ...wish }, this.limits));
   }
 
   show(now: WristPose): void {
