@@ -66,6 +66,42 @@ void write(FieldWriter& out, const AttemptList& in) {
   out.value("total", in.total);
 }
 
+void read(FieldReader& in, PictureTruth& out) {
+  in.records("bone", 0, 4, out.bone);
+  in.records("screws", 0, 4, out.screws);
+  in.records("wires", 0, 8, out.wires);
+  if (in.has("wire_out_mm")) out.wire_out_mm = in.number("wire_out_mm", 0.0, 1000.0);
+  if (in.has("wire_shown_mm")) out.wire_shown_mm = in.number("wire_shown_mm", -100.0, 1000.0);
+}
+
+void write(FieldWriter& out, const PictureTruth& in) {
+  out.records("bone", in.bone);
+  out.records("screws", in.screws);
+  out.records("wires", in.wires);
+  if (in.wire_out_mm) {
+    out.value("wire_out_mm", *in.wire_out_mm);
+  } else {
+    out.null("wire_out_mm");
+  }
+  if (in.wire_shown_mm) {
+    out.value("wire_shown_mm", *in.wire_shown_mm);
+  } else {
+    out.null("wire_shown_mm");
+  }
+}
+
+void read(FieldReader& in, ViewDebrief& out) {
+  out.screw = in.string("screw", 128);
+  out.revealed_mm = in.number("revealed_mm", 0.0, 10.0);
+  in.records("faults", 0, 3, out.faults);
+}
+
+void write(FieldWriter& out, const ViewDebrief& in) {
+  out.text("screw", in.screw, 128);
+  out.value("revealed_mm", in.revealed_mm);
+  out.records("faults", in.faults);
+}
+
 void read(FieldReader& in, Attempt& out) {
   read(in, static_cast<AttemptSummary&>(out));
   out.case_is_open = in.boolean("case_is_open");
@@ -171,6 +207,40 @@ Result<AttemptList> parse_attempt_list(std::string_view text) {
 }
 
 std::string serialize(const AttemptList& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<PictureTruth> parse_picture_truth(std::string_view text) {
+  JsonText json(text, 1048576);
+  FieldReader in(json);
+  PictureTruth out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const PictureTruth& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<ViewDebrief> parse_view_debrief(std::string_view text) {
+  JsonText json(text, 131072);
+  FieldReader in(json);
+  ViewDebrief out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const ViewDebrief& body, int indent) {
   JsonWriter json;
   FieldWriter out = json.root();
   write(out, body);

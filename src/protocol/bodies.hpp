@@ -100,6 +100,46 @@ struct AttemptList {
 /// @param indent  spaces a level; negative writes one line.
 [[nodiscard]] std::string serialize(const AttemptList& body, int indent = -1);
 
+/// Most `bone` of one PictureTruth.
+inline constexpr std::size_t kMaxPictureTruthBone = 4;
+/// Most `screws` of one PictureTruth.
+inline constexpr std::size_t kMaxPictureTruthScrews = 4;
+/// Most `wires` of one PictureTruth.
+inline constexpr std::size_t kMaxPictureTruthWires = 8;
+/// GET /api/attempts/<id>/replay/truth?at=<tick>. What was true of a picture that was taken then.
+struct PictureTruth {
+  std::vector<PictureOutline> bone;
+  std::vector<PictureOutline> screws;
+  std::vector<PictureOutline> wires;
+  /// how far a wire's tip is beyond the far side; none where none is out [mm] 0 to 1000
+  std::optional<double> wire_out_mm;
+  /// how far beyond the bone's outline this picture shows it [mm] -100 to 1000
+  std::optional<double> wire_shown_mm;
+  bool operator==(const PictureTruth&) const = default;
+};
+
+[[nodiscard]] Result<PictureTruth> parse_picture_truth(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const PictureTruth& body, int indent = -1);
+
+/// Most `faults` of one ViewDebrief.
+inline constexpr std::size_t kMaxViewDebriefFaults = 3;
+/// GET /api/attempts/<id>/replay/views. What is wrong with the screw as it lies at the end, and
+/// which views would have shown it.
+struct ViewDebrief {
+  /// its name; empty where none lies in the bone
+  std::string screw;
+  /// [mm] 0 to 10
+  double revealed_mm = 0.0;
+  /// worst first
+  std::vector<PlacementFault> faults;
+  bool operator==(const ViewDebrief&) const = default;
+};
+
+[[nodiscard]] Result<ViewDebrief> parse_view_debrief(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const ViewDebrief& body, int indent = -1);
+
 /// Most `events` of one Attempt.
 inline constexpr std::size_t kMaxAttemptEvents = 50000;
 /// GET /api/attempts/<id>.

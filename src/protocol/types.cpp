@@ -48,6 +48,42 @@ void write(FieldWriter& out, const QuizViewTruth& in) {
   out.record("screw", in.screw);
 }
 
+void read(FieldReader& in, FaultSeen& out) {
+  out.view = in.string("view", 32);
+  out.label = in.string("label", 64);
+  out.tick = in.integer("tick", 0, 9007199254740991);
+  out.shot = in.integer("shot", 0, 4294967295);
+  out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
+  out.tilt_deg = in.number("tilt_deg", -90.0, 90.0);
+  out.overhang_mm = in.number("overhang_mm", -100.0, 100.0);
+  out.reveals = in.boolean("reveals");
+}
+
+void write(FieldWriter& out, const FaultSeen& in) {
+  out.text("view", in.view, 32);
+  out.text("label", in.label, 64);
+  out.value("tick", in.tick);
+  out.value("shot", in.shot);
+  out.value("rotation_deg", in.rotation_deg);
+  out.value("tilt_deg", in.tilt_deg);
+  out.value("overhang_mm", in.overhang_mm);
+  out.value("reveals", in.reveals);
+}
+
+void read(FieldReader& in, PlacementFault& out) {
+  out.place = static_cast<ScrewPlace>(in.choice("place", kScrewPlaceNames));
+  out.depth_mm = in.number("depth_mm", 0.0, 100.0);
+  out.towards = in.string("towards", 64);
+  in.records("seen", 0, 32, out.seen);
+}
+
+void write(FieldWriter& out, const PlacementFault& in) {
+  out.name("place", name_of(in.place));
+  out.value("depth_mm", in.depth_mm);
+  out.text("towards", in.towards, 64);
+  out.records("seen", in.seen);
+}
+
 void read(FieldReader& in, QuizTally& out) {
   out.answers = in.integer("answers", 0, 4294967295);
   out.right_places = in.integer("right_places", 0, 4294967295);

@@ -190,6 +190,40 @@ struct QuizViewTruth {
   bool operator==(const QuizViewTruth&) const = default;
 };
 
+/// What one picture or view shows of a fault.
+struct FaultSeen {
+  /// id of a preset; empty of a picture that was taken
+  std::string view;
+  /// of a preset, for people
+  std::string label;
+  /// when it was taken; 0 of a preset [ms] 0 to 9007199254740991
+  std::int64_t tick = 0;
+  /// its number; 0 of a preset 0 to 4294967295
+  std::int64_t shot = 0;
+  /// from the forearm as it was held [deg] -180 to 180
+  double rotation_deg = 0.0;
+  /// [deg] -90 to 90
+  double tilt_deg = 0.0;
+  /// of the metal that is out beyond the bone's true outline, in the plane of the bone; negative:
+  /// so far inside it [mm] -100 to 100
+  double overhang_mm = 0.0;
+  /// that is at least revealed_mm
+  bool reveals = false;
+  bool operator==(const FaultSeen&) const = default;
+};
+
+/// A part of a screw that is out of the bone.
+struct PlacementFault {
+  ScrewPlace place = ScrewPlace::Inside;
+  /// how far, by the bone's own surface [mm] 0 to 100
+  double depth_mm = 0.0;
+  /// the bone beside that place; empty where none is near
+  std::string towards;
+  /// the presets, then the pictures that were taken of the screw as it lies
+  std::vector<FaultSeen> seen;
+  bool operator==(const PlacementFault&) const = default;
+};
+
 /// Answers since the quiz began.
 struct QuizTally {
   /// 0 to 4294967295

@@ -16,6 +16,8 @@ namespace {
 
 /// Between two pulses of the tube in a live look (procedure/shots.hpp: ten a second).
 constexpr Tick kPulseTicks = 100;
+/// Pictures that are gone through for the views; each is a seek.
+constexpr std::size_t kMostLooks = 24;
 
 HttpResponse no_such_attempt() { return make_problem(404, "There is no such attempt."); }
 
@@ -65,6 +67,13 @@ ReplayDesk::Recorded ReplayDesk::decoded(const records::Attempt& attempt) const 
   made.tells_truth =
       recording->mode == procedure::Mode::Practice ||
       (attempt.summary.outcome == records::Outcome::Finished && !is_void(attempt.score_json));
+  if (const auto events = protocol::parse_stored_events(attempt.events_json)) {
+    for (const protocol::LoggedEvent& event : *events) {
+      if (event.kind == "shot_taken" || event.kind == "live_ended") {
+        made.looks.push_back(static_cast<Tick>(event.tick));
+      }
+    }
+  }
   made.recording = std::make_shared<simulation::Recording>(std::move(recording.value()));
   return made;
 }
@@ -180,6 +189,57 @@ std::string ReplayDesk::frame_of(const procedure::Procedure& procedure,
   if (before.c_arm.pedal_is_down) (void)pictures_->take_live(view_of(live(before)), before);
   const TakenShot shot = live(player.now());
   return encode_picture(shot, pictures_->take_live(view_of(shot), shot.snapshot));
+}
+
+std::optional<HttpResponse> ReplayDesk::locked(const std::shared_ptr<const Recorded>& recorded) {
+  if (!recorded) return no_such_attempt();
+  if (!recorded->problem.empty()) return cannot_be_shown(recorded->problem);
+  if (!recorded->tells_truth) {
+    return cannot_be_shown("Of an assessed operation without a screw the truth stays closed.");
+  }
+  if (recorded->procedure->target != BoneId::Scaphoid) {
+    return cannot_be_shown("Views are judged for the scaphoid alone.");
+  }
+  return std::nullopt;
+}
+
+const ViewDebrief& ReplayDesk::debrief() {
+  if (!debrief_) debrief_ = std::make_unique<ViewDebrief>(data_);
+  return *debrief_;
+}
+
+HttpResponse ReplayDesk::truth(std::int64_t id, std::int64_t tick) {
+  const auto recorded = recorded_of(id);
+  if (auto refused = locked(recorded)) return *refused;
+  const std::lock_guard lock(for_pictures_.mutex);
+  simulation::ReplayPlayer& player = *open(for_pictures_, id, recorded).player;
+  const auto reached = player.seek_with_events(static_cast<Tick>(tick));
+  if (!reached) return cannot_be_shown("The replay cannot be shown: " + reached.error() + ".");
+  const auto taken = pictures_of(*recorded->procedure, {player.input().command, player.now()});
+  if (taken.empty()) return make_problem(404, "No picture was taken at that moment.");
+  return make_json(serialize(debrief().truth_of(taken.back())));
+}
+
+HttpResponse ReplayDesk::views(std::int64_t id) {
+  const auto recorded = recorded_of(id);
+  if (auto refused = locked(recorded)) return *refused;
+  const std::lock_guard lock(for_pictures_.mutex);
+  simulation::ReplayPlayer& player = *open(for_pictures_, id, recorded).player;
+  // Only the last of them can show the screw as it lies at the end.
+  const std::size_t first = recorded->looks.size() - std::min(recorded->looks.size(), kMostLooks);
+  std::vector<TakenShot> taken;
+  for (std::size_t i = first; i < recorded->looks.size(); ++i) {
+    const auto reached = player.seek_with_events(recorded->looks[i]);
+    if (!reached) return cannot_be_shown("The replay cannot be shown: " + reached.error() + ".");
+    if (!ViewDebrief::screw_in(data_, player.now())) continue;
+    for (TakenShot& shot :
+         pictures_of(*recorded->procedure, {player.input().command, player.now()})) {
+      taken.push_back(shot);
+    }
+  }
+  const auto reached = player.seek(player.length());
+  if (!reached) return cannot_be_shown("The replay cannot be shown: " + reached.error() + ".");
+  return make_json(serialize(debrief().debrief(player.now(), taken)));
 }
 
 }  // namespace carpus::server

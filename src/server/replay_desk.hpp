@@ -12,11 +12,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cases/case_data.hpp"
 #include "procedure/procedure.hpp"
 #include "records/attempt.hpp"
 #include "server/http_message.hpp"
+#include "server/view_debrief.hpp"
 #include "session/exercise_pictures.hpp"
 #include "simulation/replay_player.hpp"
 
@@ -48,13 +50,18 @@ class ReplayDesk {
   [[nodiscard]] HttpResponse states(std::int64_t id, const ReplayStretch& stretch);
   /// The picture that was taken in this tick, or the live one of it: the binary frame.
   [[nodiscard]] HttpResponse picture(std::int64_t id, std::int64_t tick);
+  /// `picture_truth` of that picture; refused where the truth stays locked.
+  [[nodiscard]] HttpResponse truth(std::int64_t id, std::int64_t tick);
+  /// `view_debrief` of the attempt.
+  [[nodiscard]] HttpResponse views(std::int64_t id);
 
  private:
   struct Recorded {
     std::shared_ptr<const simulation::Recording> recording;
     const procedure::Procedure* procedure = nullptr;
     bool tells_truth = true;
-    std::string problem;  ///< why it cannot be shown
+    std::vector<Tick> looks;  ///< when pictures were taken
+    std::string problem;      ///< why it cannot be shown
   };
   struct Opened {
     std::int64_t id = 0;
@@ -75,6 +82,10 @@ class ReplayDesk {
   [[nodiscard]] Opened& open(Shelf& shelf,
                              std::int64_t id,
                              const std::shared_ptr<const Recorded>& recorded) const;
+  /// Why this attempt has no truth to be told; nothing where it has.
+  [[nodiscard]] static std::optional<HttpResponse> locked(
+      const std::shared_ptr<const Recorded>& recorded);
+  [[nodiscard]] const ViewDebrief& debrief();
   /// @param before  state a pulse earlier. Empty: nothing was looked at.
   [[nodiscard]] std::string frame_of(const procedure::Procedure& procedure,
                                      const simulation::ReplayPlayer& player,
@@ -88,7 +99,9 @@ class ReplayDesk {
   std::list<std::pair<std::int64_t, std::shared_ptr<const Recorded>>> recorded_;  ///< newest first
   Shelf for_states_;
   Shelf for_pictures_;
-  std::unique_ptr<session::ExercisePictures> pictures_;  ///< under for_pictures_.mutex
+  // Under for_pictures_.mutex, made when they are first asked for.
+  std::unique_ptr<session::ExercisePictures> pictures_;
+  std::unique_ptr<ViewDebrief> debrief_;
 };
 
 }  // namespace carpus::server

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "core/hexadecimal.hpp"
+#include "protocol/bodies.hpp"
 #include "server/exercise.hpp"
+#include "session/session.hpp"
 #include "simulation/keyframe_due.hpp"
 #include "simulation/operation_test_support.hpp"
 
@@ -27,6 +29,9 @@ struct Operated {
   simulation::Recording recording;
   std::vector<simulation::Event> events;
 };
+
+/// Longer than the synthetic scaphoid.
+constexpr std::string_view kLongScrew = "acutrak_standard_1994_30";
 
 /// A whole operation, as it is stored; of another mode on wish.
 const Operated& operation() {
@@ -45,7 +50,7 @@ const Operated& operation() {
       recorder.append(input);
     });
     world = &op.world();
-    simulation::test::operate(op);
+    simulation::test::operate(op, kLongScrew);
     op.command(simulation::test::simple(simulation::CommandKind::Finish));
     note();
     made.recording = recorder.finished(op.now().state_hash);
@@ -63,7 +68,12 @@ class ReplayDeskTest : public ::testing::Test {
           return std::nullopt;
         }) {
     procedure::ScoreReport score;
-    attempt_ = make_attempt({wrist(), operation().recording, {}, score, "Ada", "script", ""});
+    std::vector<protocol::LoggedEvent> log;
+    const session::Session session(wrist(), exercise(), {});
+    for (const simulation::Event& event : operation().events) {
+      log.push_back(session.describe(event));
+    }
+    attempt_ = make_attempt({wrist(), operation().recording, log, score, "Ada", "script", ""});
   }
   [[nodiscard]] std::vector<Json> states(std::int64_t from, std::int64_t to, std::int64_t every) {
     const HttpResponse response = desk_.states(1, {from, to, every});
@@ -78,6 +88,13 @@ class ReplayDeskTest : public ::testing::Test {
       if (event.kind == kind) return event.tick;
     }
     return 0;
+  }
+  [[nodiscard]] static Tick last_shot() {
+    Tick last = 0;
+    for (const simulation::Event& event : operation().events) {
+      if (event.kind == simulation::EventKind::ShotTaken) last = event.tick;
+    }
+    return last;
   }
   void become_assessed(bool is_void) {
     simulation::Recording assessed = operation().recording;
@@ -142,6 +159,29 @@ TEST_F(ReplayDeskTest, KeepsTheTruthOfAVoidAttemptLocked) {
   become_assessed(true);
   const auto end = static_cast<std::int64_t>(operation().recording.tick_count());
   EXPECT_TRUE(states(end - 2000, end - 2000, 1).back()["completed_steps"].empty());
+  EXPECT_EQ(desk_.views(1).status, 409U);
+  EXPECT_EQ(desk_.truth(1, static_cast<std::int64_t>(last_shot())).status, 409U);
+}
+
+TEST_F(ReplayDeskTest, TellsWhatWasTrueOfAPictureAndWhichViewsShowTheScrew) {
+  const auto first = static_cast<std::int64_t>(tick_of(simulation::EventKind::ShotTaken));
+  const auto before = protocol::parse_picture_truth(*desk_.truth(1, first).body);
+  ASSERT_TRUE(before.has_value()) << before.error();
+  EXPECT_FALSE(before->bone.empty());
+  EXPECT_TRUE(before->screws.empty());
+  const auto last = static_cast<std::int64_t>(last_shot());
+  const auto after = protocol::parse_picture_truth(*desk_.truth(1, last).body);
+  ASSERT_TRUE(after.has_value()) << after.error();
+  EXPECT_EQ(after->screws.size(), 1U);
+  EXPECT_EQ(desk_.truth(1, last + 1).status, 404U);
+  const auto views = protocol::parse_view_debrief(*desk_.views(1).body);
+  ASSERT_TRUE(views.has_value()) << views.error();
+  EXPECT_FALSE(views->screw.empty());
+  ASSERT_FALSE(views->faults.empty()) << "30 mm of screw in the synthetic scaphoid";
+  const auto& seen = views->faults.front().seen;
+  EXPECT_EQ(seen.size(), view_trainer::standard_views().size() + 1);
+  EXPECT_EQ(seen.back().tick, last);
+  for (const auto& one : seen) EXPECT_LE(one.overhang_mm, views->faults.front().depth_mm + 0.2);
 }
 
 TEST_F(ReplayDeskTest, SaysWhyAnAttemptCannotBeShown) {

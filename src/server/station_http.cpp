@@ -143,7 +143,9 @@ HttpResponse StationHttp::answer_replay(std::int64_t id,
   if (what == "/states")
     return replays_->states(id, {number("from"), number("to"), number("every")});
   if (what == "/picture") return replays_->picture(id, std::max<std::int64_t>(number("at"), 0));
-  return make_problem(404, "Of a replay there are exercise, states and picture.");
+  if (what == "/truth") return replays_->truth(id, std::max<std::int64_t>(number("at"), 0));
+  if (what == "/views") return replays_->views(id);
+  return make_problem(404, "Of a replay there are exercise, states, picture, truth and views.");
 }
 
 }  // namespace carpus::server

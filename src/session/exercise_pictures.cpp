@@ -58,6 +58,16 @@ fluoroscopy::Exposure exposure_of_a_pulse(const simulation::Snapshot& now) {
 
 }  // namespace
 
+fluoroscopy::CArmPose beam_of(const cases::CaseData& data,
+                              const PictureView& view,
+                              const simulation::Snapshot& now,
+                              const fluoroscopy::CArmGeometry& geometry) {
+  const Direction<frame::Wrist> ulnar{{0, data.side == Side::Left ? 1.0 : -1.0, 0}};
+  return fluoroscopy::make_c_arm_pose({view.rotation_deg, view.tilt_deg},
+                                      {centre_of(data, view.target, now)}, data.wrist_from_patient,
+                                      ulnar, geometry);
+}
+
 ExercisePictures::ExercisePictures(const cases::CaseData& data)
     : data_(data),
       renderer_(data.ct.view(), data.labels.view(), bodies_of(data)),
@@ -84,11 +94,8 @@ void ExercisePictures::take_in_holes(const simulation::Snapshot& now) {
 fluoroscopy::BeamScene ExercisePictures::scene_of(const PictureView& view,
                                                   const simulation::Snapshot& now,
                                                   const fluoroscopy::CArmGeometry& geometry) const {
-  const Direction<frame::Wrist> ulnar{{0, data_.side == Side::Left ? 1.0 : -1.0, 0}};
   fluoroscopy::BeamScene scene;
-  scene.pose = fluoroscopy::make_c_arm_pose({view.rotation_deg, view.tilt_deg},
-                                            {centre_of(data_, view.target, now)},
-                                            data_.wrist_from_patient, ulnar, geometry);
+  scene.pose = beam_of(data_, view, now, geometry);
   scene.patient_from_bone = std::span(now.patient_from_bone).first(now.body_count);
   return scene;
 }

@@ -24,6 +24,13 @@ struct PictureView {
   double tilt_deg = 0.0;
 };
 
+/// The C-arm of a view, centred on the target where it lies.
+/// @throws InvalidInput for angles that no C-arm can take.
+[[nodiscard]] fluoroscopy::CArmPose beam_of(const cases::CaseData& data,
+                                            const PictureView& view,
+                                            const simulation::Snapshot& now,
+                                            const fluoroscopy::CArmGeometry& geometry = {});
+
 class ExercisePictures {
  public:
   /// Takes the scan apart: about half a second. @param data  as scanned; must outlive this.

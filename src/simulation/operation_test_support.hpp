@@ -275,7 +275,7 @@ class Operator {
 };
 
 /// The whole of it, with everything that a world can do: for replay and allocation.
-inline void operate(Operator& op) {
+inline void operate(Operator& op, std::string_view screw = "acutrak_standard_1994_20") {
   op.command(shot(0));
   op.command(shot(90));
   op.place_on_entry({{3, 2, 1}, {}});
@@ -294,7 +294,7 @@ inline void operate(Operator& op) {
   op.command(take("cannulated_drill"));
   op.drive_to(12.0);
   op.hold(Driver::Reverse, 0.0, 6000);
-  op.command(take("acutrak_standard_1994_20"));
+  op.command(take(screw));
   op.bury(1.0);
   op.command(simple(CommandKind::PutDown));
   op.command(shot(0, 30));

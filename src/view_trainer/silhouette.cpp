@@ -16,21 +16,47 @@ namespace {
 
 class Projector {
  public:
-  explicit Projector(const PosedView& view) : view_(view) {}
+  Projector(const PosedView& view, const Pose<frame::Patient, frame::Bone>& patient_from_bone)
+      : c_arm_(view.c_arm), patient_from_bone_(patient_from_bone) {}
+  explicit Projector(const PosedView& view) : Projector(view, view.patient_from_scaphoid) {}
   [[nodiscard]] Vec2 operator()(const Vec3& in_bone) const {
-    const auto p = fluoroscopy::project_point(
-        view_.c_arm, view_.patient_from_scaphoid * Point<frame::Bone>{in_bone});
+    const auto p =
+        fluoroscopy::project_point(c_arm_, patient_from_bone_ * Point<frame::Bone>{in_bone});
     return p ? Vec2{p->x, p->y} : Vec2{};
   }
 
  private:
-  const PosedView& view_;
+  const fluoroscopy::CArmPose& c_arm_;
+  const Pose<frame::Patient, frame::Bone>& patient_from_bone_;
+};
+
+/// The shadow of two rims, which is convex.
+class RimShadow {
+ public:
+  template <typename Project>
+  void add(const Vec3& centre, const Vec3& axis, double radius, const Project& project) {
+    constexpr int kAround = 64;
+    const Vec3 a = any_perpendicular(axis);
+    const Vec3 b = cross(axis, a);
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround;
+      points_.push_back(project(centre + (a * std::cos(angle) + b * std::sin(angle)) * radius));
+    }
+  }
+  [[nodiscard]] Polygon outline() const {
+    const auto hull = hull::build_planar_hull(points_, hull::PlanarAlgorithm::GrahamScan);
+    Polygon outline;
+    for (const std::uint32_t corner : hull.corners) outline.push_back(points_[corner]);
+    return outline;
+  }
+
+ private:
+  std::vector<Vec2> points_;
 };
 
 }  // namespace
 
 OutlineMap silhouette_of(const ScaphoidSurface& scaphoid, const PosedView& view) {
-  const Projector project(view);
   const auto& geometry = view.c_arm.geometry;
   OutlineLattice lattice;
   // The scaphoid's middle is in the target's plane; its poles, 10 mm from there, are 3 % off.
@@ -41,6 +67,8 @@ OutlineMap silhouette_of(const ScaphoidSurface& scaphoid, const PosedView& view)
   std::vector<std::vector<Vec2>> projected;
   for (const cases::Bone* part : scaphoid.fragments()) {
     std::vector<Vec2>& corners = projected.emplace_back();
+    const auto body = static_cast<std::size_t>(part - scaphoid.data().bones.data());
+    const Projector project(view, view.patient_from_bone.at(body));
     for (const Vec3& vertex : part->surface.vertices) {
       const Vec2 p = project(vertex);
       corners.push_back(p);
@@ -58,6 +86,7 @@ OutlineMap silhouette_of(const ScaphoidSurface& scaphoid, const PosedView& view)
       map.add_triangle(projected[i][f[0]], projected[i][f[1]], projected[i][f[2]]);
     }
   }
+  const Projector project(view);
   constexpr double kGapPointMm = 0.25;  // points lie 0.3 mm apart
   for (const Vec3& p : scaphoid.gap_points()) {
     map.add_disc(project(p), kGapPointMm / lattice.mm_per_pixel);
@@ -67,23 +96,34 @@ OutlineMap silhouette_of(const ScaphoidSurface& scaphoid, const PosedView& view)
 }
 
 Polygon screw_outline(const PlacedScrew& placed, const PosedView& view) {
-  constexpr int kAround = 64;
+  return screw_part_outline(placed, 0.0, placed.instrument().length_mm, view);
+}
+
+Polygon screw_part_outline(const PlacedScrew& placed,
+                           double from_mm,
+                           double to_mm,
+                           const PosedView& view) {
   const Projector project(view);
-  const Vec3 a = any_perpendicular(placed.shaft);
-  const Vec3 b = cross(placed.shaft, a);
-  std::vector<Vec2> points;
-  const auto add_rim = [&](const Vec3& centre, double radius) {
-    for (int i = 0; i < kAround; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kAround;
-      points.push_back(project(centre + (a * std::cos(angle) + b * std::sin(angle)) * radius));
-    }
+  const instruments::Instrument& screw = placed.instrument();
+  RimShadow shadow;
+  for (const double z : {from_mm, to_mm}) {
+    const double along = z / screw.length_mm;
+    const double diameter = screw.tip_diameter_mm * (1 - along) + screw.tail_diameter_mm * along;
+    shadow.add(placed.tip + placed.shaft * z, placed.shaft, diameter / 2, project);
+  }
+  return shadow.outline();
+}
+
+Polygon rod_outline(const fluoroscopy::MetalCylinder& rod, const fluoroscopy::CArmPose& c_arm) {
+  const auto project = [&](const Vec3& in_patient) {
+    const auto p = fluoroscopy::project_point(c_arm, Point<frame::Patient>{in_patient});
+    return p ? Vec2{p->x, p->y} : Vec2{};
   };
-  add_rim(placed.tip, placed.instrument().tip_diameter_mm / 2);
-  add_rim(placed.tail(), placed.instrument().tail_diameter_mm / 2);
-  const auto hull = hull::build_planar_hull(points, hull::PlanarAlgorithm::GrahamScan);
-  Polygon outline;
-  for (const std::uint32_t corner : hull.corners) outline.push_back(points[corner]);
-  return outline;
+  const Vec3 axis = normalized_or(rod.end - rod.start, {0, 0, 1});
+  RimShadow shadow;
+  shadow.add(rod.start, axis, rod.start_radius_mm, project);
+  shadow.add(rod.end, axis, rod.end_radius_mm, project);
+  return shadow.outline();
 }
 
 }  // namespace carpus::view_trainer

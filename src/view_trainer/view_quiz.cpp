@@ -3,9 +3,9 @@
 #include "view_trainer/view_quiz.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
+#include "view_trainer/outline_message.hpp"
 #include "view_trainer/silhouette.hpp"
 
 namespace carpus::view_trainer {
@@ -30,18 +30,6 @@ protocol::ScrewPlace place_of(const GeneratedScrew& screw) {
       break;
   }
   return protocol::ScrewPlace::Side;
-}
-
-/// At most as many corners as a message takes, to a tenth of a pixel.
-protocol::PictureOutline outline_message(const Polygon& polygon) {
-  constexpr std::size_t kMost = 500;
-  const std::size_t every = polygon.size() / kMost + 1;
-  protocol::PictureOutline outline;
-  for (std::size_t i = 0; i < polygon.size(); i += every) {
-    outline.pixels.push_back(std::round(polygon[i].x * 10) / 10);
-    outline.pixels.push_back(std::round(polygon[i].y * 10) / 10);
-  }
-  return outline;
 }
 
 std::string no_such_view(std::string_view id) {
@@ -145,10 +133,7 @@ protocol::QuizViewTruth ViewQuiz::truth_of(std::size_t view) const {
   truth.view = views_.views()[view].id;
   truth.overhang_mm = views_.overhang_of(screw_->placed, view).true_mm;
   truth.reveals = truth.overhang_mm >= kRevealedMm;
-  constexpr std::size_t kMostOutlines = 4;
-  for (const Polygon& outline : seen.truth.outlines()) {
-    if (truth.bone.size() < kMostOutlines) truth.bone.push_back(outline_message(outline));
-  }
+  truth.bone = outline_messages(seen.truth);
   truth.screw = outline_message(screw_outline(screw_->placed, seen.posed));
   return truth;
 }

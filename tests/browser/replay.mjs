@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stored attempt is looked at again: any moment, its pictures, two beside each other.
+// A stored attempt is looked at again: any moment, its pictures, two beside each other; and the report
+// tells which views show the screw.
 import { expectAccessible } from "./accessibility.mjs";
 import { check, expect } from "./checks.mjs";
 
@@ -74,5 +75,16 @@ export async function replayAttempt(page, station, id) {
       (wanted) => window.carpusReplay.ticks().every((tick) => tick === wanted),
       Math.round(length / 2),
     );
+  });
+}
+
+export async function debriefByView(page, station, id) {
+  await check(page, "the report lays the true outlines over the trainee's pictures", async () => {
+    await page.goto(`${station.url}/#/attempts/${id}`);
+    await page.locator(".turning canvas").waitFor();
+    await page.locator(".view-faults p.good, .view-fault").first().waitFor();
+    await page.locator("#true-outlines").check();
+    await page.locator(".outline-bone").first().waitFor({ state: "attached" });
+    await expectAccessible(page, 10);
   });
 }

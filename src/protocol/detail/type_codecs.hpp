@@ -20,6 +20,12 @@ void write(FieldWriter& out, const PictureOutline& in);
 void read(FieldReader& in, QuizViewTruth& out);
 void write(FieldWriter& out, const QuizViewTruth& in);
 
+void read(FieldReader& in, FaultSeen& out);
+void write(FieldWriter& out, const FaultSeen& in);
+
+void read(FieldReader& in, PlacementFault& out);
+void write(FieldWriter& out, const PlacementFault& in);
+
 void read(FieldReader& in, QuizTally& out);
 void write(FieldWriter& out, const QuizTally& in);
 

@@ -8,14 +8,18 @@ import {
   parseCArmPicture,
   parseCaseDescription,
   parseCaseList,
+  parsePictureTruth,
   parseProcedureList,
+  parseViewDebrief,
   type Attempt,
   type AttemptList,
   type CArmPicture,
   type CaseDescription,
   type CaseList,
   type Parsed,
+  type PictureTruth,
   type ProcedureSummary,
+  type ViewDebrief,
 } from "../protocol";
 
 export class HostUnreachable extends Error {}
@@ -76,4 +80,12 @@ export async function fetchReplayPicture(id: number, tick: number): Promise<CArm
   const picture = parseCArmPicture(await answer.arrayBuffer());
   if (!picture.ok) throw new HostUnreachable(picture.reason);
   return picture.value;
+}
+
+export function fetchPictureTruth(id: number, tick: number): Promise<PictureTruth> {
+  return ask(`/api/attempts/${id}/replay/truth?at=${tick}`, parsePictureTruth);
+}
+
+export function fetchViewDebrief(id: number): Promise<ViewDebrief> {
+  return ask(`/api/attempts/${id}/replay/views`, parseViewDebrief);
 }

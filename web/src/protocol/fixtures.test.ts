@@ -14,7 +14,9 @@ import {
   parseHostMessage,
   parseInstrumentList,
   parsePageMessage,
+  parsePictureTruth,
   parseProcedureList,
+  parseViewDebrief,
 } from "./generated";
 import type { Parsed } from "./validator";
 
@@ -28,6 +30,8 @@ const READERS: readonly (readonly [string, (text: string) => Parsed<unknown>])[]
   ["http/procedure_list", parseProcedureList],
   ["http/attempt_list", parseAttemptList],
   ["http/case_list", parseCaseList],
+  ["http/picture_truth", parsePictureTruth],
+  ["http/view_debrief", parseViewDebrief],
   ["http/attempt", parseAttempt],
 ];
 const DIRECTIONS = ["page_to_host", "host_to_page", "http"];

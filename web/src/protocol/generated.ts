@@ -89,6 +89,37 @@ export interface QuizViewTruth {
   readonly screw: PictureOutline;
 }
 
+/** What one picture or view shows of a fault. */
+export interface FaultSeen {
+  /** id of a preset; empty of a picture that was taken */
+  readonly view: string;
+  /** of a preset, for people */
+  readonly label: string;
+  /** when it was taken; 0 of a preset [ms] 0 to 9007199254740991 */
+  readonly tick: number;
+  /** its number; 0 of a preset 0 to 4294967295 */
+  readonly shot: number;
+  /** from the forearm as it was held [deg] -180 to 180 */
+  readonly rotation_deg: number;
+  /** [deg] -90 to 90 */
+  readonly tilt_deg: number;
+  /** of the metal that is out beyond the bone's true outline, in the plane of the bone; negative: so far inside it [mm] -100 to 100 */
+  readonly overhang_mm: number;
+  /** that is at least revealed_mm */
+  readonly reveals: boolean;
+}
+
+/** A part of a screw that is out of the bone. */
+export interface PlacementFault {
+  readonly place: ScrewPlace;
+  /** how far, by the bone's own surface [mm] 0 to 100 */
+  readonly depth_mm: number;
+  /** the bone beside that place; empty where none is near */
+  readonly towards: string;
+  /** the presets, then the pictures that were taken of the screw as it lies */
+  readonly seen: readonly FaultSeen[];
+}
+
 /** Answers since the quiz began. */
 export interface QuizTally {
   /** 0 to 4294967295 */
@@ -891,6 +922,27 @@ export interface AttemptList {
   readonly total: number;
 }
 
+/** GET /api/attempts/<id>/replay/truth?at=<tick>. What was true of a picture that was taken then. */
+export interface PictureTruth {
+  readonly bone: readonly PictureOutline[];
+  readonly screws: readonly PictureOutline[];
+  readonly wires: readonly PictureOutline[];
+  /** how far a wire's tip is beyond the far side; none where none is out [mm] 0 to 1000 */
+  readonly wire_out_mm: number | null;
+  /** how far beyond the bone's outline this picture shows it [mm] -100 to 1000 */
+  readonly wire_shown_mm: number | null;
+}
+
+/** GET /api/attempts/<id>/replay/views. What is wrong with the screw as it lies at the end, and which views would have shown it. */
+export interface ViewDebrief {
+  /** its name; empty where none lies in the bone */
+  readonly screw: string;
+  /** [mm] 0 to 10 */
+  readonly revealed_mm: number;
+  /** worst first */
+  readonly faults: readonly PlacementFault[];
+}
+
 /** GET /api/attempts/<id>. */
 export interface Attempt extends AttemptSummary {
   /** made on the case that the host serves now, by the fingerprint: only then do its `placement` and /api/scene.glb belong together */
@@ -936,6 +988,16 @@ export function parseInstrumentList(text: string): Parsed<InstrumentList> {
 /** Validates the body of an HTTP answer; never throws. */
 export function parseAttemptList(text: string): Parsed<AttemptList> {
   return parseBody(text, rules.ATTEMPT_LIST, 262144, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parsePictureTruth(text: string): Parsed<PictureTruth> {
+  return parseBody(text, rules.PICTURE_TRUTH, 1048576, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseViewDebrief(text: string): Parsed<ViewDebrief> {
+  return parseBody(text, rules.VIEW_DEBRIEF, 131072, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

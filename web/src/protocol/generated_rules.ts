@@ -41,6 +41,22 @@ export const SCHEMA: Schema = {
       bone: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 4},
       screw: {"type": "picture_outline"},
     } },
+    fault_seen: { fields: {
+      view: {"type": "string", "max_length": 32},
+      label: {"type": "string", "max_length": 64},
+      tick: {"type": "integer", "min": 0, "max": 9007199254740991},
+      shot: {"type": "integer", "min": 0, "max": 4294967295},
+      rotation_deg: {"type": "number", "min": -180, "max": 180},
+      tilt_deg: {"type": "number", "min": -90, "max": 90},
+      overhang_mm: {"type": "number", "min": -100, "max": 100},
+      reveals: {"type": "boolean"},
+    } },
+    placement_fault: { fields: {
+      place: {"type": "screw_place"},
+      depth_mm: {"type": "number", "min": 0, "max": 100},
+      towards: {"type": "string", "max_length": 64},
+      seen: {"type": "array", "of": {"type": "fault_seen"}, "max_items": 32},
+    } },
     quiz_tally: { fields: {
       answers: {"type": "integer", "min": 0, "max": 4294967295},
       right_places: {"type": "integer", "min": 0, "max": 4294967295},
@@ -484,6 +500,20 @@ export const ATTEMPT_LIST: Rules = {
   attempts: {"type": "array", "of": {"type": "attempt_summary"}, "max_items": 50},
   older: {"type": "boolean"},
   total: {"type": "integer", "min": 0, "max": 9007199254740991},
+};
+
+export const PICTURE_TRUTH: Rules = {
+  bone: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 4},
+  screws: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 4},
+  wires: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 8},
+  wire_out_mm: {"type": "number", "min": 0, "max": 1000, "optional": true},
+  wire_shown_mm: {"type": "number", "min": -100, "max": 1000, "optional": true},
+};
+
+export const VIEW_DEBRIEF: Rules = {
+  screw: {"type": "string", "max_length": 128},
+  revealed_mm: {"type": "number", "min": 0, "max": 10},
+  faults: {"type": "array", "of": {"type": "placement_fault"}, "max_items": 3},
 };
 
 export const ATTEMPT: Rules = {

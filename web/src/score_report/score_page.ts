@@ -11,12 +11,15 @@ import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
 import { eventList } from "./event_list";
 import { itemPicture } from "./item_picture";
 import { placementPictures } from "./placement_pictures";
+import { TurningPlacement } from "./turning_placement";
+import { viewsSection } from "./views_section";
 import { GRADE_SIGNS, GRADE_WORDS, longestLineText, valueText } from "./score_model";
 import { answerText, isDeclined, verdictText } from "./verdict_model";
 import "./score.css";
 
 export function mountScore(app: HTMLElement, attemptId: number): () => void {
   let left = false;
+  const leaving: (() => void)[] = [];
   const main = make("main.page.score", {}, make("p.secondary", { role: "status" }, "Loading…"));
   app.replaceChildren(main);
   void (async () => {
@@ -27,7 +30,11 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
         fetchProcedures(),
       ]);
       const title = procedureText(attempt.procedure, procedures);
-      if (!left) show(main, attempt, title, description);
+      if (left) return;
+      show(main, attempt, title, description, {
+        isLeft: () => left,
+        onLeave: (done) => leaving.push(done),
+      });
     } catch (error) {
       if (left) return;
       const gone = error instanceof NotThere;
@@ -41,7 +48,14 @@ export function mountScore(app: HTMLElement, attemptId: number): () => void {
   })();
   return () => {
     left = true;
+    for (const done of leaving) done();
   };
+}
+
+/** Whether the page is left, and what is to be done then. */
+interface Staying {
+  isLeft(): boolean;
+  onLeave(done: () => void): void;
 }
 
 function show(
@@ -49,6 +63,7 @@ function show(
   attempt: Attempt,
   procedure: string,
   description: CaseDescription,
+  { isLeft, onLeave }: Staying,
 ): void {
   const report = attempt.score;
   const operated = attemptedCase(attempt, description);
@@ -95,11 +110,14 @@ function show(
     main.replaceChildren(head, make("p", {}, why), eventList(attempt.events));
     return;
   }
+  const turning = make("div.turning-place");
   const pictures = make("div.placement", { role: "group", "aria-label": "Placement" });
   main.replaceChildren(
     head,
     make("section.verdict-row", {}, verdict(report), pictures),
+    turning,
     table(report),
+    ...(attempt.case_is_open && report.is_void !== true ? [viewsSection(attempt)] : []),
     eventList(attempt.events),
     make(
       "p.secondary.score-foot",
@@ -116,6 +134,20 @@ function show(
     return;
   }
   pictures.append(make("p.secondary", { role: "status" }, "Drawing the placement…"));
+  TurningPlacement.make(description, report.placement).then(
+    (placed) => {
+      if (isLeft()) placed.dispose();
+      else {
+        turning.replaceChildren(placed.element);
+        onLeave(() => {
+          placed.dispose();
+        });
+      }
+    },
+    () => {
+      turning.remove();
+    },
+  );
   placementPictures(description, report.placement).then(
     (figures) => {
       pictures.replaceChildren(...figures, legend(report));

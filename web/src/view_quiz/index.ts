@@ -3,3 +3,4 @@
 //
 // The view quiz: where is the screw, and which view would tell?
 export { mountViewQuiz } from "./quiz_page";
+export { polygonPoints } from "./quiz_model";

@@ -1,0 +1,176 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/view_debrief.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/exercise_pictures.hpp"
+#include "session/metal_in_beam.hpp"
+#include "simulation/c_arm_angles.hpp"
+#include "view_trainer/outline_message.hpp"
+#include "view_trainer/placement_fault.hpp"
+#include "view_trainer/silhouette.hpp"
+
+namespace carpus::server {
+
+namespace {
+
+using view_trainer::PosedView;
+
+/// A screw that has gone no farther than this since lies as it does at the end [mm].
+constexpr double kSamePlaceMm = 0.05;
+/// Pictures told of beside the presets: the message takes 32 in all.
+constexpr std::size_t kMostTaken = 24;
+constexpr std::size_t kMostWires = 8;
+
+std::size_t first_fragment(const cases::CaseData& data) {
+  const auto it = std::find_if(data.bones.begin(), data.bones.end(), [](const cases::Bone& bone) {
+    return bone.bone == BoneId::Scaphoid;
+  });
+  return static_cast<std::size_t>(it - data.bones.begin());
+}
+
+PosedView posed_of(const cases::CaseData& data, const TakenShot& shot) {
+  const simulation::Snapshot& now = shot.snapshot;
+  PosedView posed;
+  posed.c_arm =
+      session::beam_of(data, {shot.target, shot.rotation_deg, shot.tilt_deg}, shot.snapshot);
+  posed.patient_from_bone.assign(now.patient_from_bone.begin(),
+                                 now.patient_from_bone.begin() + now.body_count);
+  posed.patient_from_scaphoid = posed.patient_from_bone.at(first_fragment(data));
+  return posed;
+}
+
+bool is_fixed_in_scaphoid(const cases::CaseData& data, const simulation::ItemView& item) {
+  return item.instrument < instruments::catalogue().size() && item.body < data.bones.size() &&
+         data.bones[item.body].bone == BoneId::Scaphoid;
+}
+
+instruments::Work work_of(const simulation::ItemView& item) {
+  return instruments::catalogue()[item.instrument].work;
+}
+
+protocol::ScrewPlace place_of(view_trainer::Region region) {
+  switch (region) {
+    case view_trainer::Region::Distal:
+      return protocol::ScrewPlace::Distal;
+    case view_trainer::Region::Proximal:
+      return protocol::ScrewPlace::Proximal;
+    case view_trainer::Region::Side:
+      break;
+  }
+  return protocol::ScrewPlace::Side;
+}
+
+std::vector<view_trainer::StandardView> all_presets() {
+  const auto views = view_trainer::standard_views();
+  return {views.begin(), views.end()};
+}
+
+}  // namespace
+
+ViewDebrief::ViewDebrief(const cases::CaseData& data)
+    : data_(data), scaphoid_(data), presets_(scaphoid_, all_presets()) {}
+
+std::optional<view_trainer::PlacedScrew> ViewDebrief::screw_in(const cases::CaseData& data,
+                                                               const simulation::Snapshot& now) {
+  for (const simulation::ItemView& item : now.items) {
+    if (!is_fixed_in_scaphoid(data, item) || work_of(item) != instruments::Work::Thread) continue;
+    const auto bone_from_patient = now.patient_from_bone[item.body].inverse();
+    return view_trainer::PlacedScrew{
+        item.instrument, (bone_from_patient * Point<frame::Patient>{item.tip_in_patient}).v,
+        (bone_from_patient * Direction<frame::Patient>{item.shaft_in_patient}).v};
+  }
+  return std::nullopt;
+}
+
+protocol::PictureTruth ViewDebrief::truth_of(const TakenShot& shot) const {
+  const simulation::Snapshot& now = shot.snapshot;
+  const PosedView posed = posed_of(data_, shot);
+  const view_trainer::OutlineMap bone = silhouette_of(scaphoid_, posed);
+  protocol::PictureTruth truth;
+  truth.bone = view_trainer::outline_messages(bone);
+  if (const auto screw = screw_in(data_, now)) {
+    truth.screws.push_back(view_trainer::outline_message(screw_outline(*screw, posed)));
+  }
+  for (const simulation::ItemView& item : now.items) {
+    if (!is_fixed_in_scaphoid(data_, item) || work_of(item) != instruments::Work::Drill) continue;
+    simulation::Snapshot alone;
+    alone.items[0] = item;
+    for (const fluoroscopy::MetalCylinder& rod : session::metal_in_beam(alone)) {
+      if (truth.wires.size() >= kMostWires) break;
+      truth.wires.push_back(
+          view_trainer::outline_message(view_trainer::rod_outline(rod, posed.c_arm)));
+    }
+    const auto bone_from_patient = now.patient_from_bone[item.body].inverse();
+    const Vec3 tip = (bone_from_patient * Point<frame::Patient>{item.tip_in_patient}).v;
+    const double out_mm = scaphoid_.signed_distance(tip);
+    // Before it is in, the tip is out where it came from.
+    const bool is_through = item.depth_mm > 5.0 && out_mm > view_trainer::kOutMm;
+    if (!is_through || out_mm < truth.wire_out_mm.value_or(0.0)) continue;
+    const auto seen = fluoroscopy::project_point(posed.c_arm, {item.tip_in_patient});
+    if (!seen) continue;
+    truth.wire_out_mm = out_mm;
+    truth.wire_shown_mm = bone.distance_at({seen->x, seen->y});
+  }
+  return truth;
+}
+
+protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
+                                           std::span<const TakenShot> taken) const {
+  protocol::ViewDebrief message;
+  message.revealed_mm = view_trainer::kRevealedMm;
+  const auto screw = screw_in(data_, end);
+  if (!screw) return message;
+  message.screw = screw->instrument().name;
+  struct Looked {
+    const TakenShot* shot;
+    PosedView posed;
+    view_trainer::OutlineMap bone;
+  };
+  std::vector<Looked> looked;
+  for (const TakenShot& shot : taken.last(std::min(taken.size(), kMostTaken))) {
+    const auto then = screw_in(data_, shot.snapshot);
+    if (!then || then->screw != screw->screw || length(then->tip - screw->tip) > kSamePlaceMm) {
+      continue;
+    }
+    PosedView posed = posed_of(data_, shot);
+    view_trainer::OutlineMap bone = silhouette_of(scaphoid_, posed);
+    looked.push_back({&shot, std::move(posed), std::move(bone)});
+  }
+  for (const view_trainer::PlacementFault& fault : faults_of(scaphoid_, *screw)) {
+    protocol::PlacementFault& told = message.faults.emplace_back();
+    told.place = place_of(fault.region);
+    told.depth_mm = fault.depth_mm;
+    told.towards = fault.towards;
+    const auto add = [&](protocol::FaultSeen seen, double overhang_mm) {
+      seen.overhang_mm = overhang_mm;
+      seen.reveals = overhang_mm >= view_trainer::kRevealedMm;
+      told.seen.push_back(std::move(seen));
+    };
+    for (std::size_t i = 0; i < presets_.views().size(); ++i) {
+      const view_trainer::StandardView& view = presets_.views()[i];
+      protocol::FaultSeen seen;
+      seen.view = view.id;
+      seen.label = view.label;
+      seen.rotation_deg = view.angles.rotation_deg;
+      seen.tilt_deg = view.angles.tilt_deg;
+      add(std::move(seen), overhang_of(fault, *screw, presets_.at(i).truth, presets_.at(i).posed));
+    }
+    for (const Looked& one : looked) {
+      protocol::FaultSeen seen;
+      seen.tick = static_cast<std::int64_t>(one.shot->snapshot.tick);
+      seen.shot = one.shot->number;
+      seen.rotation_deg = simulation::held_rotation_deg(one.shot->rotation_deg,
+                                                        one.shot->snapshot.wrist.pronation_rad);
+      seen.tilt_deg = one.shot->tilt_deg;
+      add(std::move(seen), overhang_of(fault, *screw, one.bone, one.posed));
+    }
+  }
+  return message;
+}
+
+}  // namespace carpus::server

@@ -1,0 +1,43 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The truth about pictures: what bone and metal were on one that was taken, and which views would
+// have shown what is wrong with the screw at the end.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "cases/case_data.hpp"
+#include "protocol/bodies.hpp"
+#include "server/exercise.hpp"
+#include "simulation/snapshot.hpp"
+#include "view_trainer/seen_screw.hpp"
+
+namespace carpus::server {
+
+class ViewDebrief {
+ public:
+  /// About a second. @param data  must outlive it. @throws InvalidInput where it has no scaphoid.
+  explicit ViewDebrief(const cases::CaseData& data);
+
+  /// The screw that lies in the scaphoid, if one does.
+  [[nodiscard]] static std::optional<view_trainer::PlacedScrew> screw_in(
+      const cases::CaseData& data,
+      const simulation::Snapshot& now);
+
+  /// Of a picture that was taken.
+  [[nodiscard]] protocol::PictureTruth truth_of(const TakenShot& shot) const;
+
+  /// @param end  state after the last tick. @param taken  pictures; only those on which the screw
+  ///     lies as it does at the end are told of, the last first where they are too many.
+  [[nodiscard]] protocol::ViewDebrief debrief(const simulation::Snapshot& end,
+                                              std::span<const TakenShot> taken) const;
+
+ private:
+  const cases::CaseData& data_;
+  view_trainer::ScaphoidSurface scaphoid_;
+  view_trainer::CaseViews presets_;
+};
+
+}  // namespace carpus::server

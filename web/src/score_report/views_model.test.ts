@@ -1,0 +1,55 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import type { FaultSeen, PlacementFault } from "../protocol";
+import { faultText, shownText, verdictText, wireText } from "./views_model";
+
+const seen = (view: string, shot: number, overhang_mm: number): FaultSeen => ({
+  view,
+  label: view.toUpperCase(),
+  tick: shot * 1000,
+  shot,
+  rotation_deg: 0,
+  tilt_deg: 0,
+  overhang_mm,
+  reveals: overhang_mm >= 0.5,
+});
+const fault = (...all: FaultSeen[]): PlacementFault => ({
+  place: "distal",
+  depth_mm: 1.24,
+  towards: "trapezium",
+  seen: all,
+});
+
+describe("what a view shows of a fault", () => {
+  it("is told with the place and the best view", () => {
+    const one = fault(seen("pa", 0, 0.1), seen("45p", 0, 1.1), seen("", 4, -1), seen("", 5, 0.2));
+    expect(faultText(one)).toBe(
+      "The screw is 1.2 mm out at its distal end, towards the trapezium.",
+    );
+    expect(verdictText(one)).toBe(
+      "None of the 2 pictures taken of it showed it. 45P shows it best: 1.1 mm beyond the bone.",
+    );
+  });
+  it("tells which picture showed it, and that none was taken", () => {
+    expect(verdictText(fault(seen("pa", 0, 0.1), seen("", 4, 0.8)))).toBe(
+      "Shot 4 showed it. None of the preset views shows it enough.",
+    );
+    expect(verdictText(fault(seen("pa", 0, 0.7)))).toBe(
+      "No picture was taken of the screw as it lies. PA shows it best: 0.7 mm beyond the bone.",
+    );
+  });
+  it("is called hidden or too little where it is", () => {
+    expect(shownText(seen("pa", 0, -0.3))).toBe("hidden by the bone");
+    expect(shownText(seen("pa", 0, 0.3))).toBe("0.3 mm beyond the bone: too little to see");
+    expect(shownText(seen("pa", 0, 0.9))).toBe("0.9 mm beyond the bone");
+  });
+  it("speaks of a wire too", () => {
+    const truth = { bone: [], screws: [], wires: [], wire_out_mm: 9.03, wire_shown_mm: 6.2 };
+    expect(wireText(truth)).toBe(
+      "Wire 9.0 mm out of the far side: this picture shows 6.2 mm of it.",
+    );
+    expect(wireText({ ...truth, wire_shown_mm: -1 })).toContain("hides it");
+    expect(wireText({ ...truth, wire_out_mm: null })).toBe("");
+  });
+});

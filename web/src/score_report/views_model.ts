@@ -1,0 +1,66 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which view would have told, in words.
+import type { FaultSeen, PictureTruth, PlacementFault, ScrewPlace } from "../protocol";
+
+const PLACES: Readonly<Record<ScrewPlace, string>> = {
+  inside: "inside",
+  distal: "at its distal end",
+  proximal: "at its proximal end",
+  side: "at its side",
+};
+
+/** "The screw is 1.2 mm out at its distal end, towards the trapezium." */
+export function faultText(fault: PlacementFault): string {
+  const towards = fault.towards === "" ? "" : `, towards the ${fault.towards}`;
+  return `The screw is ${fault.depth_mm.toFixed(1)} mm out ${PLACES[fault.place]}${towards}.`;
+}
+
+export function isTaken(seen: FaultSeen): boolean {
+  return seen.view === "";
+}
+
+/** Whether what was taken showed it, and what would have. */
+export function verdictText(fault: PlacementFault): string {
+  const taken = fault.seen.filter(isTaken);
+  const showed = taken.filter((seen) => seen.reveals);
+  const best = bestPreset(fault);
+  const would =
+    best === undefined || !best.reveals
+      ? "None of the preset views shows it enough."
+      : `${best.label} shows it best: ${best.overhang_mm.toFixed(1)} mm beyond the bone.`;
+  if (taken.length === 0) return `No picture was taken of the screw as it lies. ${would}`;
+  const shots = showed.map((seen) => seen.shot);
+  if (showed.length > 0) {
+    return `Shot ${shots.join(", ")} showed it. ${would}`;
+  }
+  const count = taken.length === 1 ? "The picture" : `None of the ${taken.length} pictures`;
+  const says = taken.length === 1 ? "taken of it did not show it." : "taken of it showed it.";
+  return `${count} ${says} ${would}`;
+}
+
+export function bestPreset(fault: PlacementFault): FaultSeen | undefined {
+  return fault.seen
+    .filter((seen) => !isTaken(seen))
+    .reduce<FaultSeen | undefined>(
+      (best, seen) => (best === undefined || seen.overhang_mm > best.overhang_mm ? seen : best),
+      undefined,
+    );
+}
+
+/** "1.2 mm", or that nothing of it is seen beyond the bone. */
+export function shownText(seen: FaultSeen): string {
+  if (seen.overhang_mm <= 0) return "hidden by the bone";
+  const mm = `${seen.overhang_mm.toFixed(1)} mm beyond the bone`;
+  return seen.reveals ? mm : `${mm}: too little to see`;
+}
+
+/** Of a wire on a picture that was taken; empty where none was out. */
+export function wireText(truth: PictureTruth): string {
+  if (truth.wire_out_mm === null) return "";
+  const shown = truth.wire_shown_mm ?? 0;
+  const here =
+    shown > 0 ? `this picture shows ${shown.toFixed(1)} mm of it` : "this picture hides it";
+  return `Wire ${truth.wire_out_mm.toFixed(1)} mm out of the far side: ${here}.`;
+}
