@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/attempt_messages.hpp"
 
+#include <utility>
+
+#include "session/event_text.hpp"
+
 namespace carpus::server {
 
 namespace {
@@ -37,7 +41,22 @@ std::optional<Value> readable(Result<Value> parsed) {
   return std::move(*parsed);
 }
 
+std::vector<protocol::LoggedEvent> blinded(std::vector<protocol::LoggedEvent> events) {
+  std::vector<protocol::LoggedEvent> told;
+  for (protocol::LoggedEvent& event : events) {
+    if (auto seen = session::blinded(std::move(event))) told.push_back(std::move(*seen));
+  }
+  return told;
+}
+
 }  // namespace
+
+bool is_truth_open(const records::Attempt& attempt) {
+  if (attempt.summary.mode != name_of(protocol::Mode::Assessed)) return true;
+  const auto score = readable(protocol::parse_stored_score(attempt.score_json));
+  return attempt.summary.outcome == records::Outcome::Finished && score &&
+         !score->is_void.value_or(false);
+}
 
 protocol::AttemptList attempt_list(const records::AttemptPage& page) {
   protocol::AttemptList list;
@@ -55,6 +74,9 @@ protocol::Attempt attempt_message(const records::Attempt& attempt,
   message.case_is_open = attempt.summary.case_fingerprint == open_case_fingerprint;
   message.score = readable(protocol::parse_stored_score(attempt.score_json));
   message.events = readable(protocol::parse_stored_events(attempt.events_json));
+  if (message.events && !is_truth_open(attempt)) {
+    message.events = blinded(std::move(*message.events));
+  }
   message.recording_bytes = static_cast<std::int64_t>(attempt.recording.size());
   return message;
 }

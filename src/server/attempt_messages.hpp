@@ -15,7 +15,12 @@ namespace carpus::server {
 
 [[nodiscard]] protocol::AttemptList attempt_list(const records::AttemptPage& page);
 
-/// Score and log are absent where what is stored of them cannot be read.
+/// Whether the truth of an attempt may be told: it was practice, or an assessed one that ended with
+/// something to assess.
+[[nodiscard]] bool is_truth_open(const records::Attempt& attempt);
+
+/// Score and log are absent where what is stored of them cannot be read; of an attempt whose truth
+/// stays locked the log holds what was told while it ran.
 /// @param open_case_fingerprint  of the case that is served: places of an attempt mean nothing in
 /// another patient's bones.
 [[nodiscard]] protocol::Attempt attempt_message(const records::Attempt& attempt,

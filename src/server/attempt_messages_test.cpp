@@ -31,6 +31,21 @@ TEST(AttemptMessage, HoldsScoreAndLogAsTheyWereStored) {
             (protocol::LoggedEvent{5, "touched_bone", "Touched the scaphoid"}));
 }
 
+TEST(AttemptMessage, OfALockedAttemptTellsNoMoreThanWhileItRan) {
+  records::Attempt attempt;
+  attempt.summary.mode = "assessed";
+  attempt.summary.outcome = records::Outcome::Unfinished;
+  attempt.events_json = R"([{"tick":5,"kind":"touched_bone","text":"Touched the scaphoid"},)"
+                        R"({"tick":6,"kind":"wrong_bone","text":"The capitate was entered"},)"
+                        R"({"tick":7,"kind":"shot_taken","text":"Shot 1"}])";
+  const protocol::Attempt locked = attempt_message(attempt, "");
+  ASSERT_EQ(locked.events->size(), 2U);
+  EXPECT_EQ(locked.events->at(0), (protocol::LoggedEvent{5, "touched_bone", "Touches bone"}));
+  EXPECT_EQ(locked.events->at(1), (protocol::LoggedEvent{7, "shot_taken", "Shot 1"}));
+  attempt.summary.mode = "practice";
+  EXPECT_EQ(attempt_message(attempt, "").events->size(), 3U);
+}
+
 TEST(AttemptMessage, LeavesOutWhatCannotBeReadAndKeepsTheRest) {
   records::Attempt attempt;
   attempt.summary.id = 3;

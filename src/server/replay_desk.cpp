@@ -7,6 +7,7 @@
 
 #include "core/hexadecimal.hpp"
 #include "protocol/bodies.hpp"
+#include "server/attempt_messages.hpp"
 #include "server/picture_worker.hpp"
 #include "session/session.hpp"
 
@@ -29,11 +30,6 @@ simulation::Snapshot as_told(const simulation::Snapshot& now, bool tells_truth) 
   simulation::Snapshot told = now;
   if (tells_truth) told.mode = procedure::Mode::Practice;
   return told;
-}
-
-bool is_void(const std::string& score_json) {
-  const auto score = protocol::parse_stored_score(score_json);
-  return !score || score->is_void.value_or(false);
 }
 
 }  // namespace
@@ -66,7 +62,7 @@ ReplayDesk::Recorded ReplayDesk::decoded(const records::Attempt& attempt) const 
   }
   made.tells_truth =
       recording->mode == procedure::Mode::Practice ||
-      (attempt.summary.outcome == records::Outcome::Finished && !is_void(attempt.score_json));
+      (attempt.summary.outcome == records::Outcome::Finished && is_truth_open(attempt));
   if (const auto events = protocol::parse_stored_events(attempt.events_json)) {
     for (const protocol::LoggedEvent& event : *events) {
       if (event.kind == "shot_taken" || event.kind == "live_ended") {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/event_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -124,15 +125,21 @@ std::string_view felt(EventKind kind) {
   }
 }
 
+constexpr std::array<std::string_view, 22> kNames{
+    "none",       "touched_bone", "entered_bone",   "left_far_side", "withdrawn",      "shot_taken",
+    "gauge_read", "taken",        "put_down",       "seated",        "step_completed", "undone",
+    "finished",   "refused",      "wrong_bone",     "slipped",       "wrist_stopped",  "live_ended",
+    "wire_bent",  "wire_broke",   "screw_stripped", "aid_used"};
+
+/// None where it is the name of no kind.
+EventKind kind_of(std::string_view name) noexcept {
+  const auto it = std::find(kNames.begin(), kNames.end(), name);
+  return it == kNames.end() ? EventKind::None : static_cast<EventKind>(it - kNames.begin());
+}
+
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
-  constexpr std::array<std::string_view, 22> kNames{
-      "none",           "touched_bone",  "entered_bone", "left_far_side", "withdrawn",
-      "shot_taken",     "gauge_read",    "taken",        "put_down",      "seated",
-      "step_completed", "undone",        "finished",     "refused",       "wrong_bone",
-      "slipped",        "wrist_stopped", "live_ended",   "wire_bent",     "wire_broke",
-      "screw_stripped", "aid_used"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }
@@ -147,8 +154,13 @@ protocol::LoggedEvent describe(const simulation::Event& event,
 std::optional<protocol::LoggedEvent> describe_blind(const simulation::Event& event,
                                                     const procedure::Procedure& procedure,
                                                     const BodyNames& bodies) {
-  protocol::LoggedEvent told = describe(event, procedure, bodies);
-  switch (event.kind) {
+  return blinded(describe(event, procedure, bodies));
+}
+
+std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told) {
+  const EventKind kind = kind_of(told.kind);
+  switch (kind) {
+    case EventKind::None:
     case EventKind::LeftFarSide:
     case EventKind::WrongBone:
     case EventKind::Seated:
@@ -158,7 +170,7 @@ std::optional<protocol::LoggedEvent> describe_blind(const simulation::Event& eve
     case EventKind::EnteredBone:
     case EventKind::Slipped:
     case EventKind::WireBent:
-      told.text = felt(event.kind);
+      told.text = felt(kind);
       return told;
     default:
       return told;

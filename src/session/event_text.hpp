@@ -27,4 +27,7 @@ namespace carpus::session {
     const procedure::Procedure& procedure,
     const BodyNames& bodies);
 
+/// An event that was described, as it would have been told blind: nothing where it would not.
+[[nodiscard]] std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told);
+
 }  // namespace carpus::session
