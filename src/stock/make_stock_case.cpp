@@ -148,7 +148,7 @@ cases::Lesson make_stock_case(const StockItem& item,
   cases::Lesson lesson = item.lesson;
   lesson.difficulty = cases::difficulty_of(data.scaphoid, fracture, smallest_screw_radius_mm());
   case_io::write_case(data, folder, case_io::Overwrite::Replace, progress);
-  if (lesson.right_answer == cases::RightAnswer::Fix) {
+  if (lesson.right_answer != cases::RightAnswer::Decline) {
     progress("scripted expert", 0.0);
     lesson.expert = prove(data);
   }

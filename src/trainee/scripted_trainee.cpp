@@ -42,10 +42,31 @@ BoneSolid solid_of(const cases::CaseData& data) {
   return BoneSolid(fragments);
 }
 
+/// The same as the fragments lie now, seen from one of them.
+BoneSolid solid_of(const cases::CaseData& data, const Snapshot& now, std::size_t seen_from) {
+  const auto from_patient = now.patient_from_bone[seen_from].inverse();
+  std::vector<MeshIn<frame::Bone>> fragments;
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone != BoneId::Scaphoid) continue;
+    fragments.push_back(from_patient * now.patient_from_bone[b] * data.bones[b].surface);
+  }
+  std::vector<const MeshIn<frame::Bone>*> parts;
+  for (const auto& fragment : fragments) parts.push_back(&fragment);
+  return BoneSolid(parts);
+}
+
 std::size_t body_of(const cases::CaseData& data, BoneId bone) {
   std::size_t body = 0;
   while (body < data.bones.size() && data.bones[body].bone != bone) ++body;
   return body;
+}
+
+/// The fragment of a broken bone, the first body of a whole one.
+std::size_t body_of(const cases::CaseData& data, BoneId bone, BonePart part) {
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone == bone && data.bones[b].part == part) return b;
+  }
+  return body_of(data, bone);
 }
 
 Command take(std::uint8_t hand, InstrumentIndex instrument) {
@@ -76,7 +97,8 @@ ScriptedTrainee::ScriptedTrainee(const cases::CaseData& data,
       profile_(profile_of(skill)),
       rng_(seed * kSkillCount + static_cast<std::uint64_t>(skill)),
       tremor_(profile_.tremor_mm, Rng(seed ^ 0x7265746Du)),
-      scaphoid_(solid_of(data)) {
+      scaphoid_(solid_of(data)),
+      reducing_(data, procedure) {
   bool has_screw = false;
   for (const InstrumentIndex index : procedure.tray) {
     if (kind_of(index).is_gauge) gauge_ = index;
@@ -102,6 +124,10 @@ ScriptedTrainee::ScriptedTrainee(const cases::CaseData& data,
                              distance(opening_.tip_in_target, axis.distal);
   near_end_ = from_proximal ? axis.proximal : axis.distal;
   far_end_ = from_proximal ? axis.distal : axis.proximal;
+  near_body_ =
+      body_of(data, procedure.target, from_proximal ? BonePart::Proximal : BonePart::Distal);
+  far_body_ =
+      body_of(data, procedure.target, from_proximal ? BonePart::Distal : BonePart::Proximal);
 }
 
 ItemView ScriptedTrainee::held(const Snapshot& now) {
@@ -109,8 +135,12 @@ ItemView ScriptedTrainee::held(const Snapshot& now) {
   return item < simulation::kMaxItems ? now.items[item] : ItemView{};
 }
 
-Vec3 ScriptedTrainee::to_patient(const Snapshot& now, const Vec3& in_target) const {
-  return (now.patient_from_bone[target_] * Point<frame::Bone>{in_target}).v;
+Vec3 ScriptedTrainee::near_end(const Snapshot& now) const {
+  return (now.patient_from_bone[near_body_] * Point<frame::Bone>{near_end_}).v;
+}
+
+Vec3 ScriptedTrainee::far_end(const Snapshot& now) const {
+  return (now.patient_from_bone[far_body_] * Point<frame::Bone>{far_end_}).v;
 }
 
 Vec3 ScriptedTrainee::turned(const Snapshot& now, const Vec3& in_target) const {
@@ -136,10 +166,9 @@ Vec3 ScriptedTrainee::random_error(const Range& range_mm) {
 
 /// Where the trainee believes that the axis runs, for this try.
 void ScriptedTrainee::plan_line(const Snapshot& now) {
-  const Vec3 entry = near_end_ + random_error(profile_.entry_error_mm);
-  const Vec3 aim = far_end_ + random_error(profile_.aim_error_mm);
-  planned_entry_ = to_patient(now, entry);
-  planned_direction_ = turned(now, normalized_or(aim - entry, {0, 0, 1}));
+  planned_entry_ = near_end(now) + turned(now, random_error(profile_.entry_error_mm));
+  const Vec3 aim = far_end(now) + turned(now, random_error(profile_.aim_error_mm));
+  planned_direction_ = normalized_or(aim - planned_entry_, {0, 0, 1});
   thrust_n_ = draw(profile_.drive_thrust_n);
   stop_depth_mm_ = -1.0;
 }
@@ -158,6 +187,10 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
     start_move({planned_entry_ + planned_direction_ * (kPressMm + 1.0), -planned_direction_});
   } else if (phase == Phase::Ream) {
     ream_depth_mm_ = true_chord(now, held(now)) - draw(profile_.ream_before_far_mm);
+  } else if (phase == Phase::Reduce) {
+    reducing_.begin(now, second_hand(), turned(now, random_error(profile_.reduction_error_mm)));
+  } else if (phase == Phase::LookReduced) {
+    plan_on_reduced_bone(now);
   } else if (phase == Phase::Insert) {
     bury_mm_ = draw(profile_.bury_mm);
   }
@@ -171,7 +204,7 @@ void ScriptedTrainee::start_move(const HandPose& target) {
 
 /// How the C-arm stands to look down the bone as it lies now, as far as it tilts.
 ScriptedTrainee::PlannedShot ScriptedTrainee::down_the_bone(const Snapshot& now) const {
-  const Vec3 line = normalized_or(turned(now, near_end_ - far_end_), {0, 0, 1});
+  const Vec3 line = normalized_or(near_end(now) - far_end(now), {0, 0, 1});
   Vec3 source = (case_.wrist_from_patient * Direction<frame::Patient>{line}).v;
   if (source.z > 0) source = -source;  // from dorsal: the picture is the same
   const double radial = case_.side == Side::Left ? -source.y : source.y;
@@ -186,10 +219,11 @@ void ScriptedTrainee::plan_shots(const Snapshot& now) {
     shots_ = {{0, 0}, {90, 0}};
     if (profile_.finds_ring) shots_.push_back(down_the_bone(now));
   }
-  if (phase_ == Phase::Check || phase_ == Phase::LookExtended || phase_ == Phase::Verify) {
+  if (phase_ == Phase::LookReduced || phase_ == Phase::Check || phase_ == Phase::LookExtended ||
+      phase_ == Phase::Verify) {
     shots_ = {{0, 0}, {90, 0}};
-    if (phase_ != Phase::LookExtended && profile_.checks_oblique)
-      shots_.insert(shots_.end(), {{45, 0}, {0, 30}});
+    const bool is_quick = phase_ == Phase::LookReduced || phase_ == Phase::LookExtended;
+    if (!is_quick && profile_.checks_oblique) shots_.insert(shots_.end(), {{45, 0}, {0, 30}});
   }
   if (shots_.empty()) return;
   for (int i = 0; i < profile_.repeated_shots; ++i) {
@@ -214,8 +248,8 @@ bool ScriptedTrainee::shoot(Input& input) {
 double ScriptedTrainee::offset_of_line(const Snapshot& now) const {
   const ItemView wire = held(now);
   double greatest = 0;
-  for (const Vec3& end : {near_end_, far_end_}) {
-    const Vec3 w = to_patient(now, end) - wire.entry_in_patient;
+  for (const Vec3& end : {near_end(now), far_end(now)}) {
+    const Vec3 w = end - wire.entry_in_patient;
     greatest = std::max(greatest, length(cross(w, wire.shaft_in_patient)));
   }
   return greatest;
@@ -280,7 +314,7 @@ void ScriptedTrainee::think(const Snapshot& now) {
     case Phase::DrawWire:
       if (held(now).body == simulation::kNoBody || in_phase_ > kPhaseTicks) {
         hand_ = {held(now).tip_in_patient, held(now).shaft_in_patient};
-        enter(Phase::Verify, now);
+        enter(Phase::LetGo, now);  // and whatever other wire is left
       }
       return;
     default:
@@ -539,14 +573,47 @@ void ScriptedTrainee::take_wire(const Snapshot& now, Input& input) {
   enter(Phase::Verify, now);
 }
 
+/// Whether the pictures show a fracture that this trainee would not fix as it lies.
+bool ScriptedTrainee::is_seen_apart(const Snapshot& now) const {
+  const auto offset = reducing_.offset(now);
+  return offset && std::max(offset->gap_mm, offset->step_mm) > profile_.noticed_displacement_mm;
+}
+
+/// Before anything is drilled: a fracture that is seen apart is reduced first, once.
+void ScriptedTrainee::look_at_bone(const Snapshot& now, Input& input) {
+  if (!shoot(input)) return;
+  if (phase_ == Phase::Survey && is_seen_apart(now)) {
+    enter(Phase::Reduce, now);
+    return;
+  }
+  plan_line(now);
+  enter(Phase::GoToStandoff, now);
+}
+
+/// The bone is another one now: its axis is read off the pictures anew.
+void ScriptedTrainee::plan_on_reduced_bone(const Snapshot& now) {
+  scaphoid_ = solid_of(case_, now, target_);
+  const auto found = find_central_axis(scaphoid_, near_end_ - far_end_);
+  if (!found) return;
+  near_end_ = found->axis.start;
+  far_end_ = found->axis.end;
+  near_body_ = far_body_ = target_;
+}
+
+/// The second hand keeps beside the first.
+HandPose ScriptedTrainee::second_hand() const {
+  constexpr double kBesideMm = 60.0;
+  return {hand_.tip + hand_.shaft * kBesideMm, hand_.shaft};
+}
+
 /// What the hand does in this phase, once it has reacted.
 void ScriptedTrainee::act(const Snapshot& now, Input& input) {
   switch (phase_) {
     case Phase::Survey:
-      if (shoot(input)) {
-        plan_line(now);
-        enter(Phase::GoToStandoff, now);
-      }
+    case Phase::LookReduced:
+      return look_at_bone(now, input);
+    case Phase::Reduce:
+      if (reducing_.next(now, input)) enter(Phase::LookReduced, now);
       return;
     case Phase::Engage:
     case Phase::Drive:
@@ -600,8 +667,8 @@ Input ScriptedTrainee::next(const Snapshot& now) {
   if (!has_begun_) {
     has_begun_ = true;
     wrist_ = opening_.wrist;
-    const Vec3 away = normalized_or(turned(now, near_end_ - far_end_), {0, 0, 1});
-    hand_ = {to_patient(now, near_end_) + away * kFirstStandoffMm, away};
+    const Vec3 away = normalized_or(near_end(now) - far_end(now), {0, 0, 1});
+    hand_ = {near_end(now) + away * kFirstStandoffMm, away};
     enter(Phase::Survey, now);
   }
   if (phase_ != Phase::Done) {
@@ -624,10 +691,11 @@ Input ScriptedTrainee::next(const Snapshot& now) {
   const bool is_held = item.body != simulation::kNoBody;
   input.hands[0].tip_in_patient = is_held ? item.tip_in_patient : hand_.tip + tremor_.next();
   input.hands[0].shaft_in_patient = is_held ? item.shaft_in_patient : hand_.shaft;
-  // The second hand keeps beside the first.
-  constexpr double kBesideMm = 60.0;
-  input.hands[1].tip_in_patient = hand_.tip + hand_.shaft * kBesideMm;
-  input.hands[1].shaft_in_patient = hand_.shaft;
+  if (phase_ != Phase::Reduce || wait_ > 0) {
+    const HandPose beside = second_hand();
+    input.hands[1].tip_in_patient = beside.tip;
+    input.hands[1].shaft_in_patient = beside.shaft;
+  }
   return input;
 }
 

@@ -17,6 +17,7 @@
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
 #include "trainee/hand_motion.hpp"
+#include "trainee/reducing.hpp"
 #include "trainee/skill.hpp"
 
 namespace carpus::trainee {
@@ -42,6 +43,8 @@ class ScriptedTrainee {
  private:
   enum class Phase {
     Survey,
+    Reduce,
+    LookReduced,
     GoToStandoff,
     Approach,
     Engage,
@@ -103,8 +106,14 @@ class ScriptedTrainee {
   [[nodiscard]] double offset_of_line(const simulation::Snapshot& now) const;
   /// What the first hand holds.
   [[nodiscard]] static simulation::ItemView held(const simulation::Snapshot& now);
-  /// From frame Bone of the target to Patient and back, as it lies now.
-  [[nodiscard]] Vec3 to_patient(const simulation::Snapshot& now, const Vec3& in_target) const;
+  /// Where the axis ends, as the fragments lie now, Patient.
+  [[nodiscard]] Vec3 near_end(const simulation::Snapshot& now) const;
+  [[nodiscard]] Vec3 far_end(const simulation::Snapshot& now) const;
+  [[nodiscard]] HandPose second_hand() const;
+  [[nodiscard]] bool is_seen_apart(const simulation::Snapshot& now) const;
+  void plan_on_reduced_bone(const simulation::Snapshot& now);
+  void look_at_bone(const simulation::Snapshot& now, simulation::Input& input);
+  /// A direction of frame Bone of the target in Patient, as it lies now.
   [[nodiscard]] Vec3 turned(const simulation::Snapshot& now, const Vec3& in_target) const;
   [[nodiscard]] double true_chord(const simulation::Snapshot& now,
                                   const simulation::ItemView& wire) const;
@@ -114,13 +123,16 @@ class ScriptedTrainee {
   procedure::Opening opening_;
   Vec3 near_end_;  ///< of the central axis, where the wire goes in
   Vec3 far_end_;
-  std::size_t target_ = 0;  ///< body
+  std::size_t target_ = 0;     ///< body
+  std::size_t near_body_ = 0;  ///< fragments of the axis's ends: the target of a whole bone
+  std::size_t far_body_ = 0;
   instruments::InstrumentIndex gauge_ = instruments::kNoInstrument;
   instruments::InstrumentIndex drill_ = instruments::kNoInstrument;  ///< where a step asks for it
   SkillProfile profile_;
   Rng rng_;
   Tremor tremor_;
-  BoneSolid scaphoid_;
+  BoneSolid scaphoid_;  ///< as its fragments lie, frame Bone of the target
+  Reducing reducing_;
 
   bool draws_through_ = false;   ///< a step asks for it, and this trainee knows how
   simulation::WristPose wrist_;  ///< as it is to be held

@@ -21,6 +21,8 @@ SkillProfile profile_of(Skill skill) noexcept {
     profile.speed_mm_per_s = 70;
     profile.drive_thrust_n = {26.0, 32.0};
     profile.checks_oblique = true;
+    profile.noticed_displacement_mm = 0.8;
+    profile.reduction_error_mm = {0.0, 0.4};
     profile.repeated_shots = 0;
     return profile;
   }
@@ -39,6 +41,8 @@ SkillProfile profile_of(Skill skill) noexcept {
     profile.speed_mm_per_s = 55;
     profile.drive_thrust_n = {25.0, 38.0};
     profile.checks_oblique = true;
+    profile.noticed_displacement_mm = 1.3;
+    profile.reduction_error_mm = {0.4, 1.2};
     profile.repeated_shots = 1;
     return profile;
   }

@@ -43,16 +43,18 @@ struct SkillProfile {
   double learning = 1.0;        ///< errors shrink by this with each new pass
   Range stop_before_far_mm;     ///< wire left this short of the far cortex; negative: through it
   Range ream_before_far_mm;     ///< where a drill is stopped, as seen on the pictures
-  double screw_deduction_mm = 4.0;  ///< taken off the gauge's reading for the screw
-  Range bury_mm;                    ///< how deep the screw's tail is driven
-  double tremor_mm = 0.0;           ///< root mean square of the hand's tremor
-  Range reaction_s;                 ///< pause before each new action
-  double speed_mm_per_s = 50;       ///< mean speed of a free move
-  Range drive_thrust_n;             ///< push while drilling
-  bool checks_oblique = true;       ///< takes the oblique and the proximal pole views
-  bool finds_ring = true;           ///< looks down the bone before it goes in
-  bool draws_wire_through = true;   ///< where a step asks for it
-  int repeated_shots = 0;           ///< pictures taken again because they were not read
+  double screw_deduction_mm = 4.0;       ///< taken off the gauge's reading for the screw
+  Range bury_mm;                         ///< how deep the screw's tail is driven
+  double tremor_mm = 0.0;                ///< root mean square of the hand's tremor
+  Range reaction_s;                      ///< pause before each new action
+  double speed_mm_per_s = 50;            ///< mean speed of a free move
+  Range drive_thrust_n;                  ///< push while drilling
+  bool checks_oblique = true;            ///< takes the oblique and the proximal pole views
+  bool finds_ring = true;                ///< looks down the bone before it goes in
+  bool draws_wire_through = true;        ///< where a step asks for it
+  double noticed_displacement_mm = 1e9;  ///< a gap or step larger than this is seen and reduced
+  Range reduction_error_mm;              ///< of where a fragment is led to
+  int repeated_shots = 0;                ///< pictures taken again because they were not read
 };
 
 [[nodiscard]] SkillProfile profile_of(Skill skill) noexcept;
