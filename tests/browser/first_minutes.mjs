@@ -87,7 +87,7 @@ export async function firstMinutes(browser, station) {
     await card.getByRole("button", { name: "Start anew" }).click();
     await page.locator("dialog.confirm[open]").waitFor();
     await page.keyboard.press("Enter");
-    await operator.until((s) => s.tick < 2000 && s.undos === 0, "a new operation");
+    await operator.until((s) => s.undos === 0 && s.passes === 0, "a new operation");
     expect(!(await card.isVisible()), "it comes again");
     await page.keyboard.press("F1");
     await page.getByRole("button", { name: "First touch" }).click();

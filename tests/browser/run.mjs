@@ -16,7 +16,7 @@ import { firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { followFromElsewhere, printedLink } from "./link.mjs";
-import { replayAttempt } from "./replay.mjs";
+import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
 import { startStation } from "./station.mjs";
 import { playQuiz } from "./view_quiz.mjs";
@@ -366,6 +366,7 @@ async function operate(page, station, problems) {
   });
   await reviewClass(page, station);
   await replayAttempt(page, station, 1);
+  await debriefByView(page, station, 1);
 }
 
 /** Over the other pole: another procedure needs nothing of the page but what the host says. */

@@ -108,8 +108,9 @@ function picturesOf(attempt: Attempt): HTMLElement {
   wish.addEventListener("change", () => {
     for (const picture of pictures) picture.showOutlines(wish.checked);
   });
-  // One after another: each is made from the recording.
+  // One after another, once they are on the page: each is made from the recording.
   void (async () => {
+    await new Promise((then) => requestAnimationFrame(then));
     for (const picture of pictures) {
       if (!picture.element.isConnected) break;
       await picture.load();
