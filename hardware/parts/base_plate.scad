@@ -18,6 +18,8 @@ module outline() {
 
 module slot() {
   // Leg, dog, sector, and the elastic cord beside the leg.
+  // The platform's rods come as near as 84.6 mm to the middle where the tip is high, 30 mm towards the leg.
+  translate([82.5, -34]) square([40, 68]);
   hull() { translate([26 + 10, 0]) circle(10); translate([edge + 40, -10]) square(20); }
 }
 
@@ -26,7 +28,7 @@ linear_extrude(plate_thickness) difference() {
   each_leg() {
     slot();
     translate([base_radius, 0]) {
-      for (x = [-10, 10], y = [15, 27]) translate([x, y]) circle(d = m4, $fn = 24);              // bearing block
+      for (x = [-12, 4], y = [15, 27]) translate([x, y]) circle(d = m4, $fn = 24);              // bearing block
       for (x = [-10, 2]) translate([x, 60]) circle(d = m4, $fn = 24);                             // potentiometer
       for (x = [-10, 10]) translate([x, -39]) circle(d = m4, $fn = 24);                          // servo
       for (x = [-37, -25]) translate([x, 37]) circle(d = m4, $fn = 24);                          // motor

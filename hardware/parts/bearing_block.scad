@@ -24,5 +24,5 @@ difference() {
   cylinder(d = 13, h = length);
   translate([0, 0, length - 7]) cylinder(d = seat, h = 10);
   // Inserts from below, where the plate is.
-  for (x = [-10, 10], z = [6, 18]) translate([x, plate_top - 0.01, z]) rotate([-90, 0, 0]) cylinder(d = m4_insert, h = 9, $fn = 24);
+  for (x = [-12, 4], z = [6, 18]) translate([x, plate_top - 0.01, z]) rotate([-90, 0, 0]) cylinder(d = m4_insert, h = 9, $fn = 24);
 }
