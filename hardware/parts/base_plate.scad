@@ -18,8 +18,8 @@ module outline() {
 
 module slot() {
   // Leg, dog, sector, and the elastic cord beside the leg.
-  // The platform's rods come as near as 84.6 mm to the middle where the tip is high, 30 mm towards the leg.
-  translate([82.5, -34]) square([40, 68]);
+  // The platform's rods come as near as 84.6 mm to the middle where the tip is high.
+  translate([82.5, -60]) square([40, 120]);
   hull() { translate([26 + 10, 0]) circle(10); translate([edge + 40, -10]) square(20); }
 }
 
@@ -30,7 +30,7 @@ linear_extrude(plate_thickness) difference() {
     translate([base_radius, 0]) {
       for (x = [-12, 4], y = [15, 27]) translate([x, y]) circle(d = m4, $fn = 24);              // bearing block
       for (x = [-10, 2]) translate([x, 60]) circle(d = m4, $fn = 24);                             // potentiometer
-      for (x = [-10, 10]) translate([x, -39]) circle(d = m4, $fn = 24);                          // servo
+      for (x = [-10, 5]) translate([x, -39]) circle(d = m4, $fn = 24);                          // servo
       for (x = [-37, -25]) translate([x, 37]) circle(d = m4, $fn = 24);                          // motor
     }
     rotate(60) translate([corner_radius, 0]) for (p = [[-16, -14], [-16, 14], [4, 0]]) translate(p) circle(d = m4, $fn = 24);

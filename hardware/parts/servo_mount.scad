@@ -17,5 +17,5 @@ difference() {
   translate([-10.25, -10.3, -1]) cube([20.5, 41, thickness + 2]);
   translate([-10.25, -10.3, thickness - 0.01]) cube([20.5, 41, 40]);
   for (x = [-5, 5], y = [-14.4, 34.9]) hole(m4, [x, y]);
-  for (x = [-10, 10]) translate([x, plate_top - 1, 13]) rotate([-90, 0, 0]) cylinder(d = m4_insert, h = 20, $fn = 24);
+  for (x = [-10, 5]) translate([x, plate_top - 1, 13]) rotate([-90, 0, 0]) cylinder(d = m4_insert, h = 20, $fn = 24);
 }
