@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "firmware/avr/simulated_avr.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "core/error.hpp"
@@ -26,6 +30,31 @@ constexpr double kFlashBytes = 32768;
 constexpr double kRamBytes = 2048;
 constexpr int kInterruptFlag = 7;
 constexpr int kSleepInstruction = 0x9588;
+
+/// simavr tells on stdout, which is for data, what it loads.
+class QuietStdout {
+ public:
+  QuietStdout() {
+    std::fflush(stdout);
+    saved_ = ::dup(STDOUT_FILENO);
+    const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nothing >= 0) {
+      ::dup2(nothing, STDOUT_FILENO);
+      ::close(nothing);
+    }
+  }
+  QuietStdout(const QuietStdout&) = delete;
+  QuietStdout& operator=(const QuietStdout&) = delete;
+  ~QuietStdout() {
+    std::fflush(stdout);
+    if (saved_ < 0) return;
+    ::dup2(saved_, STDOUT_FILENO);
+    ::close(saved_);
+  }
+
+ private:
+  int saved_ = -1;
+};
 }  // namespace
 
 struct SimulatedAvr::State {
@@ -53,6 +82,7 @@ struct SimulatedAvr::State {
 };
 
 SimulatedAvr::SimulatedAvr(const std::string& elf_file) : state_(std::make_unique<State>()) {
+  const QuietStdout quiet;
   elf_firmware_t program{};
   if (elf_read_firmware(elf_file.c_str(), &program) != 0) {
     throw Error(elf_file + ": is no program for the ATmega328P");

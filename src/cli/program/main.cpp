@@ -14,6 +14,7 @@
 #include "cli/bench_replay_command.hpp"
 #include "cli/bench_tick_command.hpp"
 #include "cli/collide_command.hpp"
+#include "cli/device_bench_command.hpp"
 #include "cli/device_calibrate_command.hpp"
 #include "cli/device_list_command.hpp"
 #include "cli/device_simulate_command.hpp"
@@ -59,6 +60,7 @@ void add_commands(CLI::App& app) {
   add_device_list_command(*device);
   add_device_test_command(*device);
   add_device_calibrate_command(*device);
+  add_device_bench_command(*device);
   add_device_simulate_command(*device);
   CLI::App* bench = app.add_subcommand("bench", "Measure how fast things are on this machine");
   bench->require_subcommand(1);
