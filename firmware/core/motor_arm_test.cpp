@@ -140,6 +140,22 @@ TEST(MotorArm, APlaneIsASpringOutOfTheBone) {
               0.5);
 }
 
+TEST(PlaneRenderer, CarriesTheWeightWhereTheAccountIsEmpty) {
+  PlaneRenderer renderer(1.0F / 4000);
+  Contact contact;
+  contact.normals[2] = 16384;
+  contact.stiffness_n_per_m[0] = 4000;
+  contact.limit_mn = 8000;
+  contact.force_mn[2] = 900;
+  renderer.take(contact);
+  Rng rng(8);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector<float> tip(0, 0, static_cast<float>(rng.uniform(-0.2, 0.1)));
+    EXPECT_GE(renderer.step(tip, {}).z, 0.899F);
+  }
+  EXPECT_GT(renderer.scaled(), 1000U);
+}
+
 TEST(MotorArm, NeverExceedsTheLimitThatTheHostSetsNorItsTorque) {
   Rig rig;
   rig.run_ms(200);

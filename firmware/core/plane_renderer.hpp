@@ -41,30 +41,32 @@ class PlaneRenderer {
   Vector<float> step(Vector<float> tip, Vector<float> velocity) {
     const Vector<float> move = has_tip_ ? tip - tip_ : Vector<float>();
     stored_ = clamped(stored_ - dot(force_, move), 0.0F, 1e6F);
-    Vector<float> force(static_cast<float>(contact_.force_mn[0]) * 0.001F,
-                        static_cast<float>(contact_.force_mn[1]) * 0.001F,
-                        static_cast<float>(contact_.force_mn[2]) * 0.001F);
     is_touching_ = false;
-    for (uint8_t i = 0; i < 2; ++i) force = force + plane_force(i, tip, velocity);
-    force = force + vibration();
-    // Limit, then what the account allows.
+    Vector<float> planes;
+    for (uint8_t i = 0; i < 2; ++i) planes = planes + plane_force(i, tip, velocity);
+    // What the account allows: only what springs store is on it. A drill's thrust is the host's
+    // own, and the arm's weight is carried also where a wall has nothing to give.
+    const float press = length(planes);
+    const float way =
+        press > 0.0F ? dot(move, planes) / press + kMostSurpriseMmPerS2 * step_s_ * step_s_ : 0.0F;
+    if (is_touching_ && way > 0.0F && press * way > stored_) {
+      planes = planes * (stored_ / (press * way));
+      ++scaled_;
+    }
+    Vector<float> force = planes + vibration() +
+                          Vector<float>(static_cast<float>(contact_.force_mn[0]) * 0.001F,
+                                        static_cast<float>(contact_.force_mn[1]) * 0.001F,
+                                        static_cast<float>(contact_.force_mn[2]) * 0.001F);
     const float limit = static_cast<float>(contact_.limit_mn) * 0.001F;
-    float size = length(force);
+    const float size = length(force);
     if (size > limit) {
       force = force * (limit / size);
-      size = limit;
-    }
-    const float way =
-        size > 0.0F ? dot(move, force) / size + kMostSurpriseMmPerS2 * step_s_ * step_s_ : 0.0F;
-    // Only what springs store is on the account; a drill's thrust is the host's own.
-    if (is_touching_ && way > 0.0F && size * way > stored_) {
-      force = force * (stored_ / (size * way));
-      ++scaled_;
+      planes = planes * (limit / size);
     }
     if (!is_touching_ && stored_ > kFirstStoreNMm) stored_ = kFirstStoreNMm;
     tip_ = tip;
     has_tip_ = true;
-    force_ = force;
+    force_ = planes;
     return force;
   }
 
@@ -145,7 +147,7 @@ class PlaneRenderer {
   Contact contact_;
   Side sides_[2];
   Vector<float> tip_;
-  Vector<float> force_;
+  Vector<float> force_;  ///< of the planes, that the account has to book
   float stored_ = kFirstStoreNMm;
   float phase_ = 0.0F;
   uint32_t scaled_ = 0;

@@ -50,6 +50,8 @@ struct Watch {
 }  // namespace
 
 bool Press::is_still(double quantum_mm) const {
+  // An arm that floats off the wall does not ring on it.
+  if (has_let_go && most_depth_mm < 0) return true;
   return to_and_fro_mm <= std::max(kStillMm, 3 * quantum_mm);
 }
 
@@ -85,6 +87,8 @@ Press press(Rig& rig) {
   out.force_n = watch.sum_force / watch.count;
   out.depth_mm = watch.sum_depth / watch.count;
   out.to_and_fro_mm = watch.most - watch.least;
+  out.most_depth_mm = watch.most;
+  out.has_let_go = lets_go;
   return out;
 }
 

@@ -20,6 +20,8 @@ struct Press {
   double depth_mm = 0;       ///< at the sensors, then
   double to_and_fro_mm = 0;  ///< peak to peak, then
   double half_depth_mm = 0;  ///< when a quarter of the force was reached
+  double most_depth_mm = 0;  ///< then
+  bool has_let_go = false;   ///< a released hand
   bool has_reached = false;  ///< the force, before the hand meant to be 90 mm deep
   [[nodiscard]] bool is_still(double quantum_mm) const;
 };
