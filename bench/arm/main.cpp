@@ -9,6 +9,7 @@
 
 #include "bench/arm/avr_board.hpp"
 #include "cli/device_bench_run.hpp"
+#include "core/error.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"carpus-arm-bench: the force-feedback arm measured in virtual time"};
@@ -22,6 +23,9 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  } catch (const carpus::UsageError& error) {
+    std::fprintf(stderr, "carpus-arm-bench: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "carpus-arm-bench: %s\n", error.what());
     return 1;
