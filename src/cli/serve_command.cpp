@@ -20,6 +20,7 @@
 #include "cli/find_cases.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
+#include "devices/device_catalogue.hpp"
 #include "procedures/built_in.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
@@ -41,6 +42,7 @@ struct ServeArguments {
   std::string listen = "127.0.0.1";
   std::string web;
   bool open = false;
+  bool no_devices = false;
   bool new_links = false;
   std::string link_file;
   std::string certificate;
@@ -184,6 +186,15 @@ struct Station {
   std::shared_ptr<server::AttemptOwners> owners = std::make_shared<server::AttemptOwners>();
 };
 
+/// The operation does not wait for what only devices need.
+void offer_devices(server::Station& station, const server::Log& log_line) {
+  try {
+    station.offer_devices(devices::search_here());
+  } catch (const Error& error) {
+    log_line(std::string("no devices are offered: ") + error.what());
+  }
+}
+
 /// Serves the open case until it is stopped, or another is chosen: returns that one's id, or "".
 std::string serve_one(Station& s, const server::CaseShelf& shelf, const cases::CaseData& data) {
   const procedure::ProcedureList& procedures = procedures::built_in();
@@ -196,6 +207,7 @@ std::string serve_one(Station& s, const server::CaseShelf& shelf, const cases::C
     return true;
   };
   server::Station station(data, procedures, s.records, s.log_line, {}, {choose, s.owners});
+  if (!s.arguments.no_devices) offer_devices(station, s.log_line);
   const server::StationHttp http(data, procedures, case_io::make_case_glb(data), s.records,
                                  station.owners(), s.web, shelf);
   server::NetworkServer network(
@@ -260,6 +272,8 @@ void add_serve_command(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--open", arguments->open,
                     "Let everybody on this machine in, without the link's token");
+  command->add_flag("--no-devices", arguments->no_devices,
+                    "Offer none of this machine's devices to the page");
   command->add_flag("--new-links", arguments->new_links,
                     "Make new links; whoever came in by the old ones is out");
   command->add_option("--link-file", arguments->link_file,

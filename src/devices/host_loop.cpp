@@ -23,7 +23,8 @@ constexpr int kRealTimePriority = 30;
 constexpr Nanoseconds kSecondNs = 1'000'000'000;
 }  // namespace
 
-HostLoop::HostLoop(std::unique_ptr<Device> device) : device_(std::move(device)) {
+HostLoop::HostLoop(std::unique_ptr<Device> device, DeviceExchange* exchange)
+    : device_(std::move(device)), exchange_(exchange != nullptr ? *exchange : own_) {
   state_.able = device_->capabilities();
   thread_ = std::thread([this] { run(); });
 }
@@ -109,8 +110,14 @@ void HostLoop::work_until_gone() noexcept {
          !reopening_.load(std::memory_order_relaxed)) {
     late_.add(static_cast<double>(clock.wait(state_.timing.missed)) / 1000.0);
     const Nanoseconds began = monotonic_now();
-    (void)wishes_.take(wish_);
+    (void)exchange_.wishes.take(wish_);
+    if (testing_.load(std::memory_order_relaxed)) {
+      put_test_wall(began);
+    } else {
+      has_wall_ = false;
+    }
     const std::uint64_t samples = state_.device.samples;
+    const std::uint64_t raw_samples = state_.device.raw_samples;
     const Health before = state_.device.health;
     is_there = turn(*device_, began, wish_, state_);
     // A driver knows what its device is able to do once that has said who it is.
@@ -118,12 +125,27 @@ void HostLoop::work_until_gone() noexcept {
     if (state_.device.samples != samples && state_.device.round_trip_us > 0) {
       round_trips_.add(state_.device.round_trip_us);
     }
+    if (state_.device.raw_samples != raw_samples) (void)raw_.push(state_.device.raw_counts);
     ++state_.timing.ticks;
     const Nanoseconds ended = monotonic_now();
     worked_ns_ += ended - began;
     if (ended - second_began_ns_ >= kSecondNs) close_second(ended);
     publish();
   }
+}
+
+void HostLoop::put_test_wall(Nanoseconds now) noexcept {
+  wish_ = {};
+  if (!is_usable(state_.device.health) || !state_.able.absolute) {
+    has_wall_ = false;
+    return;
+  }
+  if (!has_wall_) wall_mm_ = state_.device.position_mm.z - kTestWallMm;
+  has_wall_ = true;
+  wish_.at_ns = now;
+  wish_.command.plane_count = 1;
+  wish_.command.planes[0] = {{0, 0, 1}, wall_mm_, kTestWallNPerMm, 0.002 * kTestWallNPerMm, 0.2};
+  wish_.command.limit_n = kTestLimitN;
 }
 
 void HostLoop::close_second(Nanoseconds now) noexcept {
@@ -145,7 +167,7 @@ void HostLoop::close_second(Nanoseconds now) noexcept {
 }
 
 void HostLoop::publish() noexcept {
-  states_.publish(state_);
+  exchange_.states.publish(state_);
   looks_.publish(state_);
 }
 

@@ -7,13 +7,16 @@
 // when it is back.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "core/latest_value.hpp"
+#include "core/spsc_ring.hpp"
 #include "devices/device.hpp"
 #include "devices/loop_timing.hpp"
 #include "devices/precise_clock.hpp"
@@ -36,6 +39,13 @@ struct LoopState {
   std::uint64_t stale = 0;   ///< turns without a wish that was new enough
 };
 
+/// What a loop and whoever steps an exercise tell each other. It outlives both: devices and
+/// exercises come and go.
+struct DeviceExchange {
+  LatestValue<TimedCommand> wishes;
+  LatestValue<LoopState> states;
+};
+
 class HostLoop {
  public:
   /// Three ticks of the exercise and a frame; the firmware's own watchdog comes after 25 ms.
@@ -43,18 +53,28 @@ class HostLoop {
   /// So long between two tries to open a device that is gone.
   static constexpr std::int64_t kTryAgainMs = 300;
 
-  /// Starts the thread; the device is opened in it.
-  explicit HostLoop(std::unique_ptr<Device> device);
+  /// Starts the thread; the device is opened in it. @param exchange  null: one of its own.
+  explicit HostLoop(std::unique_ptr<Device> device, DeviceExchange* exchange = nullptr);
   ~HostLoop();
   HostLoop(const HostLoop&) = delete;
   HostLoop& operator=(const HostLoop&) = delete;
 
   /// By one other thread; never waits.
-  void wish(const TimedCommand& wish) noexcept { wishes_.publish(wish); }
+  void wish(const TimedCommand& wish) noexcept { exchange_.wishes.publish(wish); }
   /// For one reader: true when there is something newer than at the last call. Never waits.
-  [[nodiscard]] bool take(LoopState& state) noexcept { return states_.take(state); }
+  [[nodiscard]] bool take(LoopState& state) noexcept { return exchange_.states.take(state); }
   /// For another reader, whom it does not hurry: the same.
   [[nodiscard]] bool look(LoopState& state) noexcept { return looks_.take(state); }
+  /// Each of the sensors' samples, in order, for whoever calibrates; what nobody takes is lost. By
+  /// one thread.
+  [[nodiscard]] std::optional<std::array<std::int32_t, 3>> next_raw() noexcept {
+    return raw_.pop();
+  }
+  /// A level wall kTestWallMm below where the tip is when this is called, whatever is wished.
+  void test_wall(bool on) noexcept { testing_.store(on, std::memory_order_relaxed); }
+  static constexpr double kTestWallMm = 5;
+  static constexpr double kTestWallNPerMm = 1;
+  static constexpr double kTestLimitN = 3;
   /// Closes the device and opens it anew: what it reads from files has changed. By any thread.
   void reopen() noexcept { reopening_.store(true, std::memory_order_relaxed); }
   /// Why the device could not be opened at the last try; empty when it was.
@@ -72,6 +92,7 @@ class HostLoop {
   void work_until_gone() noexcept;
   void close_second(Nanoseconds now) noexcept;
   void publish() noexcept;
+  void put_test_wall(Nanoseconds now) noexcept;
   void rest(std::int64_t ms) const;
 
   std::unique_ptr<Device> device_;
@@ -83,13 +104,17 @@ class HostLoop {
   Nanoseconds worked_ns_ = 0;
   std::uint64_t ticks_before_ = 0;
 
-  LatestValue<TimedCommand> wishes_;
-  LatestValue<LoopState> states_;
+  DeviceExchange own_;
+  DeviceExchange& exchange_;
   LatestValue<LoopState> looks_;
   /// Set as a whole by the thread while no turn runs; read seldom.
   std::atomic<std::shared_ptr<const std::string>> problem_;
+  SpscRing<std::array<std::int32_t, 3>, 512> raw_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> reopening_{false};
+  std::atomic<bool> testing_{false};
+  bool has_wall_ = false;
+  double wall_mm_ = 0;
   std::thread thread_;
 };
 

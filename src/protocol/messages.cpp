@@ -168,6 +168,47 @@ void write(FieldWriter& out, const Pedal& in) {
   out.value("down", in.down);
 }
 
+void read(FieldReader& /*in*/, FindDevices& /*out*/) {}
+
+void write(FieldWriter& out, const FindDevices& /*in*/) { out.name("type", "find_devices"); }
+
+void read(FieldReader& in, UseDevice& out) {
+  out.hand = in.integer("hand", 0, 1);
+  out.device = in.string("device", 256);
+  out.right = in.vec3("right", 2.0, 0.5);
+  out.up = in.vec3("up", 2.0, 0.5);
+}
+
+void write(FieldWriter& out, const UseDevice& in) {
+  out.name("type", "use_device");
+  out.value("hand", in.hand);
+  out.text("device", in.device, 256);
+  out.vec3("right", in.right);
+  out.vec3("up", in.up);
+}
+
+void read(FieldReader& in, TestWall& out) {
+  out.hand = in.integer("hand", 0, 1);
+  out.on = in.boolean("on");
+}
+
+void write(FieldWriter& out, const TestWall& in) {
+  out.name("type", "test_wall");
+  out.value("hand", in.hand);
+  out.value("on", in.on);
+}
+
+void read(FieldReader& in, Calibrate& out) {
+  out.hand = in.integer("hand", 0, 1);
+  out.step = static_cast<CalibrationStep>(in.choice("step", kCalibrationStepNames));
+}
+
+void write(FieldWriter& out, const Calibrate& in) {
+  out.name("type", "calibrate");
+  out.value("hand", in.hand);
+  out.name("step", name_of(in.step));
+}
+
 void read(FieldReader& in, QuizBegin& out) { out.seed = in.integer("seed", 0, 4294967295); }
 
 void write(FieldWriter& out, const QuizBegin& in) {
@@ -349,6 +390,17 @@ void write(FieldWriter& out, const Score& in) {
   out.record("report", in.report);
 }
 
+void read(FieldReader& in, Devices& out) {
+  in.records("found", 0, 64, out.found);
+  in.records("hands", 2, 2, out.hands);
+}
+
+void write(FieldWriter& out, const Devices& in) {
+  out.name("type", "devices");
+  out.records("found", in.found);
+  out.records("hands", in.hands);
+}
+
 void read(FieldReader& in, QuizQuestion& out) {
   out.number = in.integer("number", 1, 4294967295);
   in.records("views", 0, 16, out.views);
@@ -452,7 +504,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 16> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 20> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -464,13 +516,17 @@ constexpr std::array<MessageKind<PageMessage>, 16> kPageMessageKinds{
      {"tube", &read_as<PageMessage, Tube>},
      {"c_arm", &read_as<PageMessage, CArm>},
      {"pedal", &read_as<PageMessage, Pedal>},
+     {"find_devices", &read_as<PageMessage, FindDevices>},
+     {"use_device", &read_as<PageMessage, UseDevice>},
+     {"test_wall", &read_as<PageMessage, TestWall>},
+     {"calibrate", &read_as<PageMessage, Calibrate>},
      {"quiz_begin", &read_as<PageMessage, QuizBegin>},
      {"quiz_next", &read_as<PageMessage, QuizNext>},
      {"quiz_look", &read_as<PageMessage, QuizLook>},
      {"quiz_answer", &read_as<PageMessage, QuizAnswer>},
      {"pause", &read_as<PageMessage, Pause>}}};
 
-constexpr std::array<MessageKind<HostMessage>, 11> kHostMessageKinds{
+constexpr std::array<MessageKind<HostMessage>, 12> kHostMessageKinds{
     {{"welcome", &read_as<HostMessage, Welcome>},
      {"exercise", &read_as<HostMessage, Exercise>},
      {"snapshot", &read_as<HostMessage, Snapshot>},
@@ -478,6 +534,7 @@ constexpr std::array<MessageKind<HostMessage>, 11> kHostMessageKinds{
      {"actions", &read_as<HostMessage, Actions>},
      {"event", &read_as<HostMessage, Event>},
      {"score", &read_as<HostMessage, Score>},
+     {"devices", &read_as<HostMessage, Devices>},
      {"quiz_question", &read_as<HostMessage, QuizQuestion>},
      {"quiz_truth", &read_as<HostMessage, QuizTruth>},
      {"error", &read_as<HostMessage, Error>},

@@ -137,6 +137,40 @@ struct Pedal {
   bool operator==(const Pedal&) const = default;
 };
 
+/// Asks which devices the station has; answered by `devices`, which is then told again four times a
+/// second for some seconds.
+struct FindDevices {
+  bool operator==(const FindDevices&) const = default;
+};
+
+/// What a hand holds from now on: a device that `devices` has named, or the page itself. With the
+/// screen's right and up, along which the device's own lie; said again when the view was turned.
+struct UseDevice {
+  /// 0 to 1
+  std::int64_t hand = 0;
+  /// id; empty: the page
+  std::string device;
+  Vec3 right;
+  Vec3 up;
+  bool operator==(const UseDevice&) const = default;
+};
+
+/// A level wall 5 mm below where the device's tip is now, to be felt; only while no time passes.
+struct TestWall {
+  /// 0 to 1
+  std::int64_t hand = 0;
+  bool on = false;
+  bool operator==(const TestWall&) const = default;
+};
+
+/// A step of the guided calibration of the arm in this hand; only while no time passes.
+struct Calibrate {
+  /// 0 to 1
+  std::int64_t hand = 0;
+  CalibrationStep step = CalibrationStep::Begin;
+  bool operator==(const Calibrate&) const = default;
+};
+
 /// Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid
 /// of the case. It touches no exercise.
 struct QuizBegin {
@@ -180,6 +214,10 @@ using PageMessage = std::variant<Hello,
                                  Tube,
                                  CArm,
                                  Pedal,
+                                 FindDevices,
+                                 UseDevice,
+                                 TestWall,
+                                 Calibrate,
                                  QuizBegin,
                                  QuizNext,
                                  QuizLook,
@@ -295,6 +333,13 @@ struct Score {
   bool operator==(const Score&) const = default;
 };
 
+/// What the station has, and what the hands hold.
+struct Devices {
+  std::vector<FoundDevice> found;
+  std::vector<HandDevice> hands;
+  bool operator==(const Devices&) const = default;
+};
+
 /// A screw lies in the scaphoid: where is it out, and which view would tell? Its first picture
 /// follows. Nothing of the truth is sent before the answer.
 struct QuizQuestion {
@@ -354,6 +399,7 @@ using HostMessage = std::variant<Welcome,
                                  Actions,
                                  Event,
                                  Score,
+                                 Devices,
                                  QuizQuestion,
                                  QuizTruth,
                                  Error,

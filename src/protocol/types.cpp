@@ -349,6 +349,58 @@ void write(FieldWriter& out, const WristLimits& in) {
   out.record("traction_n", in.traction_n);
 }
 
+void read(FieldReader& in, FoundDevice& out) {
+  out.id = in.string("id", 256);
+  out.name = in.string("name", 128);
+}
+
+void write(FieldWriter& out, const FoundDevice& in) {
+  out.text("id", in.id, 256);
+  out.text("name", in.name, 128);
+}
+
+void read(FieldReader& in, HandDevice& out) {
+  out.id = in.string("id", 256);
+  out.name = in.string("name", 128);
+  out.health = static_cast<DeviceHealth>(in.choice("health", kDeviceHealthNames));
+  out.words = in.string("words", 512);
+  out.can = in.string("can", 128);
+  out.rate_hz = in.number("rate_hz", 0.0, 100000.0);
+  out.late_p99_us = in.number("late_p99_us", 0.0, 1000000000.0);
+  out.late_p999_us = in.number("late_p999_us", 0.0, 1000000000.0);
+  out.missed = in.integer("missed", 0, 9007199254740991);
+  out.round_trip_us = in.number("round_trip_us", 0.0, 1000000000.0);
+  out.real_time = in.boolean("real_time");
+  out.force_n = in.number("force_n", 0.0, 1000.0);
+  out.most_force_n = in.number("most_force_n", 0.0, 1000.0);
+  out.position_mm = in.vec3("position_mm", 10000.0, 0.0);
+  out.is_testing = in.boolean("is_testing");
+  out.may_calibrate = in.boolean("may_calibrate");
+  out.calibration = in.string("calibration", 256);
+  out.calibration_note = in.string("calibration_note", 512);
+}
+
+void write(FieldWriter& out, const HandDevice& in) {
+  out.text("id", in.id, 256);
+  out.text("name", in.name, 128);
+  out.name("health", name_of(in.health));
+  out.text("words", in.words, 512);
+  out.text("can", in.can, 128);
+  out.value("rate_hz", in.rate_hz);
+  out.value("late_p99_us", in.late_p99_us);
+  out.value("late_p999_us", in.late_p999_us);
+  out.value("missed", in.missed);
+  out.value("round_trip_us", in.round_trip_us);
+  out.value("real_time", in.real_time);
+  out.value("force_n", in.force_n);
+  out.value("most_force_n", in.most_force_n);
+  out.vec3("position_mm", in.position_mm);
+  out.value("is_testing", in.is_testing);
+  out.value("may_calibrate", in.may_calibrate);
+  out.text("calibration", in.calibration, 256);
+  out.text("calibration_note", in.calibration_note, 512);
+}
+
 void read(FieldReader& in, HandState& out) {
   out.item = in.integer("item", -1, 254);
   out.touching = in.boolean("touching");

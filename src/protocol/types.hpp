@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 10;
+inline constexpr std::int64_t kProtocolVersion = 11;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -132,6 +132,30 @@ inline constexpr std::array<std::string_view, 4> kScrewPlaceNames{"inside", "dis
                                                                   "side"};
 [[nodiscard]] constexpr std::string_view name_of(ScrewPlace value) noexcept {
   return kScrewPlaceNames[static_cast<std::size_t>(value)];
+}
+
+/// How a device is, in its own word.
+enum class DeviceHealth : std::uint8_t {
+  Closed,
+  Starting,
+  Uncalibrated,
+  Good,
+  HoldingBack,
+  Silent,
+  Faulty,
+  Gone
+};
+inline constexpr std::array<std::string_view, 8> kDeviceHealthNames{
+    "closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"};
+[[nodiscard]] constexpr std::string_view name_of(DeviceHealth value) noexcept {
+  return kDeviceHealthNames[static_cast<std::size_t>(value)];
+}
+
+/// Of a guided calibration: begin, measure what is held now, give up.
+enum class CalibrationStep : std::uint8_t { Begin, Take, Cancel };
+inline constexpr std::array<std::string_view, 3> kCalibrationStepNames{"begin", "take", "cancel"};
+[[nodiscard]] constexpr std::string_view name_of(CalibrationStep value) noexcept {
+  return kCalibrationStepNames[static_cast<std::size_t>(value)];
 }
 
 /// Of the body.
@@ -441,6 +465,51 @@ struct WristLimits {
   Range pronation_deg;
   Range traction_n;
   bool operator==(const WristLimits&) const = default;
+};
+
+/// A device at the station that a hand may hold.
+struct FoundDevice {
+  std::string id;
+  std::string name;
+  bool operator==(const FoundDevice&) const = default;
+};
+
+/// What a hand holds, and how well it works. All figures are 0 and texts empty where it is the page
+/// itself.
+struct HandDevice {
+  /// of the device; empty: the page's own pointer, keys, fingers or gamepad
+  std::string id;
+  std::string name;
+  DeviceHealth health = DeviceHealth::Closed;
+  /// its health, and what to do where it is not well
+  std::string words;
+  std::string can;
+  /// of its loop, over the last second [Hz] 0 to 100000
+  double rate_hz = 0.0;
+  /// how late 99 of 100 turns of the loop began at most [us] 0 to 1000000000
+  double late_p99_us = 0.0;
+  /// [us] 0 to 1000000000
+  double late_p999_us = 0.0;
+  /// turns of the loop 0 to 9007199254740991
+  std::int64_t missed = 0;
+  /// median, as its loop meets it [us] 0 to 1000000000
+  double round_trip_us = 0.0;
+  /// its loop has the real-time class
+  bool real_time = false;
+  /// that it gives, or is asked for where it does not say [N] 0 to 1000
+  double force_n = 0.0;
+  /// 0: it gives none [N] 0 to 1000
+  double most_force_n = 0.0;
+  /// in its own frame
+  Vec3 position_mm;
+  /// the test wall stands
+  bool is_testing = false;
+  bool may_calibrate = false;
+  /// what to do now; empty: none is going on
+  std::string calibration;
+  /// what came of the last step
+  std::string calibration_note;
+  bool operator==(const HandDevice&) const = default;
 };
 
 /// What a hand holds and feels.

@@ -80,7 +80,8 @@ Exercise::Exercise(const cases::CaseData& data, ExerciseSetup setup, ExerciseSta
           },
           world_.now(),
           session::resting(world_.now()),
-          start.paused) {}
+          start.paused,
+          setup_.guest) {}
 
 std::vector<TakenShot> pictures_of(const procedure::Procedure& procedure,
                                    const EventfulTick& tick) {

@@ -26,8 +26,9 @@ bool request_real_time_priority() noexcept {
 SimulationLoop::SimulationLoop(Step step,
                                const simulation::Snapshot& initial,
                                const session::HeldInput& held,
-                               bool paused)
-    : step_(std::move(step)), source_(held), paused_(paused) {
+                               bool paused,
+                               TickGuest* guest)
+    : step_(std::move(step)), guest_(guest), source_(held), paused_(paused) {
   state_.snapshot = initial;
   thread_ = std::thread([this] { run(); });
 }
@@ -79,13 +80,15 @@ bool SimulationLoop::tick() noexcept {
   if (held_.take(newest)) source_.hold(newest);
   if (!next_command_) next_command_ = commands_.pop();
   const simulation::Command command = next_command_.value_or(simulation::Command{});
-  const simulation::Input input = source_.input(command);
+  simulation::Input input = source_.input(command);
+  if (guest_ != nullptr) guest_->before(input, state_.snapshot);
   // The input is on its way to the recording before it is used: what cannot be recorded does not
   // happen.
   if (!inputs_.push(input)) return false;
   next_command_.reset();
   source_.passed();
   state_.snapshot = step_(input);
+  if (guest_ != nullptr) guest_->after(state_.snapshot);
   if (state_.snapshot.event_count > 0 || command.kind != simulation::CommandKind::None) {
     undelivered_ = EventfulTick{command, state_.snapshot};
     (void)has_delivered();

@@ -14,6 +14,7 @@
 
 #include "core/latest_value.hpp"
 #include "core/spsc_ring.hpp"
+#include "server/tick_guest.hpp"
 #include "server/tick_timing.hpp"
 #include "session/held_input.hpp"
 #include "simulation/input.hpp"
@@ -47,11 +48,12 @@ class SimulationLoop {
   using Step = std::function<const simulation::Snapshot&(const simulation::Input&)>;
 
   /// Starts the thread. @param initial  state before the first tick. @param held, paused  until
-  /// told otherwise.
+  /// told otherwise. @param guest  takes part in each tick; must outlive this.
   SimulationLoop(Step step,
                  const simulation::Snapshot& initial,
                  const session::HeldInput& held,
-                 bool paused = false);
+                 bool paused = false,
+                 TickGuest* guest = nullptr);
   ~SimulationLoop();
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
@@ -92,6 +94,7 @@ class SimulationLoop {
 
   // The thread's own.
   Step step_;
+  TickGuest* guest_;
   session::InputSource source_;
   LoopState state_;
   std::optional<simulation::Command> next_command_;

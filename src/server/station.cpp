@@ -44,7 +44,12 @@ Station::Station(const cases::CaseData& data,
       log_(std::move(log)),
       patience_(patience),
       over_cases_(std::move(over_cases)),
+      devices_(std::make_unique<DeviceDesk>(std::nullopt)),
       exercise_number_(number_of_now()) {}
+
+void Station::offer_devices(const devices::DeviceSearch& search) {
+  devices_ = std::make_unique<DeviceDesk>(search);
+}
 
 void Station::attach(NetworkServer& network) {
   network_ = &network;
@@ -80,6 +85,7 @@ void Station::on_close(const std::shared_ptr<PageConnection>& page) {
   if (page != operator_) return;
   operator_.reset();
   asked_meanwhile_.clear();
+  devices_->end_trials();
   if (operator_owns_) left_at_ = steady_clock::now();
   if (!exercise_) return;
   // Whoever comes back finds the driver off and time where it stood.
@@ -127,7 +133,8 @@ void Station::on_text(const std::shared_ptr<PageConnection>& page, std::string_v
 }
 
 void Station::obey(const protocol::PageMessage& message) {
-  const bool is_free = std::holds_alternative<protocol::Start>(message) || is_quiz(message);
+  const bool is_free = std::holds_alternative<protocol::Start>(message) || is_quiz(message) ||
+                       is_of_devices(message);
   if (exercise_ && !operator_owns_ && !is_free) {
     return refuse("This operation is another page's", "Start anew, which stores it as unfinished.");
   }
@@ -189,6 +196,14 @@ void Station::on_message(const protocol::Pedal& pedal) {
 
 void Station::on_message(const protocol::Pause& pause) {
   if (!has_exercise()) return;
+  if (!pause.on) {
+    // What was unplugged must be back, or the hand the page's.
+    if (const std::string why = devices_->why_not_go_on(); !why.empty()) {
+      return refuse(why, "Plug it in again, or give this hand to mouse and keys (Devices).");
+    }
+    paused_by_device_ = false;
+    devices_->end_trials();
+  }
   paused_by_page_ = pause.on;
   apply_pause();
 }
@@ -206,10 +221,11 @@ void Station::command(const Command& command) {
 }
 
 void Station::apply_pause() {
-  if (exercise_) exercise_->loop().pause(paused_by_page_ || paused_by_silence_ || paused_by_disk_);
+  if (exercise_) exercise_->loop().pause(!time_passes());
 }
 
 void Station::update() {
+  watch_devices();
   if (!exercise_) return;
   const bool is_here = operator_ && operator_owns_;
   if (!is_here && steady_clock::now() - left_at_ > patience_.exercise) {
@@ -271,8 +287,8 @@ void Station::send_state() {
 
 void Station::send_update() {
   const LoopState& state = exercise_->state();
-  const session::HostState host{paused_by_page_ || paused_by_silence_ || paused_by_disk_,
-                                state.timing.rate_hz, state.timing.p99_us, state.timing.late_ticks};
+  const session::HostState host{!time_passes(), state.timing.rate_hz, state.timing.p99_us,
+                                state.timing.late_ticks};
   for (const protocol::HostMessage& message : exercise_->session().update(state.snapshot, host)) {
     send(message);
   }

@@ -21,6 +21,7 @@
 #include "records/attempt_keeper.hpp"
 #include "server/attempt_owners.hpp"
 #include "server/case_shelf.hpp"
+#include "server/device_desk.hpp"
 #include "server/exercise.hpp"
 #include "server/journal_watch.hpp"
 #include "server/network_server.hpp"
@@ -60,6 +61,9 @@ class Station : public PageHandler {
           StationPatience patience = {},
           OverCases over_cases = {});
   ~Station() override;
+
+  /// Before attach(): the devices of this machine may be held. Without, there are none.
+  void offer_devices(const devices::DeviceSearch& search);
 
   /// Begins to serve: pictures and states go out through this network. What a station that was
   /// killed left beside the records goes on or is stored.
@@ -117,6 +121,15 @@ class Station : public PageHandler {
   void on_message(const protocol::CArm& c_arm);
   void on_message(const protocol::Pedal& pedal);
   void on_message(const protocol::Pause& pause);
+
+  // In station_devices.cpp.
+  void on_message(const protocol::FindDevices& wish);
+  void on_message(const protocol::UseDevice& wish);
+  void on_message(const protocol::TestWall& wish);
+  void on_message(const protocol::Calibrate& wish);
+  void watch_devices();
+  [[nodiscard]] bool time_passes() const;
+  [[nodiscard]] static bool is_of_devices(const protocol::PageMessage& message);
 
   // In station_quiz.cpp.
   void on_message(const protocol::QuizBegin& wish);
@@ -188,6 +201,7 @@ class Station : public PageHandler {
   std::chrono::steady_clock::time_point seat_used_at_;
   std::chrono::steady_clock::time_point left_at_;  ///< when it was lost
   std::unordered_map<PageConnection*, Visitor> visitors_;
+  std::unique_ptr<DeviceDesk> devices_;  ///< before the exercise, which asks it in each tick
   std::unique_ptr<Exercise> exercise_;
   std::uint64_t exercise_number_;  ///< none comes twice, not even after a new start of the station
   bool is_beginning_ = false;      ///< an exercise is being set up
@@ -195,6 +209,7 @@ class Station : public PageHandler {
   bool paused_by_page_ = false;
   bool paused_by_silence_ = false;
   bool paused_by_disk_ = false;
+  bool paused_by_device_ = false;
   JournalWatch journal_watch_;
   std::chrono::steady_clock::time_point last_heard_;
   NetworkServer* network_ = nullptr;

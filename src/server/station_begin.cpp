@@ -38,6 +38,7 @@ void Station::on_message(const protocol::Start& start) {
   setup.mode = static_cast<procedure::Mode>(start.mode.value_or(protocol::Mode::Practice));
   setup.seed = static_cast<std::uint64_t>(start.seed);
   setup.number = exercise_number_;
+  setup.guest = &devices_->guest();
   is_beginning_ = true;
   do_aside([this, setup = std::move(setup), owner = owner_word_, network = network_] {
     BegunExercise begun;
@@ -83,6 +84,7 @@ void Station::take_begun() {
   paused_by_page_ = !went_on;
   paused_by_silence_ = false;
   paused_by_disk_ = false;
+  paused_by_device_ = false;
   journal_watch_ = {};
   left_at_ = last_heard_ = steady_clock::now();
   pictures_->clear();

@@ -57,6 +57,7 @@ void Station::recover() {
 
 void Station::resume(ResumedExercise&& resumed) {
   exercise_number_ = resumed.setup.number;
+  resumed.setup.guest = &devices_->guest();
   owner_word_ = resumed.owner;
   // As after a lost connection: the seat is kept, and time stands still until the page goes on.
   left_at_ = std::chrono::steady_clock::now();

@@ -8,6 +8,7 @@
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
 import { operateAssessed } from "./assessed.mjs";
 import { expectAccessible } from "./accessibility.mjs";
+import { holdsDevices } from "./devices.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
 import { chooseAmongCases } from "./cases.mjs";
 import { check, counted, expect } from "./checks.mjs";
@@ -613,6 +614,7 @@ try {
   await page.close();
   await byKeysAlone(browser, station);
   await byFinger(browser, station);
+  await holdsDevices(browser, station);
   await withPictures(browser, station);
   await operateAssessed(browser, station);
   await firstMinutes(browser, station);

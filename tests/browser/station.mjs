@@ -52,6 +52,12 @@ export async function startStation(options = ["--open"], where) {
   );
   const records = mkdtempSync(join(tmpdir(), "carpus-browser-"));
   const port = await freePort();
+  // Devices and calibrations of its own: none of whoever runs this.
+  const env = {
+    ...process.env,
+    XDG_CONFIG_HOME: records,
+    XDG_RUNTIME_DIR: records,
+  };
   const output = [];
   const child = spawn(
     program,
@@ -62,7 +68,7 @@ export async function startStation(options = ["--open"], where) {
       "--records",
       join(records, "attempts.sqlite"),
     ].concat(["--web", page, "--port", String(port)], options),
-    { stdio: ["ignore", "pipe", "pipe"] },
+    { stdio: ["ignore", "pipe", "pipe"], env },
   );
   let ended = false;
   child.on("exit", () => (ended = true));
@@ -82,6 +88,21 @@ export async function startStation(options = ["--open"], where) {
     url,
     caseFolder,
     output,
+    /** A simulated arm that is plugged in. @return {unplug} */
+    async plugIn() {
+      const arm = spawn(program, ["device", "simulate", "--unit", "7"], {
+        stdio: ["ignore", "pipe", "ignore"],
+        env,
+      });
+      await new Promise((done) => arm.stdout.once("data", done));
+      return {
+        unplug: () =>
+          new Promise((done) => {
+            arm.once("exit", done);
+            arm.kill("SIGTERM");
+          }),
+      };
+    },
     async stop() {
       if (!ended) {
         const gone = new Promise((done) => child.once("exit", done));

@@ -71,6 +71,12 @@ void write(FieldWriter& out, const Range& in);
 void read(FieldReader& in, WristLimits& out);
 void write(FieldWriter& out, const WristLimits& in);
 
+void read(FieldReader& in, FoundDevice& out);
+void write(FieldWriter& out, const FoundDevice& in);
+
+void read(FieldReader& in, HandDevice& out);
+void write(FieldWriter& out, const HandDevice& in);
+
 void read(FieldReader& in, HandState& out);
 void write(FieldWriter& out, const HandState& in);
 

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 10;
+export const PROTOCOL_VERSION = 11;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -49,6 +49,12 @@ export type Drive = "none" | "powered" | "by_hand";
 
 /** Where a screw is out of the scaphoid, farthest; or that it is inside. */
 export type ScrewPlace = "inside" | "distal" | "proximal" | "side";
+
+/** How a device is, in its own word. */
+export type DeviceHealth = "closed" | "starting" | "uncalibrated" | "good" | "holding_back" | "silent" | "faulty" | "gone";
+
+/** Of a guided calibration: begin, measure what is held now, give up. */
+export type CalibrationStep = "begin" | "take" | "cancel";
 
 /** Of the body. */
 export type Side = "left" | "right";
@@ -320,6 +326,48 @@ export interface WristLimits {
   readonly radial_deviation_deg: Range;
   readonly pronation_deg: Range;
   readonly traction_n: Range;
+}
+
+/** A device at the station that a hand may hold. */
+export interface FoundDevice {
+  readonly id: string;
+  readonly name: string;
+}
+
+/** What a hand holds, and how well it works. All figures are 0 and texts empty where it is the page itself. */
+export interface HandDevice {
+  /** of the device; empty: the page's own pointer, keys, fingers or gamepad */
+  readonly id: string;
+  readonly name: string;
+  readonly health: DeviceHealth;
+  /** its health, and what to do where it is not well */
+  readonly words: string;
+  readonly can: string;
+  /** of its loop, over the last second [Hz] 0 to 100000 */
+  readonly rate_hz: number;
+  /** how late 99 of 100 turns of the loop began at most [us] 0 to 1000000000 */
+  readonly late_p99_us: number;
+  /** [us] 0 to 1000000000 */
+  readonly late_p999_us: number;
+  /** turns of the loop 0 to 9007199254740991 */
+  readonly missed: number;
+  /** median, as its loop meets it [us] 0 to 1000000000 */
+  readonly round_trip_us: number;
+  /** its loop has the real-time class */
+  readonly real_time: boolean;
+  /** that it gives, or is asked for where it does not say [N] 0 to 1000 */
+  readonly force_n: number;
+  /** 0: it gives none [N] 0 to 1000 */
+  readonly most_force_n: number;
+  /** in its own frame */
+  readonly position_mm: Vec3;
+  /** the test wall stands */
+  readonly is_testing: boolean;
+  readonly may_calibrate: boolean;
+  /** what to do now; empty: none is going on */
+  readonly calibration: string;
+  /** what came of the last step */
+  readonly calibration_note: string;
 }
 
 /** What a hand holds and feels. */
@@ -667,6 +715,38 @@ export interface PedalMessage {
   readonly down: boolean;
 }
 
+/** Asks which devices the station has; answered by `devices`, which is then told again four times a second for some seconds. */
+export interface FindDevicesMessage {
+  readonly type: "find_devices";
+}
+
+/** What a hand holds from now on: a device that `devices` has named, or the page itself. With the screen's right and up, along which the device's own lie; said again when the view was turned. */
+export interface UseDeviceMessage {
+  readonly type: "use_device";
+  /** 0 to 1 */
+  readonly hand: number;
+  /** id; empty: the page */
+  readonly device: string;
+  readonly right: Vec3;
+  readonly up: Vec3;
+}
+
+/** A level wall 5 mm below where the device's tip is now, to be felt; only while no time passes. */
+export interface TestWallMessage {
+  readonly type: "test_wall";
+  /** 0 to 1 */
+  readonly hand: number;
+  readonly on: boolean;
+}
+
+/** A step of the guided calibration of the arm in this hand; only while no time passes. */
+export interface CalibrateMessage {
+  readonly type: "calibrate";
+  /** 0 to 1 */
+  readonly hand: number;
+  readonly step: CalibrationStep;
+}
+
 /** Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid of the case. It touches no exercise. */
 export interface QuizBeginMessage {
   readonly type: "quiz_begin";
@@ -710,6 +790,10 @@ export type PageMessage =
   | TubeMessage
   | CArmMessage
   | PedalMessage
+  | FindDevicesMessage
+  | UseDeviceMessage
+  | TestWallMessage
+  | CalibrateMessage
   | QuizBeginMessage
   | QuizNextMessage
   | QuizLookMessage
@@ -819,6 +903,13 @@ export interface ScoreMessage {
   readonly report: ScoreReport;
 }
 
+/** What the station has, and what the hands hold. */
+export interface DevicesMessage {
+  readonly type: "devices";
+  readonly found: readonly FoundDevice[];
+  readonly hands: readonly [HandDevice, HandDevice];
+}
+
 /** A screw lies in the scaphoid: where is it out, and which view would tell? Its first picture follows. Nothing of the truth is sent before the answer. */
 export interface QuizQuestionMessage {
   readonly type: "quiz_question";
@@ -877,6 +968,7 @@ export type HostMessage =
   | ActionsMessage
   | EventMessage
   | ScoreMessage
+  | DevicesMessage
   | QuizQuestionMessage
   | QuizTruthMessage
   | ErrorMessage

@@ -21,6 +21,8 @@ export const SCHEMA: Schema = {
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
     screw_place: { values: ["inside", "distal", "proximal", "side"] },
+    device_health: { values: ["closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"] },
+    calibration_step: { values: ["begin", "take", "cancel"] },
     side: { values: ["left", "right"] },
     grade: { values: ["good", "acceptable", "fail", "not_measured"] },
     outcome: { values: ["unfinished", "finished"] },
@@ -167,6 +169,30 @@ export const SCHEMA: Schema = {
       radial_deviation_deg: {"type": "range"},
       pronation_deg: {"type": "range"},
       traction_n: {"type": "range"},
+    } },
+    found_device: { fields: {
+      id: {"type": "string", "max_length": 256},
+      name: {"type": "string", "max_length": 128},
+    } },
+    hand_device: { fields: {
+      id: {"type": "string", "max_length": 256},
+      name: {"type": "string", "max_length": 128},
+      health: {"type": "device_health"},
+      words: {"type": "string", "max_length": 512},
+      can: {"type": "string", "max_length": 128},
+      rate_hz: {"type": "number", "min": 0, "max": 100000},
+      late_p99_us: {"type": "number", "min": 0, "max": 1000000000},
+      late_p999_us: {"type": "number", "min": 0, "max": 1000000000},
+      missed: {"type": "integer", "min": 0, "max": 9007199254740991},
+      round_trip_us: {"type": "number", "min": 0, "max": 1000000000},
+      real_time: {"type": "boolean"},
+      force_n: {"type": "number", "min": 0, "max": 1000},
+      most_force_n: {"type": "number", "min": 0, "max": 1000},
+      position_mm: {"type": "vec3", "limit": 10000},
+      is_testing: {"type": "boolean"},
+      may_calibrate: {"type": "boolean"},
+      calibration: {"type": "string", "max_length": 256},
+      calibration_note: {"type": "string", "max_length": 512},
     } },
     hand_state: { fields: {
       item: {"type": "integer", "min": -1, "max": 254},
@@ -364,6 +390,21 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
   pedal: {
     down: {"type": "boolean"},
   },
+  find_devices: {},
+  use_device: {
+    hand: {"type": "integer", "min": 0, "max": 1},
+    device: {"type": "string", "max_length": 256},
+    right: {"type": "vec3", "limit": 2, "min_length": 0.5},
+    up: {"type": "vec3", "limit": 2, "min_length": 0.5},
+  },
+  test_wall: {
+    hand: {"type": "integer", "min": 0, "max": 1},
+    on: {"type": "boolean"},
+  },
+  calibrate: {
+    hand: {"type": "integer", "min": 0, "max": 1},
+    step: {"type": "calibration_step"},
+  },
   quiz_begin: {
     seed: {"type": "integer", "min": 0, "max": 4294967295},
   },
@@ -440,6 +481,10 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     attempt_id: {"type": "integer", "min": 0, "max": 9007199254740991},
     overall: {"type": "number", "min": 0, "max": 100},
     report: {"type": "score_report"},
+  },
+  devices: {
+    found: {"type": "array", "of": {"type": "found_device"}, "max_items": 64},
+    hands: {"type": "array", "of": {"type": "hand_device"}, "length": 2},
   },
   quiz_question: {
     number: {"type": "integer", "min": 1, "max": 4294967295},

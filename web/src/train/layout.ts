@@ -29,6 +29,7 @@ export function layOut(app: HTMLElement, panels: Panels): HTMLElement {
     ),
     panels.start.element,
     panels.help.element,
+    panels.devices.element,
     panels.tray.element,
     panels.finishQuestion.element,
     panels.declineQuestion.element,

@@ -3,6 +3,7 @@
 //
 // All bars, lists and dialogs of the room. They show, and pass on what was asked for; they decide nothing.
 import { CArmPanel, type CArmHandlers } from "../c_arm";
+import { DevicesDialog, type DeviceHandlers } from "../devices";
 import { make } from "../dom";
 import { FirstTouchCard } from "../first_touch";
 import { HelpOverlay } from "../help_overlay";
@@ -32,6 +33,9 @@ export interface Wishes {
   readonly cArm: CArmHandlers;
   /** The hand, by what stands under the theatre. */
   readonly drive: DriveHandlers;
+  /** What the hands hold. */
+  readonly devices: DeviceHandlers;
+  showDevices(): void;
   useHand(hand: HandIndex): void;
   take(instrument: Instrument, hand: HandIndex): void;
   moveWrist(wish: WristPose): void;
@@ -58,6 +62,7 @@ export interface Panels {
   readonly notice: Notice;
   readonly start: StartDialog;
   readonly help: HelpOverlay;
+  readonly devices: DevicesDialog;
   readonly firstTouch: FirstTouchCard;
   readonly tray: TrayDialog;
   readonly wrist: WristPanel;
@@ -110,6 +115,9 @@ export function makePanels(
       sound: act("sound"),
       help: act("help"),
       fullScreen: act("full_screen"),
+      devices: () => {
+        wishes.showDevices();
+      },
     }),
     steps: new StepPanel(firstTouch.element, wrist.element),
     wrist,
@@ -162,6 +170,7 @@ export function makePanels(
     help: new HelpOverlay(() => {
       firstTouch.begin();
     }),
+    devices: new DevicesDialog(wishes.devices),
     firstTouch,
     tray: new TrayDialog((instrument, hand) => {
       wishes.take(instrument, hand);

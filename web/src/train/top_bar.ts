@@ -3,13 +3,15 @@
 //
 // What runs, on whom, how well: one quiet line.
 import { button, make, setText } from "../dom";
-import type { CaseDescription, SnapshotMessage } from "../protocol";
+import { heldText, isWell } from "../devices";
+import type { CaseDescription, HandDevice, SnapshotMessage } from "../protocol";
 
 export interface TopBarHandlers {
   pause(): void;
   sound(): void;
   help(): void;
   fullScreen(): void;
+  devices(): void;
 }
 
 function tickTimeText(us: number): string {
@@ -21,7 +23,9 @@ export class TopBar {
   private readonly rate = make("span", {}, "– Hz");
   private readonly p99 = make("span", {}, "p99 –");
   private readonly late = make("span", {}, "late –");
-  private readonly device = make("span", {}, "mouse and keys");
+  private readonly device: HTMLButtonElement;
+  private page = "mouse and keys";
+  private hands: readonly HandDevice[] = [];
   private readonly link = make("span.link-state", { role: "status" });
   private readonly procedure = make("span.secondary.procedure");
   private readonly mode = make("span.badge.mode", { hidden: "" });
@@ -35,11 +39,13 @@ export class TopBar {
     setText(this.procedure, `${description.side} wrist`);
     this.pauseButton = button("Pause", "{KeyP}", handlers.pause, ".quiet");
     this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet.sound");
+    this.device = button("mouse and keys", "", handlers.devices, ".quiet.device-held");
+    this.device.title = "What the hands hold: choose a device, feel a wall, calibrate";
     const patient = make("span.patient", {}, description.pseudonym);
     if (description.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
-    const timing = make("span.timing", {}, this.rate, this.p99, this.late, this.device);
+    const timing = make("span.timing", {}, this.rate, this.p99, this.late);
     timing.title =
-      "Ticks of the simulation per second; time that 99 of 100 ticks stay under; ticks that came late; input";
+      "Ticks of the simulation per second; time that 99 of 100 ticks stay under; ticks that came late";
     this.element = make(
       "header.top-bar",
       {},
@@ -49,6 +55,7 @@ export class TopBar {
       this.mode,
       this.link,
       timing,
+      this.device,
       this.pauseButton,
       this.soundButton,
       button("Help", "?", handlers.help, ".quiet"),
@@ -58,7 +65,16 @@ export class TopBar {
 
   /** With what one operates. */
   showGamepad(on: boolean): void {
-    setText(this.device, on ? "gamepad" : "mouse and keys");
+    this.page = on ? "gamepad" : "mouse and keys";
+    this.showDevices(this.hands);
+  }
+
+  /** What the hands hold, and how it is. */
+  showDevices(hands: readonly HandDevice[]): void {
+    this.hands = hands;
+    setText(this.device, heldText(hands, this.page));
+    const isLost = hands.some((one) => one.id !== "" && !isWell(one));
+    this.device.classList.toggle("lost", isLost);
   }
 
   showTiming(s: SnapshotMessage): void {

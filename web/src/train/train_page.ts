@@ -11,6 +11,7 @@ import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
 import { Connection } from "./connection";
+import { DeviceHands } from "./device_hands";
 import { startFrameLoop } from "./frame_loop";
 import { Hand } from "./hand";
 import { HandPointer } from "./hand_pointer";
@@ -35,6 +36,7 @@ export class TrainPage {
   private readonly pointer: HandPointer;
   private readonly sound: Sound;
   private readonly gamepad: GamepadHand;
+  private readonly deviceHands: DeviceHands;
   private readonly part: TakingPart;
   private readonly actions: Actions;
   private readonly connection: Connection;
@@ -73,8 +75,14 @@ export class TrainPage {
     this.sound = this.makeSound();
     this.actions = this.makeActions();
     this.gamepad = new GamepadHand(padRoom(this.panels, this.hand, this.actions, this.part));
+    this.deviceHands = new DeviceHands(this.theatre, (message) => this.connection.tell(message));
     this.panels.help.onOpen = (isOpen) => {
       this.part.showHelp(isOpen);
+    };
+    this.panels.devices.onOpen = (isOpen) => {
+      this.part.showHelp(isOpen);
+      // Else Space would press the button that opened it, instead of driving.
+      if (!isOpen && this.part.operates) this.theatre.canvas.focus({ preventScroll: true });
     };
     this.listenToKeys();
     followLayout(this.abort.signal);
@@ -182,6 +190,23 @@ export class TrainPage {
         coarse: () => {
           this.hand.toggleCoarse();
         },
+      },
+      devices: {
+        find: () => {
+          this.connection.tell({ type: "find_devices" });
+        },
+        use: (hand, id) => {
+          this.deviceHands.use(hand, id);
+        },
+        wall: (hand, on) => {
+          this.connection.tell({ type: "test_wall", hand, on });
+        },
+        calibrate: (hand, step) => {
+          this.connection.tell({ type: "calibrate", hand, step });
+        },
+      },
+      showDevices: () => {
+        this.panels.devices.open();
       },
       useHand: (hand) => {
         this.actions.useHand(hand);
@@ -332,6 +357,7 @@ export class TrainPage {
       },
       readings: () => {
         this.sound.watch(performance.now());
+        this.deviceHands.watch(this.panels.devices.hands, performance.now());
         this.seen.showReadings(this.hand, this.actions.closedWays(), this.part.operates);
       },
     });
@@ -360,6 +386,10 @@ export class TrainPage {
         break;
       case "actions":
         this.seen.takeActions(message);
+        break;
+      case "devices":
+        this.panels.devices.show(message);
+        this.panels.top.showDevices(message.hands);
         break;
       case "event":
         steps.addLog(message.tick, message.text);

@@ -1,0 +1,77 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/calibration_desk.hpp"
+
+#include "core/error.hpp"
+
+namespace carpus::devices {
+namespace {
+
+constexpr std::chrono::milliseconds kMostTime{1500};
+
+firmware::Drive drive_of(const LoopState& state) {
+  if (!state.device.has_unit) {
+    throw InvalidInput("This device is not calibrated here; only an arm that answers is.");
+  }
+  return state.able.stop ? firmware::Drive::Stop : firmware::Drive::Motor;
+}
+
+std::optional<ArmCalibration> known(const std::filesystem::path& folder,
+                                    firmware::Drive drive,
+                                    std::uint32_t unit) {
+  std::vector<std::string> problems;
+  for (ArmCalibration& one : load_calibrations(folder, problems)) {
+    if (one.drive == drive && one.unit == unit) return std::move(one);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CalibrationDesk::CalibrationDesk(HostLoop& loop,
+                                 const LoopState& state,
+                                 std::filesystem::path folder)
+    : loop_(loop),
+      folder_(std::move(folder)),
+      calibrator_(drive_of(state),
+                  state.device.unit,
+                  known(folder_, drive_of(state), state.device.unit)) {}
+
+std::string CalibrationDesk::instruction() const {
+  return std::to_string(calibrator_.step() + 1) + " of " +
+         std::to_string(calibrator_.step_count()) + ": " + calibrator_.instruction();
+}
+
+void CalibrationDesk::take() {
+  if (is_measuring_) return;
+  while (loop_.next_raw()) {
+  }
+  samples_.clear();
+  is_measuring_ = true;
+  began_ = std::chrono::steady_clock::now();
+  note_ = "Measuring, keep still.";
+}
+
+bool CalibrationDesk::look(const std::string& now_utc) {
+  if (!is_measuring_) return false;
+  while (const auto sample = loop_.next_raw()) samples_.push_back(*sample);
+  const bool is_late = std::chrono::steady_clock::now() - began_ > kMostTime;
+  if (samples_.size() < kSamplesOfStep && !is_late) return false;
+  is_measuring_ = false;
+  if (const auto problem = calibrator_.take(samples_)) {
+    note_ = *problem;
+    return false;
+  }
+  note_ = "Measured.";
+  if (!calibrator_.is_complete()) return false;
+  const Result<ArmCalibration> made = calibrator_.finish(now_utc);
+  if (!made) {
+    note_ = made.error();
+    return false;
+  }
+  store(*made, folder_);
+  loop_.reopen();
+  return true;
+}
+
+}  // namespace carpus::devices

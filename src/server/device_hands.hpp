@@ -1,0 +1,74 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Devices as hands: where a device moves, the instrument's tip is wished, on the same input that a
+// page's hand has; what the tip meets goes back as planes in the device's frame. What the page says
+// of that hand's shaft, push and driver stays. In the simulation's thread.
+#pragma once
+
+#include <array>
+
+#include "devices/host_loop.hpp"
+#include "server/tick_guest.hpp"
+
+namespace carpus::server {
+
+/// How a device's axes lie in the patient: as on the screen of whoever holds it.
+struct DeviceView {
+  Vec3 right_in_patient{1, 0, 0};
+  Vec3 up_in_patient{0, 0, 1};
+  bool is_used = false;        ///< the hand is a device's
+  bool follows_turn = false;   ///< the shaft too
+  std::uint32_t revision = 0;  ///< raised with each change: the tip stays, whatever else turns
+};
+
+class DeviceHands final : public TickGuest {
+ public:
+  /// For the loops of the devices; it lives as long as this.
+  [[nodiscard]] devices::DeviceExchange& exchange(std::size_t hand) noexcept {
+    return hands_[hand].exchange;
+  }
+  /// By the network's thread.
+  void set_view(std::size_t hand, const DeviceView& view) noexcept {
+    hands_[hand].views.publish(view);
+  }
+
+  void before(simulation::Input& input, const simulation::Snapshot& last) noexcept override;
+  void after(const simulation::Snapshot& now) noexcept override;
+
+  /// As they would be on some clock: for tests.
+  void before_at(devices::Nanoseconds now,
+                 simulation::Input& input,
+                 const simulation::Snapshot& last) noexcept;
+  void after_at(devices::Nanoseconds now, const simulation::Snapshot& snapshot) noexcept;
+
+ private:
+  struct Hand {
+    devices::DeviceExchange exchange;
+    LatestValue<DeviceView> views;
+    // The simulation's thread's own:
+    DeviceView view;
+    devices::LoopState state;
+    bool is_engaged = false;  ///< its moves count from the anchors
+    std::uint8_t item = simulation::kNoItem;
+    Vec3 device_anchor_mm;
+    Vec3 tip_anchor_mm;
+    Vec3 tip_in_patient;  ///< wished in the last tick
+    Vec3 shaft_in_patient{0, 0, 1};
+    simulation::Driver driver = simulation::Driver::Off;
+    devices::Nanoseconds ticked_ns = 0;
+  };
+
+  void guide(Hand& hand,
+             devices::Nanoseconds now,
+             simulation::HandInput& input,
+             const simulation::Snapshot& last,
+             std::size_t index) noexcept;
+  static void engage(Hand& hand,
+                     const simulation::HandInput& input,
+                     const simulation::Snapshot& last) noexcept;
+
+  std::array<Hand, simulation::kHands> hands_;
+};
+
+}  // namespace carpus::server
