@@ -108,8 +108,9 @@ protocol::PictureTruth ViewDebrief::truth_of(const TakenShot& shot) const {
     const auto bone_from_patient = now.patient_from_bone[item.body].inverse();
     const Vec3 tip = (bone_from_patient * Point<frame::Patient>{item.tip_in_patient}).v;
     const double out_mm = scaphoid_.signed_distance(tip);
-    // Before it is in, the tip is out where it came from.
-    const bool is_through = item.depth_mm > 5.0 && out_mm > view_trainer::kOutMm;
+    // Before it is in, the tip is out where it came from; out of the skin it was drawn through.
+    const bool is_through =
+        item.depth_mm > 5.0 && out_mm > view_trainer::kOutMm && !item.far_end_is_out;
     if (!is_through || out_mm < truth.wire_out_mm.value_or(0.0)) continue;
     const auto seen = fluoroscopy::project_point(posed.c_arm, {item.tip_in_patient});
     if (!seen) continue;

@@ -87,4 +87,9 @@ export async function debriefByView(page, station, id) {
     await page.locator(".outline-bone").first().waitFor({ state: "attached" });
     await expectAccessible(page, 10);
   });
+  await check(page, "the report prints on two pages", async () => {
+    const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
+    const pages = pdf.match(/\/Type\s*\/Page[^s]/g).length;
+    expect(pages === 2, `${pages} pages`);
+  });
 }

@@ -5,6 +5,7 @@
 import { make } from "../dom";
 import { tickText } from "../operation";
 import type { LoggedEvent } from "../protocol";
+import { runsOf } from "./event_runs_model";
 
 /** @param events  null where the log cannot be read */
 export function eventList(events: readonly LoggedEvent[] | null): HTMLElement {
@@ -21,7 +22,14 @@ export function eventList(events: readonly LoggedEvent[] | null): HTMLElement {
       : make(
           "ol",
           {},
-          ...events.map(({ tick, text }) => make("li", {}, make("time", {}, tickText(tick)), text)),
+          ...runsOf(events).map(({ tick, text, times }) =>
+            make(
+              "li",
+              {},
+              make("time", {}, tickText(tick)),
+              times === 1 ? text : `${text}, ${times} times`,
+            ),
+          ),
         ),
   );
 }

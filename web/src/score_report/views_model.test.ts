@@ -25,7 +25,7 @@ describe("what a view shows of a fault", () => {
   it("is told with the place and the best view", () => {
     const one = fault(seen("pa", 0, 0.1), seen("45p", 0, 1.1), seen("", 4, -1), seen("", 5, 0.2));
     expect(faultText(one)).toBe(
-      "The screw is 1.2 mm out at its distal end, towards the trapezium.",
+      "The rim of the screw is 1.2 mm out at its distal end, towards the trapezium.",
     );
     expect(verdictText(one)).toBe(
       "None of the 2 pictures taken of it showed it. 45P shows it best: 1.1 mm beyond the bone.",

@@ -14,7 +14,9 @@ const PLACES: Readonly<Record<ScrewPlace, string>> = {
 /** "The screw is 1.2 mm out at its distal end, towards the trapezium." */
 export function faultText(fault: PlacementFault): string {
   const towards = fault.towards === "" ? "" : `, towards the ${fault.towards}`;
-  return `The screw is ${fault.depth_mm.toFixed(1)} mm out ${PLACES[fault.place]}${towards}.`;
+  // The score looks at the middle of its rounded ends, an X-ray shows their rim.
+  const part = fault.place === "side" ? "The screw" : "The rim of the screw";
+  return `${part} is ${fault.depth_mm.toFixed(1)} mm out ${PLACES[fault.place]}${towards}.`;
 }
 
 export function isTaken(seen: FaultSeen): boolean {
