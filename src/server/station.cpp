@@ -199,7 +199,7 @@ void Station::on_message(const protocol::Pause& pause) {
   if (!pause.on) {
     // What was unplugged must be back, or the hand the page's.
     if (const std::string why = devices_->why_not_go_on(); !why.empty()) {
-      return refuse(why, "Plug it in again, or give this hand to mouse and keys (Devices).");
+      return refuse(why + ".", "Plug it in again, or give this hand to mouse and keys (Devices).");
     }
     paused_by_device_ = false;
     devices_->end_trials();

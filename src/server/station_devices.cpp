@@ -42,10 +42,10 @@ void Station::watch_devices() {
     if (time_passes()) {
       paused_by_device_ = true;
       apply_pause();
-      refuse(*lost + ": the operation is paused, and nothing of it is lost",
+      refuse(*lost + ": the operation is paused, and nothing of it is lost.",
              "Plug it in again, then resume; or give this hand to mouse and keys (Devices).");
     } else {
-      refuse(*lost, "Plug it in again; it goes on by itself.");
+      refuse(*lost + ".", "Plug it in again; it goes on by itself.");
     }
   }
   if (operator_ && devices_->is_due()) send(devices_->message());
