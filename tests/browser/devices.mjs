@@ -52,9 +52,9 @@ export async function holdsDevices(browser, station) {
     // itself, and may be at its lowest then.
     await wall.click();
     await pressed(true);
-    const until = Date.now() + 60_000;
+    const until = Date.now() + 150_000;
     for (let look = 1; !(await felt()); ++look) {
-      expect(Date.now() < until, "nothing was felt within a minute");
+      expect(Date.now() < until, "nothing was felt");
       await page.waitForTimeout(50);
       if (look % 60 !== 0) continue;
       await wall.click();
@@ -90,7 +90,8 @@ export async function holdsDevices(browser, station) {
         "time that stands still",
       );
       await page.keyboard.up("Space");
-      await page.locator(".notice", { hasText: "unplugged" }).waitFor();
+      // Where the machine is slow to close its line, it is silent first.
+      await page.locator(".notice", { hasText: /unplugged|silent/ }).waitFor();
       await page.waitForTimeout(500);
       const later = await operator.snapshot();
       expect(later.tick === paused.tick, "time passed on");
@@ -98,10 +99,7 @@ export async function holdsDevices(browser, station) {
         later.items.length === paused.items.length,
         "an instrument is lost",
       );
-      expect(
-        (await held.textContent()).includes("unplugged"),
-        "the bar does not say so",
-      );
+      await held.filter({ hasText: "unplugged" }).waitFor();
       if (process.env.CARPUS_PICTURE)
         await page.screenshot({
           path: process.env.CARPUS_PICTURE.replace(".png", "_unplugged.png"),
