@@ -91,7 +91,7 @@ export async function holdsDevices(browser, station) {
       );
       await page.keyboard.up("Space");
       // Where the machine is slow to close its line, it is silent first.
-      await page.locator(".notice", { hasText: /unplugged|silent/ }).waitFor();
+      await page.locator(".paused", { hasText: /unplugged|silent/ }).waitFor();
       await page.waitForTimeout(500);
       const later = await operator.snapshot();
       expect(later.tick === paused.tick, "time passed on");

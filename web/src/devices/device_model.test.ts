@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { HandDevice, Vec3 } from "../protocol";
-import { figures, forceText, heldText, isWell, timeText } from "./device_model";
+import { figures, forceText, heldText, isWell, lostText, timeText } from "./device_model";
 import { DeviceView } from "./device_view_model";
 
 const PAGE: HandDevice = {
@@ -57,6 +57,8 @@ describe("what is said of a device", () => {
     expect(heldText([PAGE, PAGE], "mouse and keys")).toBe("mouse and keys");
     const gone: HandDevice = { ...ARM, health: "gone", words: "unplugged. Plug it in." };
     expect(heldText([gone, PAGE], "mouse and keys")).toBe("unplugged: Arm");
+    expect(lostText([gone, PAGE])).toBe("unplugged: Arm");
+    expect(lostText([PAGE, PAGE])).toBe("");
     expect(figures(gone)).toEqual([]);
     expect(isWell(gone)).toBe(false);
     expect(isWell({ ...ARM, health: "holding_back" })).toBe(true);

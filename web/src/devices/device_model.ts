@@ -39,6 +39,14 @@ export function heldText(hands: readonly HandDevice[], page: string): string {
   return held.map((one) => `${one.words.split(/[.:]/)[0] ?? ""}: ${one.name}`).join(", ");
 }
 
+/** What keeps time still: the devices that a hand holds and that cannot be felt; empty where all can. */
+export function lostText(hands: readonly HandDevice[]): string {
+  return heldText(
+    hands.filter((one) => one.id !== "" && !isWell(one)),
+    "",
+  );
+}
+
 /** Whether it can be felt now. */
 export function isWell(device: HandDevice): boolean {
   return device.health === "good" || device.health === "holding_back";

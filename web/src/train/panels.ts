@@ -74,6 +74,8 @@ export interface Panels {
   readonly frozen: HTMLElement;
   /** Over the scene while time stands still. */
   readonly pausedSign: HTMLElement;
+  /** In it: what keeps time still, where it is not a wish. */
+  readonly pausedWhy: HTMLElement;
 }
 
 export function makePanels(
@@ -109,6 +111,7 @@ export function makePanels(
   const firstTouch = new FirstTouchCard(() => {
     wishes.restart();
   });
+  const pausedWhy = make("span.paused-why");
   const panels: Panels = {
     top: new TopBar(description, {
       pause: act("pause"),
@@ -204,10 +207,12 @@ export function makePanels(
       "Let it go on",
     ),
     frozen: make("p.frozen", { role: "alert" }),
+    pausedWhy,
     pausedSign: make(
       "p.paused",
       { role: "status" },
       make("strong", {}, "Paused"),
+      pausedWhy,
       "time stands still; ",
       keyCap("{KeyP}"),
       " goes on",

@@ -3,7 +3,7 @@
 //
 // What runs, on whom, how well: one quiet line.
 import { button, make, setText } from "../dom";
-import { heldText, isWell } from "../devices";
+import { heldText, lostText } from "../devices";
 import type { CaseDescription, HandDevice, SnapshotMessage } from "../protocol";
 
 export interface TopBarHandlers {
@@ -73,8 +73,7 @@ export class TopBar {
   showDevices(hands: readonly HandDevice[]): void {
     this.hands = hands;
     setText(this.device, heldText(hands, this.page));
-    const isLost = hands.some((one) => one.id !== "" && !isWell(one));
-    this.device.classList.toggle("lost", isLost);
+    this.device.classList.toggle("lost", lostText(hands) !== "");
   }
 
   showTiming(s: SnapshotMessage): void {

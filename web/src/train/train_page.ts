@@ -3,6 +3,8 @@
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
 import { fetchCases } from "../case_data";
+import { lostText } from "../devices";
+import { setText } from "../dom";
 import { faceNames, makeFrameMap } from "../frames";
 import { GamepadHand } from "../gamepad";
 import { followLayout } from "../key_caps";
@@ -390,6 +392,7 @@ export class TrainPage {
       case "devices":
         this.panels.devices.show(message);
         this.panels.top.showDevices(message.hands);
+        setText(this.panels.pausedWhy, lostText(message.hands));
         break;
       case "event":
         steps.addLog(message.tick, message.text);

@@ -126,7 +126,8 @@ export class WhatIsSeen {
     arm.takeStand(s.c_arm);
     arm.takeWrist(s.wrist);
     arm.showCount(s.shots, s.dose_cgy_cm2);
-    const stuck = hand.driver === "forward" ? whyStuck(s, hand.active, hand.thrust) : undefined;
+    const stuck =
+      hand.driver === "forward" && !s.paused ? whyStuck(s, hand.active, hand.thrust) : undefined;
     if (stuck !== undefined) notice.say(stuck);
   }
 
