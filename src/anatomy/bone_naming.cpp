@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "anatomy/bone_fit.hpp"
 #include "anatomy/detail/naming_search.hpp"
-#include "anatomy/radius_fit.hpp"
 #include "anatomy/region_shape.hpp"
 
 namespace carpus::anatomy {
@@ -74,8 +74,8 @@ void fit_frame(const Account& account, BoneNaming& result) {
   Similarity patient_from_model = account.naming.patient_from_model;
   const std::size_t radius = static_cast<std::size_t>(BoneId::Radius) - 1;
   if (const auto body = account.naming.body_of_bone[radius]) {
-    const RadiusFit fit =
-        fit_radius(account.bodies[*body].rim, account.naming.side, patient_from_model);
+    const BoneFit fit = fit_bone(BoneId::Radius, account.bodies[*body].rim, account.naming.side,
+                                 patient_from_model);
     patient_from_model = fit.patient_from_model;
     result.radius_misfit_mm = fit.rms_mm;
   }

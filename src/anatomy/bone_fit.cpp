@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "anatomy/radius_fit.hpp"
+#include "anatomy/bone_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -67,14 +67,14 @@ Vec3 model_from_patient(const Similarity& t, const Vec3& p) {
 /// Unknowns: a small turn of the model point (3), a shift in model mm (3), relative growth (1):
 /// m' = m + turn x m + shift + growth m.
 NormalEquations linearise(const WristModel& model,
+                          const ModelBone& bone,
                           std::span<const Vec3> border,
                           const Similarity& t) {
-  const ModelBone& radius = model.bone(BoneId::Radius);
   NormalEquations e;
   for (const Vec3& p : border) {
     const Vec3 m = model_from_patient(t, p);
-    if (radius.cut_plane && radius.cut_plane->signed_distance(m) > -kCutMarginMm) continue;
-    const auto f = [&](const Vec3& q) { return model.uncut_value(BoneId::Radius, q); };
+    if (bone.cut_plane && bone.cut_plane->signed_distance(m) > -kCutMarginMm) continue;
+    const auto f = [&](const Vec3& q) { return model.uncut_value(bone.bone, q); };
     const double value = f(m);
     const Vec3 g{(f(m + Vec3{kProbeMm, 0, 0}) - f(m - Vec3{kProbeMm, 0, 0})) / (2 * kProbeMm),
                  (f(m + Vec3{0, kProbeMm, 0}) - f(m - Vec3{0, kProbeMm, 0})) / (2 * kProbeMm),
@@ -112,11 +112,11 @@ Similarity moved(const Similarity& t, const Row& step) {
 
 }  // namespace
 
-RadiusFit fit_radius(std::span<const Vec3> border, Side side, const Similarity& start) {
+BoneFit fit_bone(BoneId bone, std::span<const Vec3> border, Side side, const Similarity& start) {
   const WristModel& model = WristModel::generic(side);
-  RadiusFit fit{start, 0, 0};
+  BoneFit fit{start, 0, 0};
   for (int i = 0; i < kIterations; ++i) {
-    const NormalEquations e = linearise(model, border, fit.patient_from_model);
+    const NormalEquations e = linearise(model, model.bone(bone), border, fit.patient_from_model);
     fit.points_used = e.count;
     fit.rms_mm = e.count > 0 ? fit.patient_from_model.scale *
                                    std::sqrt(e.squares / static_cast<double>(e.count))
