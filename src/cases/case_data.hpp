@@ -13,6 +13,7 @@
 #include "anatomy/bone_id.hpp"
 #include "cases/hand_motion.hpp"
 #include "cases/lesson.hpp"
+#include "cases/structures.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/mesh_in.hpp"
@@ -80,6 +81,8 @@ struct CaseData {
   /// Where the bones are for any way the hand is held; empty in a case of an older program until
   /// ensure_hand_motion (make_hand_motion.hpp).
   HandMotion hand_motion;
+  /// Tendons, arteries and nerves, generated; none in a case of an older program.
+  std::vector<Structure> structures;
 };
 
 /// The bone or part with this name, or nullptr.

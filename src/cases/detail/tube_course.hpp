@@ -1,0 +1,34 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A tube's middle line between its given points: smooth, out of bone, under the skin, apart from
+// other tubes.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cases/detail/carried_landmarks.hpp"
+#include "geometry/vec3.hpp"
+
+namespace carpus::cases::detail {
+
+/// A tube while it is laid.
+struct LaidTube {
+  double radius_mm = 0;
+  std::vector<Vec3> drawn;  ///< the curve through the given points, about kCourseStepMm apart
+  std::vector<Vec3> line;   ///< where its points are pushed to
+  std::vector<std::size_t> anchored;  ///< those that were given
+};
+
+/// Between neighbouring points of a line [mm].
+inline constexpr double kCourseStepMm = 1.5;
+
+/// A curve through the given points [catmull1974class].
+[[nodiscard]] LaidTube through(const std::vector<Vec3>& given, double radius_mm);
+
+/// Lets all tubes settle: each as it was drawn but for what pushes it, which it spreads along its
+/// length; none in bone, in another, or outside the skin as far as there is a skin.
+void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces);
+
+}  // namespace carpus::cases::detail
