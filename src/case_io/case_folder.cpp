@@ -14,6 +14,7 @@
 #include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/hull_from_mesh.hpp"
 #include "case_io/detail/regular_file.hpp"
+#include "case_io/detail/structures_json.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "case_io/glb.hpp"
 #include "case_io/lesson_file.hpp"
@@ -149,6 +150,9 @@ void write_case(const cases::CaseData& data,
   if (!data.hand_motion.is_empty()) {
     write_text(out.staging() / kHandMotionFile, hand_motion_text(data.hand_motion));
   }
+  if (!data.structures.empty()) {
+    write_text(out.staging() / kStructuresFile, structures_text(data.structures));
+  }
   write_text(out.staging() / "bones.glb", make_case_glb(data));
   write_volume<std::int16_t>(out.staging() / "ct.nii.gz", data.ct.view());
   progress("saving", ++done / steps);
@@ -173,6 +177,9 @@ cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
   }
   if (const fs::path table = folder / kHandMotionFile; fs::exists(table)) {
     data.hand_motion = parse_hand_motion(read_text(table), table);
+  }
+  if (const fs::path tubes = folder / kStructuresFile; fs::exists(tubes)) {
+    data.structures = parse_structures(read_text(tubes), tubes);
   }
   data.ct = read_grid<std::int16_t>(folder, "ct.nii.gz", header);
   progress("loading", ++done / steps);

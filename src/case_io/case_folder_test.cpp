@@ -125,6 +125,52 @@ TEST_F(CaseFolder, GivesBackWhatWasWrittenBitForBit) {
   }
 }
 
+TEST_F(CaseFolder, GivesBackStructuresBitForBitAndSaysThatTheyWereGenerated) {
+  cases::CaseData data = small_case();
+  data.structures = test::small_structures();
+  write_case(data, target());
+  EXPECT_EQ(read_case(target()).structures, data.structures);
+  for (const char* name : {"case.json", "structures.json"}) {
+    std::ifstream in(target() / name);
+    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    EXPECT_THAT(text, HasSubstr("\"generated\":")) << name;
+  }
+}
+
+TEST_F(CaseFolder, OfAnOlderProgramHasNoStructures) {
+  write_case(small_case(), target());
+  EXPECT_FALSE(fs::exists(target() / "structures.json"));
+  EXPECT_TRUE(read_case(target()).structures.empty());
+}
+
+TEST_F(CaseFolder, WithDamagedStructuresIsRefusedByThatFilesName) {
+  cases::CaseData data = small_case();
+  data.structures = test::small_structures();
+  write_case(data, target());
+  const fs::path file = target() / "structures.json";
+  std::ifstream in(file);
+  const std::string whole{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto refused_with = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(file) << text;
+    EXPECT_THAT(error_of<IoError>(target()), HasSubstr("structures.json")) << to;
+  };
+  refused_with("carpus structures", "something else");
+  refused_with("\"tendon\"", "\"bone\"");
+  refused_with("\"ulna\"", "\"scaphoid\"");
+  refused_with("0.75]", "1.75]");
+  refused_with("[1.0,2.0,3.0,0.5],", "");
+  refused_with("[-4.0,", "[null,");
+  refused_with(whole.substr(whole.size() / 2), "");
+  std::string newer = whole;
+  newer.replace(newer.find("\"schema_version\":1"), 18, "\"schema_version\":2");
+  std::ofstream(file) << newer;
+  EXPECT_THAT(error_of<SchemaError>(target()), HasSubstr("structures.json"));
+}
+
 TEST_F(CaseFolder, OfAnOlderProgramHasNoTableOfHandMotion) {
   cases::CaseData data = small_case();
   data.hand_motion = {};

@@ -7,12 +7,15 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace carpus::case_io {
 namespace {
@@ -103,6 +106,73 @@ tinygltf::Node node_for(const NamedMesh& named, int mesh) {
   return node;
 }
 
+/// A tube's surface: a ring of corners about each point of its line, closed by a corner at each
+/// end.
+struct TubeSurface {
+  TriangleMesh mesh;
+  std::vector<float> hand_share;  ///< by vertex
+};
+
+TubeSurface surface_of(const cases::Structure& s) {
+  constexpr std::uint32_t kCorners = 10;
+  TubeSurface tube;
+  const std::size_t count = s.course.size();
+  const auto add = [&](const Vec3& at, double share) {
+    tube.mesh.vertices.push_back(at);
+    tube.hand_share.push_back(static_cast<float>(share));
+  };
+  Vec3 side;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3& before = s.course[i > 0 ? i - 1 : 0].at;
+    const Vec3& after = s.course[std::min(i + 1, count - 1)].at;
+    const Vec3 along = normalized_or(after - before, {0, 0, 1});
+    // The ring is carried on from the one before, so that the surface does not twist.
+    side = i == 0 ? any_perpendicular(along)
+                  : normalized_or(side - along * dot(side, along), any_perpendicular(along));
+    const Vec3 up = cross(along, side);
+    for (std::uint32_t k = 0; k < kCorners; ++k) {
+      const double angle = 2 * kPi * k / kCorners;
+      add(s.course[i].at + (side * std::cos(angle) + up * std::sin(angle)) * s.radius_mm,
+          s.course[i].hand_share);
+    }
+  }
+  const auto rings = static_cast<std::uint32_t>(count);
+  const std::uint32_t first = rings * kCorners;
+  add(s.course.front().at, s.course.front().hand_share);
+  add(s.course.back().at, s.course.back().hand_share);
+  for (std::uint32_t k = 0; k < kCorners; ++k) {
+    const std::uint32_t next = (k + 1) % kCorners;
+    for (std::uint32_t i = 0; i + 1 < rings; ++i) {
+      const std::uint32_t a = i * kCorners;
+      const std::uint32_t b = a + kCorners;
+      tube.mesh.facets.push_back({a + k, a + next, b + next});
+      tube.mesh.facets.push_back({a + k, b + next, b + k});
+    }
+    tube.mesh.facets.push_back({first, next, k});
+    const std::uint32_t last = (rings - 1) * kCorners;
+    tube.mesh.facets.push_back({first + 1, last + k, last + next});
+  }
+  return tube;
+}
+
+tinygltf::Node add_tube(tinygltf::Model& model, const cases::Structure& s) {
+  const TubeSurface tube = surface_of(s);
+  const int mesh = add_mesh(model, {s.id, &tube.mesh, {}});
+  model.meshes.back().primitives.front().attributes["_HAND_SHARE"] =
+      add_accessor(model, tube.hand_share, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR,
+                   TINYGLTF_TARGET_ARRAY_BUFFER);
+  tinygltf::Node node;
+  node.name = s.id;
+  node.mesh = mesh;
+  tinygltf::Value::Object extras;
+  extras["structure"] = tinygltf::Value(std::string(anatomy::name_of(s.kind)));
+  extras["title"] = tinygltf::Value(s.name);
+  extras["forearm"] = tinygltf::Value(std::string(name_of(s.forearm)));
+  extras["generated"] = tinygltf::Value(true);
+  node.extras = tinygltf::Value(extras);
+  return node;
+}
+
 }  // namespace
 
 std::vector<Vec3> smooth_normals(const TriangleMesh& mesh) {
@@ -116,7 +186,7 @@ std::vector<Vec3> smooth_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-std::string make_glb(std::span<const NamedMesh> meshes) {
+std::string make_glb(std::span<const NamedMesh> meshes, std::span<const NamedTube> tubes) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "carpus";
@@ -127,6 +197,12 @@ std::string make_glb(std::span<const NamedMesh> meshes) {
     const int mesh = add_mesh(model, named);
     scene.nodes.push_back(static_cast<int>(model.nodes.size()));
     model.nodes.push_back(node_for(named, mesh));
+  }
+  for (const NamedTube& named : tubes) {
+    if (named.structure == nullptr || named.structure->course.size() < 2) continue;
+    tinygltf::Node node = add_tube(model, *named.structure);
+    scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(std::move(node));
   }
   if (model.nodes.empty()) model.buffers.clear();  // the standard knows no empty buffer
   model.scenes.push_back(std::move(scene));
@@ -146,7 +222,9 @@ std::string make_case_glb(const cases::CaseData& data) {
         {std::string(name_of(bone.bone, bone.part)), &bone.surface, bone.patient_from_bone});
   }
   meshes.push_back({"skin", &data.skin, {}});
-  return make_glb(meshes);
+  std::vector<NamedTube> tubes;
+  for (const cases::Structure& structure : data.structures) tubes.push_back({&structure});
+  return make_glb(meshes, tubes);
 }
 
 }  // namespace carpus::case_io

@@ -21,13 +21,21 @@ struct NamedMesh {
   Pose<frame::Patient, frame::Bone> patient_from_bone;  ///< becomes the node's matrix
 };
 
+/// A tube to show: drawn round its middle line, which stays where it was scanned. Its node carries
+/// in `extras` what it is (`structure`: "tendon", `title`, `forearm`: "radius", `generated`: true),
+/// and its vertices in `_HAND_SHARE` how far each goes with the hand.
+struct NamedTube {
+  const cases::Structure* structure = nullptr;
+};
+
 /// The bytes of a .glb: one node and mesh each, float32 positions [mm, frame Patient before the
 /// node's matrix] and smooth normals, uint32 indices. The unit is mm and +z is superior, not the
 /// metres and Y-up of the glTF standard: the viewer converts (docs/case_format.md). Empty meshes
 /// are left out.
-[[nodiscard]] std::string make_glb(std::span<const NamedMesh> meshes);
+[[nodiscard]] std::string make_glb(std::span<const NamedMesh> meshes,
+                                   std::span<const NamedTube> tubes = {});
 
-/// Bones (where they are now) and skin of a case, named as in the case.
+/// Bones (where they are now), skin and structures of a case, named as in the case.
 [[nodiscard]] std::string make_case_glb(const cases::CaseData& data);
 
 /// Vertex normals: the mean of the facets' normals, weighted by their area.

@@ -50,6 +50,28 @@ TEST(Glb, HoldsANamedNodeForEachMesh) {
   EXPECT_EQ(first_x_of_second_vertex, 4.0F);
 }
 
+TEST(Glb, HoldsAStructureAsATubeThatSaysWhatItIs) {
+  const cases::Structure nerve{"dsbun",
+                               "dorsal sensory branch of the ulnar nerve",
+                               anatomy::StructureKind::Nerve,
+                               0.8,
+                               BoneId::Ulna,
+                               {{{0, 0, 0}, 0}, {{0, 0, 5}, 0.5}, {{1, 0, 10}, 1}}};
+  const std::vector<NamedTube> tubes{{&nerve}};
+  const std::string glb = make_glb({}, tubes);
+  const auto json = nlohmann::json::parse(glb.substr(20, word_at(glb, 12)));
+  const auto& node = json.at("nodes")[0];
+  EXPECT_EQ(node.at("extras").at("structure"), "nerve");
+  EXPECT_EQ(node.at("extras").at("forearm"), "ulna");
+  EXPECT_EQ(node.at("extras").at("generated"), true);
+  EXPECT_EQ(node.at("extras").at("title"), nerve.name);
+  const auto& attributes = json.at("meshes")[0].at("primitives")[0].at("attributes");
+  const auto count = [&](const char* name) {
+    return json.at("accessors")[attributes.at(name).get<std::size_t>()].at("count");
+  };
+  EXPECT_EQ(count("_HAND_SHARE"), count("POSITION"));
+}
+
 TEST(Glb, NormalsPointOutwards) {
   const std::vector<Vec3> normals = smooth_normals(kTetrahedron);
   const Vec3 centre{1, 1.25, 1.5};

@@ -43,6 +43,22 @@ inline cases::Bone octahedron(BoneId id, BonePart part, std::uint8_t label, cons
   return bone;
 }
 
+/// A nerve and a tendon with numbers that text could round.
+inline std::vector<cases::Structure> small_structures() {
+  return {{"epl",
+           "extensor pollicis longus",
+           anatomy::StructureKind::Tendon,
+           1.0 / 3.0,
+           BoneId::Radius,
+           {{{1.0 / 7.0, 2, 3}, 0}, {{4, 5.1, 6}, 0.1 + 0.2}, {{7, 8, 9}, 1}}},
+          {"dsbun",
+           "dorsal sensory branch of the ulnar nerve",
+           anatomy::StructureKind::Nerve,
+           0.8,
+           BoneId::Ulna,
+           {{{1, 2, 3}, 0.5}, {{-4, 5, 6}, 0.75}}}};
+}
+
 /// Two by two nodes with numbers that text could round; scanned in the first of them.
 inline cases::HandMotion small_table() {
   cases::HandMotion table;

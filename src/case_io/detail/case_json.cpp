@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "case_io/detail/structures_json.hpp"
 #include "core/error.hpp"
 #include "core/json_nesting.hpp"
 
@@ -203,6 +204,9 @@ std::string case_json_text(const cases::CaseData& data) {
                       {"longest_line", json_of(data.scaphoid.longest_line)},
                       {"waist_mm", json_of(data.scaphoid.waist)}};
   json["bones"] = bones_json(data);
+  if (!data.structures.empty()) {
+    json["structures"] = {{"file", kStructuresFile}, {"generated", true}};
+  }
   Json grids;
   grids["ct.nii.gz"] = json_of(data.ct.geometry());
   grids["labels.nii.gz"] = json_of(data.labels.geometry());
