@@ -238,6 +238,17 @@ void build_hull(cases::Bone& bone, BoneFigures& figures) {
   bone.hull = std::move(hull.polytope);
 }
 
+/// What no CT shows, as the generic wrist has it. A scan so unlike a wrist that its radius cannot
+/// be laid on was refused before.
+void generate_structures(Reconstruction& result) {
+  cases::MadeStructures made = cases::make_structures(result.data);
+  result.data.structures = std::move(made.structures);
+  result.structures = std::move(made.figures);
+  for (const std::string& problem : result.structures.problems) {
+    result.warnings.push_back("generated structures: " + problem);
+  }
+}
+
 }  // namespace
 
 Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions& options) {
@@ -274,6 +285,8 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   data.ct = std::move(ct);
   stage("scaphoid axis", 0.9);
   data.scaphoid = cases::find_scaphoid_landmarks(data);
+  stage("structures", 0.94);
+  generate_structures(result);
   stage("hand motion", 0.98);
   data.hand_motion = cases::make_hand_motion(data);
   clock.end();

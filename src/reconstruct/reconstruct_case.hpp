@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From a CT to a case that can be operated on: bones segmented, named, as surfaces, hulls and
-// distance fields, with the skin, the scaphoid's landmarks and the hand's motion. Fully
-// automatic.
+// distance fields, with the skin, the scaphoid's landmarks, the hand's motion, and tendons,
+// arteries and nerves as the generic wrist has them. Fully automatic.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
+#include "cases/make_structures.hpp"
 #include "core/progress.hpp"
 #include "imaging/bone_segmentation.hpp"
 #include "reconstruct/bone_surface.hpp"
@@ -38,8 +39,9 @@ struct Reconstruction {
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;  ///< in words for the user; empty when all is well
   double naming_cost = 0;
-  double other_side_cost = 0;  ///< the margin to naming_cost is the confidence in the side
-  double size = 1;             ///< relative to the model wrist
+  double other_side_cost = 0;          ///< the margin to naming_cost is the confidence in the side
+  double size = 1;                     ///< relative to the model wrist
+  cases::StructureFigures structures;  ///< what was measured of the generated structures
 };
 
 /// Makes a case of `ct` [HU].

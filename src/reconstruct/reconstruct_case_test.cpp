@@ -5,6 +5,7 @@
 // and, where it is at hand, on the reference wrist's two simulated CTs with their ground truth.
 #include "reconstruct/reconstruct_case.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,6 +119,25 @@ void expect_whole_case(const Reconstruction& r,
   EXPECT_LT(axis, 35);
 }
 
+/// Every structure of the table is there, out of bone, and in its order; those that a scan cuts off
+/// whole may be left out.
+void expect_structures(const Reconstruction& r, std::size_t fewest) {
+  EXPECT_GE(r.data.structures.size(), fewest);
+  EXPECT_LE(r.structures.deepest_in_bone_mm, 0.1);
+  EXPECT_LT(r.structures.worst_misfit_mm, 0.6);
+  for (const cases::Structure& s : r.data.structures) {
+    EXPECT_LE(cases::deepest_in_bone_mm(r.data, s), 0.1) << s.id;
+    EXPECT_GT(cases::length_of(s), 10) << s.id;
+    for (const cases::StructurePoint& p : s.course) {
+      EXPECT_TRUE(p.hand_share >= 0 && p.hand_share <= 1) << s.id;
+    }
+    EXPECT_LT(s.course.front().hand_share, s.course.back().hand_share + 0.01) << s.id;
+  }
+  for (const std::string& problem : r.structures.problems) {
+    EXPECT_THAT(problem, testing::HasSubstr("left out"));
+  }
+}
+
 TEST(ReconstructCase, MakesACaseOfASimulatedBrokenLeftWrist) {
   const SimulatedWrist wrist = simulate(Side::Left, true);
   const Reconstruction r = reconstruct_case(wrist.ct, {});
@@ -125,6 +145,7 @@ TEST(ReconstructCase, MakesACaseOfASimulatedBrokenLeftWrist) {
   EXPECT_NE(cases::find_bone(r.data, BoneId::Scaphoid, BonePart::Proximal), nullptr);
   EXPECT_NE(cases::find_bone(r.data, BoneId::Scaphoid, BonePart::Distal), nullptr);
   EXPECT_EQ(r.data.bones.size(), 16U);
+  expect_structures(r, 10);
   EXPECT_FALSE(r.stages.empty());
   // The wrist frame was the patient frame.
   const Vec3 x = r.data.wrist_from_patient.rotation.column(0);
@@ -136,6 +157,7 @@ TEST(ReconstructCase, MakesACaseOfASimulatedIntactRightWrist) {
   const Reconstruction r = reconstruct_case(wrist.ct, {});
   expect_whole_case(r, wrist.truth, Side::Right, 0.95, 0.92);
   EXPECT_EQ(r.data.bones.size(), 15U);
+  expect_structures(r, 10);
 }
 
 TEST(ReconstructCase, ManagesThickSlicesByTryingOtherSeparations) {
@@ -202,6 +224,12 @@ TEST_P(ReferenceWrist, IsSegmentedAndNamedWithoutError) {
   EXPECT_EQ(r.data.bones.size(), GetParam().bones);
   expect_whole_case(r, truth, GetParam().side, 0.97, 0.94);
   EXPECT_TRUE(r.warnings.empty()) << r.warnings.front();
+  expect_structures(r, 19);
+  // Near what is published [S83], though the generic wrist's nerves were placed by it.
+  for (const cases::PortalDistance& portal : r.structures.portals) {
+    ASSERT_FALSE(portal.published.empty());
+    EXPECT_NEAR(portal.mm, portal.published.front().mm, 3.5) << portal.portal;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scans,

@@ -35,20 +35,24 @@ struct ReconstructionReport {
   std::vector<std::string> conventions;  ///< taken when the scan was read, in words
   double naming_cost = 0;
   double other_side_cost = 0;
+  std::size_t structures = 0;  ///< tendons, arteries and nerves that were generated
+  cases::StructureFigures structure_figures;
 };
 
 /// Gathers the figures; `dice` as compare_labels gives it, empty without a truth.
 [[nodiscard]] ReconstructionReport make_report(const Reconstruction& reconstruction,
                                                const std::vector<LabelDice>& dice);
 
-/// The thesis's table (bone, vertices, facets, hull vertices, hull facets, time), Dice, and the
-/// time of each stage with its share, for people.
+/// The thesis's table (bone, vertices, facets, hull vertices, hull facets, time), Dice, what was
+/// generated with its distances beside published ones, and the time of each stage with its share,
+/// for people.
 [[nodiscard]] std::string text_of(const ReconstructionReport& report);
 
 /// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets"}],
-/// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": []}; the Dice figures
-/// are null without a truth. A bone that was not found is not in "bones", but counts in the mean
-/// and the minimum.
+/// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": [], "structures":
+/// {"generated": true, "count", "in_bone_mm", "in_another_mm", "under_skin_mm", "portals":
+/// [{"portal", "nerve", "mm"}]}}; the Dice figures are null without a truth. A bone that was not
+/// found is not in "bones", but counts in the mean and the minimum.
 [[nodiscard]] std::string json_of(const ReconstructionReport& report);
 
 }  // namespace carpus::reconstruct
