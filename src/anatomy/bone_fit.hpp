@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lays a bone of the model on a patient's: the radius fixes the wrist's coordinate system, others carry
-// what lies on them.
+// Lays a bone of the model on a patient's: the radius fixes the wrist's coordinate system, others
+// carry what lies on them.
 #pragma once
 
 #include <span>

@@ -4,6 +4,7 @@
 // What was done, as far as any score needs it: plain values that the simulation hands over.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,15 +28,26 @@ struct Pass {
   bool operator==(const Pass&) const = default;
 };
 
+/// How near something that turned came to a tendon, an artery or a nerve. Harm stays on record
+/// whatever is undone.
+struct NearStructure {
+  std::size_t structure = 0;  ///< its place in CaseData::structures
+  double least_mm = 0.0;      ///< surface to surface; negative where it was struck
+  bool was_struck = false;
+  instruments::InstrumentIndex by = instruments::kNoInstrument;  ///< that came nearest
+  bool operator==(const NearStructure&) const = default;
+};
+
 /// One operation, finished or not.
 struct OperationRecord {
   std::vector<LineFacts> lines;  ///< that lie in bone at the end, in hand or not
   std::vector<Pass> passes;
   std::vector<Shot> shots;
-  double gauge_reading_mm = -1.0;  ///< last reading, -1 for none
-  double reamed_mm = 0.0;          ///< greatest depth of a reamer along its wire
-  double holding_share = 1.0;      ///< of a screw in untouched bone [1] (instruments/…holding)
-  FractureFacts fracture;          ///< at the end
+  std::vector<NearStructure> structures;  ///< one each of the case's
+  double gauge_reading_mm = -1.0;         ///< last reading, -1 for none
+  double reamed_mm = 0.0;                 ///< greatest depth of a reamer along its wire
+  double holding_share = 1.0;  ///< of a screw in untouched bone [1] (instruments/…holding)
+  FractureFacts fracture;      ///< at the end
   /// By body, where it lies beside where the wrist's motion takes it; empty while none was moved.
   std::vector<Pose<frame::Bone, frame::Bone>> displacements;
   double compression_n = 0.0;  ///< of the pieces on each other, by the screw

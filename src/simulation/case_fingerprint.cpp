@@ -78,6 +78,15 @@ std::uint64_t fingerprint_of(const cases::CaseData& data) {
   }
   hash.add(scaphoid.central_radius_mm);
   add_hand_motion(hash, data.hand_motion);
+  // A case without them keeps the fingerprint that it had before there were any.
+  for (const cases::Structure& structure : data.structures) {
+    hash.add(structure.radius_mm);
+    hash.add(static_cast<std::uint64_t>(structure.forearm));
+    for (const cases::StructurePoint& point : structure.course) {
+      add_vector(hash, point.at);
+      hash.add(point.hand_share);
+    }
+  }
   return hash.value();
 }
 

@@ -95,6 +95,8 @@ enum class EventKind : std::uint8_t {
   WireBroke = 19,      ///< likewise, too far; detail: body
   ScrewStripped = 20,  ///< turned on when it was tight, its thread gave way
   AidUsed = 21,        ///< item: in the hand that asked; detail: procedure::Aid
+  /// Something turned in a tendon, artery or nerve; detail: its place in the case.
+  StructureStruck = 22,
 };
 
 struct Event {

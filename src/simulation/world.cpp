@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One tick: quantise and check the input -> move the wrist and its bones -> carry out the command
-// -> look through the C-arm -> move what each hand holds (free, or along its line in bone) -> tick
-// off steps -> force, limited last -> snapshot and hash.
+// -> look through the C-arm -> move what each hand holds (free, or along its line in bone) ->
+// see what turns near a structure -> tick off steps -> force, limited last -> snapshot and hash.
 #include "simulation/world.hpp"
 
 #include <algorithm>
@@ -74,7 +74,9 @@ World::Model::Model(const cases::CaseData& case_data,
   }
 }
 
-World::State::State(const Model& model) : tissue(model.fields), scene(model.fields, kHands) {
+World::State::State(const Model& model)
+    : structures(model.data), tissue(model.fields), scene(model.fields, kHands) {
+  structure_state.count = static_cast<std::uint8_t>(structures.size());
   snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
   snapshot.mode = model.mode;
   scene.set_cuts(tissue.cuts().fields());
@@ -190,6 +192,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
       move_free(model, h);
     }
   }
+  watch_structures(model);
   tick_off_steps(model);
   if (is_finishing) {
     spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);
@@ -235,6 +238,10 @@ procedure::OperationRecord World::operation_record() const {
                              pass.was_undone});
   }
   record.shots.assign(state.shots.begin(), state.shots.begin() + state.spent.shot_count);
+  for (std::size_t i = 0; i < state.structure_state.count; ++i) {
+    const detail::StructureHarm& harm = state.structure_state.harm[i];
+    record.structures.push_back({i, harm.least_mm, harm.was_struck, harm.by});
+  }
   record.gauge_reading_mm = state.now.gauge_reading_mm;
   record.reamed_mm = state.now.reamed_mm;
   record.holding_share = state.now.holding_share;

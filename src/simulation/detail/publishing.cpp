@@ -140,6 +140,8 @@ void World::State::update_hash(const Model& model) noexcept {
   const HashFields fields{hash};
   visit(now, fields);
   visit(spent, fields);
+  // A case without structures keeps the hashes that it had before there were any.
+  if (structure_state.count > 0) visit(structure_state, fields);
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
   tissue.cuts().add_to(hash);
   for (const HandView& hand : snapshot.hands) fields(hand.force_in_patient);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A world's state as bytes, for keyframes: every field in the order of its struct's visit(), all
-// little-endian, then the tissue's changes, then a checksum. Undo does not reach back before one.
+// little-endian (of structures only where the case has any), then the tissue's changes, then a
+// checksum. Undo does not reach back before one.
 #include <bit>
 #include <cstdint>
 #include <memory>
@@ -64,6 +65,7 @@ std::vector<std::byte> World::write_state() const {
   const WriteFields fields{out};
   visit(state.now, fields);
   visit(state.spent, fields);
+  if (state.structures.size() > 0) visit(state.structure_state, fields);
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
   }
@@ -92,13 +94,17 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   const ReadFields fields{in, is_sound};
   visit(*now, fields);
   visit(*spent, fields);
+  detail::StructureState structures;
+  if (state_->structures.size() > 0) visit(structures, fields);
   const detail::StateBounds bounds{model_->data.bones.size(), model_->catalogue.size(),
                                    model_->procedure.steps.size(), model_->data.hand_motion.limits};
-  is_sound = is_sound && !in.is_spoilt() && detail::is_possible(*now, *spent, bounds);
+  is_sound = is_sound && !in.is_spoilt() && detail::is_possible(*now, *spent, bounds) &&
+             detail::is_possible(structures, state_->structures.size(), bounds.instruments);
   if (!is_sound) return carpus::Refusal{"keyframe: its state is not one that a tick could leave"};
   auto next = std::make_unique<State>(*model_);
   next->now = *now;
   next->spent = *spent;
+  next->structure_state = structures;
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);
   }

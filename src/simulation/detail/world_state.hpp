@@ -20,6 +20,7 @@
 #include "instruments/instrument.hpp"
 #include "simulation/detail/bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
+#include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
 #include "simulation/permission.hpp"
 #include "simulation/world.hpp"
@@ -52,6 +53,9 @@ struct World::State {
 
   detail::Operated now;
   detail::Spent spent;
+  detail::StructureState structure_state;
+  detail::StructureWatch structures;
+  bool structures_are_laid = false;  ///< where the bones are now
   detail::Tissue tissue;
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
   std::array<detail::BodyPose, kMaxBodies> poses{};  ///< follow from wrist and shifts
@@ -193,6 +197,15 @@ struct World::State {
   [[nodiscard]] bool is_fragment_inside_another(const Model& model,
                                                 std::uint8_t body,
                                                 const detail::Displacement& moved) const noexcept;
+
+  // structures.cpp
+  struct Bare {
+    Vec3 from;
+    Vec3 to;
+  };
+  void watch_structures(const Model& model) noexcept;
+  void note_sleeves(const Model& model) noexcept;
+  [[nodiscard]] Bare bare_part(std::uint8_t index) const noexcept;
 
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;
