@@ -11,6 +11,12 @@ BodyNames::BodyNames(const cases::CaseData& data) {
     bodies_.push_back(
         {std::string(name_of(bone.bone, bone.part)), std::string(words_of(bone.bone, bone.part))});
   }
+  for (const cases::Structure& structure : data.structures) structures_.push_back(structure.name);
+}
+
+const std::string& BodyNames::structure(std::size_t index) const noexcept {
+  static const std::string kUnknown = "structure";
+  return index < structures_.size() ? structures_[index] : kUnknown;
 }
 
 const std::string& BodyNames::name(std::size_t body) const noexcept {

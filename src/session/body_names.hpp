@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bodies by the names of their meshes and in words. A body is named by its place in
-// CaseData::bones.
+// Bodies by the names of their meshes and in words, structures in words. A body is named by its
+// place in CaseData::bones, a structure by its place in CaseData::structures.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,8 @@ class BodyNames {
   [[nodiscard]] const std::string& name(std::size_t body) const noexcept;
   /// "proximal part of the scaphoid"; "bone" where there is no such body.
   [[nodiscard]] const std::string& words(std::size_t body) const noexcept;
+  /// "extensor pollicis longus"; "structure" where there is no such one.
+  [[nodiscard]] const std::string& structure(std::size_t index) const noexcept;
 
  private:
   struct Body {
@@ -29,6 +31,7 @@ class BodyNames {
     std::string words;
   };
   std::vector<Body> bodies_;
+  std::vector<std::string> structures_;
 };
 
 }  // namespace carpus::session

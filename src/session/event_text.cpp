@@ -83,6 +83,10 @@ class Sentence {
         return "The screw turns freely: its thread gave way";
       case EventKind::AidUsed:
         return "Aid: " + procedure::in_words(static_cast<procedure::Aid>(event_.detail));
+      case EventKind::StructureStruck:
+        return subject() + " turned in the " +
+               bodies_.structure(static_cast<std::size_t>(event_.detail)) +
+               ": spread the way with the needle sleeve first";
       case EventKind::None:
         break;
     }
@@ -125,11 +129,12 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 22> kNames{
-    "none",       "touched_bone", "entered_bone",   "left_far_side", "withdrawn",      "shot_taken",
-    "gauge_read", "taken",        "put_down",       "seated",        "step_completed", "undone",
-    "finished",   "refused",      "wrong_bone",     "slipped",       "wrist_stopped",  "live_ended",
-    "wire_bent",  "wire_broke",   "screw_stripped", "aid_used"};
+constexpr std::array<std::string_view, 23> kNames{
+    "none",           "touched_bone",  "entered_bone",    "left_far_side", "withdrawn",
+    "shot_taken",     "gauge_read",    "taken",           "put_down",      "seated",
+    "step_completed", "undone",        "finished",        "refused",       "wrong_bone",
+    "slipped",        "wrist_stopped", "live_ended",      "wire_bent",     "wire_broke",
+    "screw_stripped", "aid_used",      "structure_struck"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {
@@ -163,6 +168,7 @@ std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told) {
     case EventKind::None:
     case EventKind::LeftFarSide:
     case EventKind::WrongBone:
+    case EventKind::StructureStruck:
     case EventKind::Seated:
     case EventKind::StepCompleted:
       return std::nullopt;

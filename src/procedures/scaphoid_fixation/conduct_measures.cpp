@@ -234,6 +234,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   std::vector<Measure> measures = placement_measures(facts);
   for (Measure& measure : conduct_measures(facts)) measures.push_back(std::move(measure));
   measures.push_back(fixing_is_right(data));
+  for (Measure& measure : structure_measures(facts)) measures.push_back(std::move(measure));
   procedure::grade(report, fixation.procedure->rules, measures);
   return report;
 }

@@ -23,6 +23,10 @@ namespace carpus::procedures::scaphoid_fixation {
 /// `views_with_screw`, `wires_left_in`, and procedure::thrift_measures.
 [[nodiscard]] std::vector<procedure::Measure> conduct_measures(const Facts& facts);
 
+/// What turned near tendons, arteries and nerves: `structures_struck`, `nearest_tendon_mm`,
+/// `nearest_artery_mm`, `nearest_nerve_mm`. They do not apply to a case that has none.
+[[nodiscard]] std::vector<procedure::Measure> structure_measures(const Facts& facts);
+
 /// Whether to fix or to decline was right, by the case's lesson: `fixing_is_right` (1 or 0; left
 /// out where nobody wrote a lesson) and, of declining, `declining_is_right`,
 /// `right_reasons_percent`, `wrong_reasons`, `views_before_declining`, `bone_entered`.
@@ -32,7 +36,7 @@ namespace carpus::procedures::scaphoid_fixation {
     const procedure::OperationRecord& record,
     const procedure::Procedure& procedure);
 
-/// Placement and conduct, graded by the procedure's rules; of an operation that was declined, that.
+/// Placement, conduct and structures, graded by the procedure's rules; of an operation that was declined, that.
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record,
                                            const Fixation& fixation);
