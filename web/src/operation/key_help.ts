@@ -89,7 +89,8 @@ export const HELP: readonly HelpGroup[] = [
       { keys: "Wheel, {Equal} / {Minus}", text: "nearer / farther" },
       { keys: "Middle drag", text: "shift the view" },
       { keys: "{KeyV}", text: "next view: four sides, along the shaft" },
-      { keys: "{KeyT} / {KeyL}", text: "skin / names of the bones" },
+      { keys: "{KeyT} / {KeyL}", text: "skin / names" },
+      { keys: "F7", text: "tendons, arteries, nerves: generated, not seen in the CT" },
     ],
   },
   {

@@ -48,6 +48,7 @@ export type OnceAction =
         | "camera"
         | "skin"
         | "labels"
+        | "structures"
         | "help"
         | "full_screen"
         | "zoom_in"
@@ -104,6 +105,7 @@ const PLACES: Readonly<Record<string, OnceAction>> = {
   F1: { kind: "help" },
   F2: { kind: "ghost" },
   F4: { kind: "cut" },
+  F7: { kind: "structures" },
   F8: { kind: "hint" },
   F9: { kind: "voltage" },
   F10: { kind: "dose" },

@@ -1,12 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Names of the bones beside them, with a leader line to each; two columns so that none overlap.
+// Names beside the bones, with a leader line to each; two columns so that none overlap. While tendons,
+// arteries and nerves are shown it is they that are named: both would not fit.
 import * as THREE from "three";
+import type { Structures } from "./structures";
 
 interface Named {
   readonly text: string;
-  readonly bone: THREE.Mesh;
+  readonly bone: THREE.Object3D;
   /** In the bone's own frame: the leader goes where the bone goes. */
   readonly centre: THREE.Vector3;
   x: number;
@@ -29,17 +31,32 @@ export function boneLabel(name: string): string {
 export class BoneNames {
   readonly canvas = document.createElement("canvas");
   private readonly context = this.canvas.getContext("2d");
-  private readonly named: Named[];
+  private readonly bones: Named[];
+  private readonly tubes: Named[];
+  private named: Named[];
   private readonly projected = new THREE.Vector3();
 
-  constructor(bones: readonly THREE.Mesh[]) {
+  constructor(
+    bones: readonly THREE.Mesh[],
+    private readonly structures: Structures,
+  ) {
     this.canvas.className = "bone-names";
     this.canvas.setAttribute("aria-hidden", "true");
-    this.named = bones.map((bone) => {
+    this.bones = bones.map((bone) => {
       const centre = new THREE.Vector3();
       bone.geometry.boundingBox?.getCenter(centre);
       return { text: boneLabel(bone.name), bone, centre, x: 0, y: 0, labelY: 0, left: false };
     });
+    this.tubes = structures.markers.map((marker) => ({
+      text: marker.name.charAt(0).toUpperCase() + marker.name.slice(1),
+      bone: marker,
+      centre: new THREE.Vector3(),
+      x: 0,
+      y: 0,
+      labelY: 0,
+      left: false,
+    }));
+    this.named = this.bones;
   }
 
   resize(width: number, height: number, ratio: number): void {
@@ -52,6 +69,7 @@ export class BoneNames {
     const context = this.context;
     if (context === null) return;
     context.clearRect(0, 0, width, height);
+    this.named = this.structures.group.visible ? this.tubes : this.bones;
     for (const bone of this.named) {
       this.projected.copy(bone.centre).applyMatrix4(bone.bone.matrixWorld).project(camera);
       bone.x = (0.5 + 0.5 * this.projected.x) * width;

@@ -1,13 +1,15 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The host's scene: one node per bone and one for the skin, mm in the Patient frame.
+// The host's scene: one node per bone, one for the skin, one per tendon, artery and nerve, mm in the
+// Patient frame.
 import * as THREE from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { vertexOcclusion, type Surface } from "../bone_shading";
 import { makeHittable } from "./bone_rays";
 import { boneMaterial } from "./materials";
 import { Skin } from "./skin";
+import { structureFacts, Structures, type StructureSurface } from "./structures";
 
 export type BoneMesh = THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
 
@@ -17,6 +19,8 @@ export interface CaseScene {
   /** Each in a frame of its own, which is Patient's until it moves; hittable (bone_rays.ts). */
   readonly bones: readonly BoneMesh[];
   readonly skin: Skin | undefined;
+  /** Empty in a case that was made before they were. */
+  readonly structures: Structures;
 }
 
 /** Where no light reaches, bone is this part of its colour: warm, as fat and cartilage between. */
@@ -26,6 +30,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   const loaded = await new GLTFLoader().loadAsync(url);
   const root = new THREE.Group();
   const bones: BoneMesh[] = [];
+  const structures: StructureSurface[] = [];
   let skinSurface: THREE.BufferGeometry | undefined;
   loaded.scene.updateMatrixWorld(true);
   loaded.scene.traverse((node) => {
@@ -34,7 +39,9 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
     const name = mesh.name !== "" ? mesh.name : (mesh.parent?.name ?? "");
     const geometry = mesh.geometry.clone().applyMatrix4(mesh.matrixWorld);
     if (geometry.getAttribute("normal") === undefined) geometry.computeVertexNormals();
-    if (name === "skin") skinSurface = geometry;
+    const facts = structureFacts(mesh.userData) ?? structureFacts(mesh.parent?.userData);
+    if (facts !== undefined) structures.push({ facts, geometry });
+    else if (name === "skin") skinSurface = geometry;
     else bones.push(makeBone(name, geometry));
   });
   if (bones.length === 0) throw new Error("the scene holds no bones");
@@ -42,7 +49,9 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   root.add(...bones);
   const skin = skinSurface === undefined ? undefined : new Skin(skinSurface, bones);
   if (skin !== undefined) root.add(skin.group);
-  return { root, bones, skin };
+  const tubes = new Structures(structures, new Set(bones.map((bone) => bone.name)));
+  root.add(tubes.group);
+  return { root, bones, skin, structures: tubes };
 }
 
 function makeBone(name: string, geometry: THREE.BufferGeometry): BoneMesh {

@@ -3,10 +3,18 @@
 //
 // How bone, skin and steel look. Colours: docs/ui.md's tokens.
 import * as THREE from "three";
+import { BLEND_DECLARATIONS } from "./blend_shader";
+import type { StructureKind } from "./structure_model";
 import { CUT_GLSL, TRACKS_GLSL, type TrackUniforms } from "./track_shader";
 
 export const BONE_COLOR = "#e9dfc7";
 export const SKIN_COLOR = "#c99a80";
+/** As in atlases. */
+export const STRUCTURE_COLORS: Readonly<Record<StructureKind, string>> = {
+  tendon: "#f4ead2",
+  artery: "#c63a35",
+  nerve: "#f0cf3c",
+};
 export const ACCENT_COLOR = "#5cc8ff";
 export const ATTENTION_COLOR = "#f0c36a";
 
@@ -283,4 +291,32 @@ export function handleMaterial(): THREE.MeshStandardMaterial {
 /** Blackened parts: knobs, cables, the inside of a barrel. */
 export function blackMaterial(): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({ color: "#14181a", roughness: 0.6, metalness: 0.1 });
+}
+
+export type BlendUniforms = Readonly<
+  Record<"forearmReal" | "forearmDual" | "handReal" | "handDual", { value: THREE.Vector4 }>
+>;
+
+/** A tube that bends with the wrist (structures.ts): moist, a little brighter than bone. */
+export function structureMaterial(
+  kind: StructureKind,
+  motion: BlendUniforms,
+): THREE.MeshStandardMaterial {
+  const material = new THREE.MeshStandardMaterial({
+    color: STRUCTURE_COLORS[kind],
+    roughness: 0.38,
+    metalness: 0,
+    envMapIntensity: 0.4,
+  });
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, motion);
+    shader.vertexShader = shader.vertexShader
+      .replace("#include <common>", `#include <common>\nattribute float _hand_share;\n${BLEND_DECLARATIONS}`)
+      .replace(
+        "#include <beginnormal_vertex>",
+        "blendBegin(_hand_share);\nvec3 objectNormal = blendTurned(normal);",
+      )
+      .replace("#include <begin_vertex>", "vec3 transformed = blendMoved(position);");
+  };
+  return material;
 }

@@ -8,6 +8,7 @@ import { BoneRays, makeHittable } from "./bone_rays";
 import type { BoneMesh, CaseScene } from "./case_scene";
 import { boneMaterial } from "./materials";
 import { MovingBones } from "./moving_bones";
+import { Structures } from "./structures";
 import type { Track } from "../protocol";
 
 function makeScene(): CaseScene {
@@ -23,7 +24,7 @@ function makeScene(): CaseScene {
   });
   root.add(...bones);
   root.updateMatrixWorld(true);
-  return { root, bones, skin: undefined };
+  return { root, bones, skin: undefined, structures: new Structures([], new Set()) };
 }
 
 function bone(scene: CaseScene, index: number): BoneMesh {

@@ -35,6 +35,7 @@ export class MovingBones {
     // Rays come between two pictures too.
     bone.updateWorldMatrix(true, true);
     this.scene.skin?.follow(name, { rotation, translationMm });
+    this.scene.structures.follow(name, { rotation, translationMm });
     return true;
   }
 

@@ -5,6 +5,7 @@
 // each point, so that a bent wrist costs no more than a straight one.
 import * as THREE from "three";
 import type { Vec3 } from "../protocol";
+import { BLEND_DECLARATIONS } from "./blend_shader";
 import { makeHittable } from "./bone_rays";
 import { closedSkinMaterial, depthOnlyMaterial, skinMaterial } from "./materials";
 import {
@@ -22,34 +23,20 @@ import { distanceFromRim } from "./skin_rim_model";
 /** The bones whose motion is that of their side of the skin, the first that is there. */
 const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"] } as const;
 
-/** As blendedPoint() in skin_blend_model.ts. */
 const VERTEX = /* glsl */ `
 attribute float handWeight;
 attribute float fromRim;
-uniform vec4 forearmReal;
-uniform vec4 forearmDual;
-uniform vec4 handReal;
-uniform vec4 handDual;
+${BLEND_DECLARATIONS}
 varying vec3 vNormalView;
 varying vec3 vToEye;
 varying vec3 vBoneMm;
 varying float vFromRim;
-vec3 turnedBy(vec4 q, vec3 v) {
-  return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
 void main() {
-  float side = dot(forearmReal, handReal) < 0.0 ? -1.0 : 1.0;
-  vec4 real = mix(forearmReal, side * handReal, handWeight);
-  vec4 dual = mix(forearmDual, side * handDual, handWeight);
-  float size = length(real);
-  real /= size;
-  dual /= size;
-  vec3 moved = turnedBy(real, position)
-    + 2.0 * (real.w * dual.xyz - dual.w * real.xyz + cross(real.xyz, dual.xyz));
+  blendBegin(handWeight);
   vBoneMm = position;
   vFromRim = fromRim;
-  vec4 inView = modelViewMatrix * vec4(moved, 1.0);
-  vNormalView = normalMatrix * turnedBy(real, normal);
+  vec4 inView = modelViewMatrix * vec4(blendMoved(position), 1.0);
+  vNormalView = normalMatrix * blendTurned(normal);
   vToEye = -inView.xyz;
   gl_Position = projectionMatrix * inView;
 }

@@ -5,6 +5,7 @@
 // nothing, and allocates nothing per frame. All in it but lights and camera is in mm of the Patient
 // frame, under one group that carries the conversion (frames/).
 import * as THREE from "three";
+import { make } from "../dom";
 import type { FaceNames, FrameMap } from "../frames";
 import type { BodyPose, Ideal, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
 import { backdrop } from "./backdrop";
@@ -24,6 +25,7 @@ import { PointedAt, type PagePoint } from "./pointed_at";
 import { ShownInstruments } from "./shown_instruments";
 import { Sight, type ToolLine, type ViewId } from "./sight";
 import { SightMark } from "./sight_mark";
+import { STRUCTURES_NOTE } from "./structure_model";
 import { looksDifferent } from "./snapshot_look_model";
 
 const CUBE_PX = 88;
@@ -51,12 +53,14 @@ export class Theatre {
   private readonly radialIsRight: boolean;
   private readonly cube: OrientationCube;
   private readonly names: BoneNames;
+  private readonly structuresNote = make("p.structures-note", {}, STRUCTURES_NOTE);
   private readonly sightMark = new SightMark();
   private readonly sight: Sight;
   private readonly rays: BoneRays;
   private readonly pointed: PointedAt;
   private readonly home: THREE.Vector3;
   private stale = true;
+  private onlySkin = false;
   private activeHand: 0 | 1 = 0;
   /** The beam as it was drawn; empty for none. */
   private beamDrawn = "";
@@ -75,7 +79,7 @@ export class Theatre {
     this.cube = new OrientationCube(facing);
     this.bones = new MovingBones(caseScene);
     this.cutBones = new CutBones(caseScene.bones);
-    this.names = new BoneNames(caseScene.bones);
+    this.names = new BoneNames(caseScene.bones, caseScene.structures);
     this.names.canvas.hidden = true;
     this.patient.matrixAutoUpdate = false;
     this.patient.matrix.fromArray([...frames.matrix]);
@@ -105,7 +109,8 @@ export class Theatre {
         this.light.setShadowPixels(side);
       },
     });
-    host.append(this.names.canvas, this.sightMark.element);
+    this.structuresNote.hidden = true;
+    host.append(this.names.canvas, this.sightMark.element, this.structuresNote);
   }
 
   get canvas(): HTMLCanvasElement {
@@ -196,13 +201,31 @@ export class Theatre {
 
   /** Only what a patient shows: closed skin, no bones, no names; the pointer ends at the skin. */
   showOnlySkin(on: boolean): void {
+    this.onlySkin = on;
     const { bones, skin } = this.caseScene;
     // Without skin there would be nothing left to see.
     const closed = on && skin !== undefined;
     for (const bone of bones) bone.visible = !closed;
+    if (on) this.showStructures(false);
     skin?.setClosed(closed);
     this.rays.hitsSkin = closed;
     if (closed) this.showNames(false);
+    this.stale = true;
+  }
+
+  /** Whether the case has tendons, arteries and nerves. */
+  get hasStructures(): boolean {
+    return !this.caseScene.structures.isEmpty;
+  }
+
+  get structuresShown(): boolean {
+    return this.caseScene.structures.group.visible;
+  }
+
+  /** Tendons, arteries and nerves, with the words that no scan shows them; never in an assessed operation. */
+  showStructures(on: boolean): void {
+    this.caseScene.structures.group.visible = on && this.hasStructures && !this.onlySkin;
+    this.structuresNote.hidden = !this.structuresShown;
     this.stale = true;
   }
 
@@ -342,6 +365,7 @@ export class Theatre {
     });
     this.surface.dispose();
     this.names.canvas.remove();
+    this.structuresNote.remove();
     this.sightMark.dispose();
   }
 }

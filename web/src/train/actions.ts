@@ -156,6 +156,9 @@ export class Actions {
         theatre.showNames(!theatre.namesShown);
         views.showNames(theatre.namesShown);
         break;
+      case "structures":
+        this.toggleStructures();
+        break;
       case "help":
         hand.releaseAll();
         help.toggle();
@@ -243,6 +246,16 @@ export class Actions {
     const why = this.room.offered().whyNot(asked);
     if (why !== undefined) this.room.say(why);
     return why !== undefined;
+  }
+
+  private toggleStructures(): void {
+    const { theatre, views } = this.room;
+    if (!theatre.hasStructures) {
+      this.room.say("This case has no tendons, arteries and nerves; make it again from its CT.");
+      return;
+    }
+    theatre.showStructures(!theatre.structuresShown);
+    views.showStructures(theatre.structuresShown);
   }
 
   private openTray(): void {

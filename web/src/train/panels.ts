@@ -137,6 +137,9 @@ export function makePanels(
       ghost: act("ghost"),
       cut: act("cut"),
       hint: act("hint"),
+      structures: () => {
+        wishes.act({ kind: "structures" });
+      },
     }),
     arm: new CArmPanel(patientText(description), wishes.cArm),
     bottom: new BottomBar({

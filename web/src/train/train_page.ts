@@ -60,6 +60,7 @@ export class TrainPage {
     const stage = layOut(app, this.panels);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
     this.theatre.setSkin(this.panels.views.skinOpacity);
+    this.panels.views.offerStructures(this.theatre.hasStructures);
     this.theatre.onViewLeft = () => {
       this.panels.views.showView(undefined);
     };

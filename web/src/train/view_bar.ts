@@ -13,6 +13,7 @@ export interface ViewBarHandlers {
   ghost(): void;
   cut(): void;
   hint(): void;
+  structures(): void;
 }
 
 const NAMES: Readonly<Record<ViewId, string>> = {
@@ -38,6 +39,8 @@ export class ViewBar {
   private readonly slider: HTMLInputElement;
   private readonly namesButton: HTMLButtonElement;
   private readonly aids: Readonly<Record<"ghost" | "cut" | "hint", HTMLButtonElement>>;
+  private readonly structuresButton: HTMLButtonElement;
+  private hasStructures = false;
 
   constructor(private readonly handlers: ViewBarHandlers) {
     const look = (view: ViewId): HTMLButtonElement =>
@@ -77,6 +80,9 @@ export class ViewBar {
     this.aids.ghost.title = "The planned line and screw";
     this.aids.cut.title = "Cuts the bones open: along the planned line, then across the sight";
     this.aids.hint.title = "What to change, in words";
+    this.structuresButton = button("Tendons", "F7", handlers.structures, ".quiet");
+    this.structuresButton.setAttribute("aria-pressed", "false");
+    this.offerStructures(false);
     this.element = make(
       "div.view-bar",
       { role: "group", "aria-label": "View" },
@@ -88,6 +94,7 @@ export class ViewBar {
         { role: "group", "aria-label": "Aids, counted" },
         ...Object.values(this.aids),
       ),
+      this.structuresButton,
       this.namesButton,
       make("label.secondary", { for: "skin-opacity" }, "Skin ", keyCap("{KeyT}")),
       this.slider,
@@ -100,6 +107,21 @@ export class ViewBar {
     this.element.classList.toggle("only-skin", on);
     this.namesButton.disabled = this.slider.disabled = on;
     for (const aid of Object.values(this.aids)) aid.hidden = on;
+    this.structuresButton.disabled = on || !this.hasStructures;
+    if (on) this.showStructures(false);
+  }
+
+  /** A case that was made before tendons, arteries and nerves were has none. */
+  offerStructures(has: boolean): void {
+    this.hasStructures = has;
+    this.structuresButton.disabled = !has;
+    this.structuresButton.title = has
+      ? "Tendons, arteries and nerves: generated, not seen in the CT"
+      : "This case has no tendons, arteries and nerves; make it again from its CT";
+  }
+
+  showStructures(on: boolean): void {
+    this.structuresButton.setAttribute("aria-pressed", String(on));
   }
 
   /** 0 to 1. */
