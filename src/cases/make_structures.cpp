@@ -27,8 +27,8 @@ using detail::CarriedLandmarks;
 using detail::LaidTube;
 using detail::WristSurfaces;
 
-/// As far inside the volume's faces as the skin is trimmed for the eye [mm].
-constexpr double kTrimMm = 1.8;
+/// What a scan leaves of a tube and is shorter than this tells nothing and is left out [mm].
+constexpr double kShortestMm = 10;
 /// A point that was meant to lie on bone or skin and is farther from it stays where it is [mm].
 constexpr double kFarthestLayerMm = 14;
 /// More than this in bone is a fault of the course [mm].
@@ -75,22 +75,12 @@ LaidTube lay(const TabledStructure& tabled,
   return detail::through(given, radius);
 }
 
-bool is_in_volume(const GridGeometry& volume, const Vec3& p) {
-  const Vec3 v = volume.voxel_from_patient(p);
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double trim = kTrimMm / volume.spacing[a];
-    if (!(v[a] >= trim && v[a] <= volume.size[a] - 1 - trim)) return false;
-  }
-  return true;
-}
-
-/// The longest run of points in the volume; all of them where there is no CT.
-std::vector<Vec3> within_scan(const CaseData& data, const std::vector<Vec3>& line) {
-  if (data.ct.values().empty()) return line;
+/// The longest run of points in the scan.
+std::vector<Vec3> within_scan(const WristSurfaces& surfaces, const std::vector<Vec3>& line) {
   std::vector<Vec3> best;
   std::vector<Vec3> run;
   for (const Vec3& p : line) {
-    if (is_in_volume(data.ct.geometry(), p)) {
+    if (surfaces.is_in_scan(p)) {
       run.push_back(p);
       if (run.size() > best.size()) best = run;
     } else {
@@ -112,10 +102,9 @@ double hand_share(const Vec3& p, const WristSurfaces& surfaces) {
 
 Structure structure_of(const TabledStructure& tabled,
                        const LaidTube& tube,
-                       const CaseData& data,
                        const WristSurfaces& surfaces) {
   Structure s{tabled.id, tabled.name, tabled.kind, rounded(tube.radius_mm), tabled.forearm, {}};
-  std::vector<Vec3> line = within_scan(data, tube.line);
+  std::vector<Vec3> line = within_scan(surfaces, tube.line);
   if (line.size() > kMaxStructurePoints) line.resize(kMaxStructurePoints);
   for (const Vec3& p : line) {
     s.course.push_back({{rounded(p.x), rounded(p.y), rounded(p.z)}, hand_share(p, surfaces)});
@@ -280,8 +269,8 @@ MadeStructures make_structures(const CaseData& data, const StructureTable& table
   detail::settle(tubes, surfaces);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     check_length(table.structures[i], tubes[i], landmarks.scale(), made.figures.problems);
-    Structure s = structure_of(table.structures[i], tubes[i], data, surfaces);
-    if (s.course.size() < 2) {
+    Structure s = structure_of(table.structures[i], tubes[i], surfaces);
+    if (length_of(s) < kShortestMm) {
       made.figures.problems.push_back(s.name + ": lies outside the scan and was left out");
       continue;
     }

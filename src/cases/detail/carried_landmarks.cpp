@@ -26,6 +26,13 @@ constexpr std::size_t kFewestPoints = 60;
 constexpr std::array<double, 5> kStartsDeg{0, -25, 25, -50, 50};
 /// A landmark farther from its bone is left where the fit puts it [mm].
 constexpr double kFarthestSnapMm = 4;
+/// As far inside the volume's faces as the skin is trimmed for the eye: what is left of the caps
+/// there is no skin [mm].
+constexpr double kTrimMm = 1.8;
+/// A facet whose normal points this much to a point is believed that the point is outside. At
+/// sharp edges, slivers and folds the nearest facet may look either way: there, and where it says
+/// inside, all facets are asked.
+constexpr double kPlainCosine = 0.95;
 /// Nearest points of the skin that lie sideways of the point asked for are its rim.
 constexpr double kRimCosine = 0.5;
 
@@ -84,7 +91,7 @@ std::optional<BoneFit> best_fit(const CaseData& data, BoneId bone, const Similar
 
 WristSurfaces::WristSurfaces(const CaseData& data) : data_(data), skin_(data.skin) {
   for (const Bone& bone : data.bones) {
-    bones_.push_back({bone.bone, &bone.surface, fields::TriangleTree(bone.surface)});
+    bones_.push_back({bone.bone, fields::ExactSurface(bone.surface)});
   }
 }
 
@@ -93,13 +100,14 @@ WristSurfaces::Near WristSurfaces::bone_near(const Vec3& point) const {
   near.distance_mm = std::numeric_limits<double>::infinity();
   double nearest = std::numeric_limits<double>::infinity();
   for (const Surface& bone : bones_) {
-    const auto hit = bone.tree.nearest(point, nearest);
+    const auto hit = bone.exact.tree().nearest(point, nearest);
     if (!hit) continue;
     const double away = std::sqrt(hit->squared_distance);
     if (!(away < nearest)) continue;
     nearest = away;
-    const Vec3 normal = unit_normal(*bone.mesh, hit->facet);
-    const bool is_outside = dot(point - hit->point, normal) >= 0;
+    const Vec3 normal = unit_normal(bone.exact.surface(), hit->facet);
+    const double along = dot(point - hit->point, normal);
+    const bool is_outside = along > kPlainCosine * away || bone.exact.signed_distance(point) >= 0;
     near.distance_mm = is_outside ? away : -away;
     near.point = hit->point;
     near.outwards = normalized_or((point - hit->point) * (is_outside ? 1.0 : -1.0), normal);
@@ -112,7 +120,7 @@ double WristSurfaces::nearest_mm(const Vec3& point, bool of_forearm) const {
   for (const Surface& bone : bones_) {
     const bool is_hand = anatomy::group_of(bone.bone) == anatomy::CarpalGroup::Hand;
     if (of_forearm ? !belongs_to_forearm(bone.bone) : !is_hand) continue;
-    if (const auto hit = bone.tree.nearest(point, nearest)) {
+    if (const auto hit = bone.exact.tree().nearest(point, nearest)) {
       nearest = std::min(nearest, std::sqrt(hit->squared_distance));
     }
   }
@@ -123,9 +131,20 @@ double WristSurfaces::distance_to_forearm(const Vec3& point) const {
 }
 double WristSurfaces::distance_to_hand(const Vec3& point) const { return nearest_mm(point, false); }
 
+bool WristSurfaces::is_in_scan(const Vec3& point) const {
+  if (data_.ct.values().empty()) return true;
+  const GridGeometry& volume = data_.ct.geometry();
+  const Vec3 v = volume.voxel_from_patient(point);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double trim = kTrimMm / volume.spacing[a];
+    if (!(v[a] >= trim && v[a] <= volume.size[a] - 1 - trim)) return false;
+  }
+  return true;
+}
+
 std::optional<WristSurfaces::Depth> WristSurfaces::depth_at(const Vec3& point) const {
   const auto hit = skin_.nearest(point);
-  if (!hit) return std::nullopt;
+  if (!hit || !is_in_scan(hit->point)) return std::nullopt;
   const Vec3 normal = unit_normal(data_.skin, hit->facet);
   const double away = std::sqrt(hit->squared_distance);
   const Vec3 way = point - hit->point;

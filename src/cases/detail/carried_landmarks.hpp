@@ -12,6 +12,7 @@
 #include "anatomy/similarity_fit.hpp"
 #include "anatomy/structure_table.hpp"
 #include "cases/case_data.hpp"
+#include "fields/exact_surface.hpp"
 #include "fields/triangle_tree.hpp"
 
 namespace carpus::cases::detail {
@@ -33,6 +34,10 @@ class WristSurfaces {
   [[nodiscard]] double distance_to_forearm(const Vec3& point) const;
   [[nodiscard]] double distance_to_hand(const Vec3& point) const;
 
+  /// Whether the CT shows the point, not only the rim that the skin is trimmed by for the eye; true
+  /// everywhere without a CT.
+  [[nodiscard]] bool is_in_scan(const Vec3& point) const;
+
   /// How deep a point lies under the skin [mm], negative outside, and the way out. Empty without a
   /// skin, and where the skin ends (the scan's field of view).
   struct Depth {
@@ -45,8 +50,7 @@ class WristSurfaces {
  private:
   struct Surface {
     BoneId bone;
-    const TriangleMesh* mesh;
-    fields::TriangleTree tree;
+    fields::ExactSurface exact;
   };
   [[nodiscard]] double nearest_mm(const Vec3& point, bool of_forearm) const;
 
