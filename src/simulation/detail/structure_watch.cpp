@@ -30,6 +30,9 @@ DualQuaternion motion_of(std::span<const Pose<frame::Patient, frame::Bone>> pose
   return dual_quaternion(poses[body].rotation, poses[body].translation);
 }
 
+/// Steps are taken to be no shorter, so that one can be divided by [mm].
+constexpr double kLeastStepMm = 0.1;
+
 double held_to_unit(double t) noexcept { return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t; }
 
 }  // namespace
@@ -48,12 +51,13 @@ bool is_possible(const StructureState& state,
 }
 
 StructureWatch::StructureWatch(const cases::CaseData& data)
-    : hand_(body_of(data, BoneId::Capitate)) {
+    : hand_(body_of(data, BoneId::Capitate)),
+      carriers_{hand_, body_of(data, BoneId::Radius), body_of(data, BoneId::Ulna)} {
   const std::size_t count = std::min(data.structures.size(), cases::kMaxStructures);
   for (std::size_t i = 0; i < count; ++i) {
     const cases::Structure& s = data.structures[i];
     tubes_.push_back(
-        {scanned_.size(), s.course.size(), s.radius_mm, forearm_of(data, s.forearm), {}, 0.0});
+        {scanned_.size(), s.course.size(), s.radius_mm, forearm_of(data, s.forearm), {}, 0.0, 0.0});
     for (const cases::StructurePoint& p : s.course) {
       scanned_.push_back(p.at);
       hand_share_.push_back(p.hand_share);
@@ -63,6 +67,14 @@ StructureWatch::StructureWatch(const cases::CaseData& data)
 }
 
 void StructureWatch::follow(std::span<const Pose<frame::Patient, frame::Bone>> poses) noexcept {
+  bool is_still = is_laid_;
+  for (std::size_t c = 0; c < carriers_.size(); ++c) {
+    if (carriers_[c] >= poses.size()) continue;
+    is_still = is_still && laid_by_[c] == poses[carriers_[c]];
+    laid_by_[c] = poses[carriers_[c]];
+  }
+  if (is_still) return;
+  is_laid_ = true;
   const DualQuaternion hand = motion_of(poses, hand_);
   for (Tube& tube : tubes_) {
     const DualQuaternion forearm = motion_of(poses, tube.forearm);
@@ -78,19 +90,28 @@ void StructureWatch::follow(std::span<const Pose<frame::Patient, frame::Bone>> p
         high[a] = std::max(high[a], now_[i][a]);
       }
     }
+    tube.longest_step_mm = kLeastStepMm;
+    for (std::size_t i = tube.first + 1; i < tube.first + tube.count; ++i) {
+      tube.longest_step_mm = std::max(tube.longest_step_mm, distance(now_[i - 1], now_[i]));
+    }
     tube.middle = (low + high) * 0.5;
     tube.reach_mm = distance(low, high) * 0.5 + tube.radius_mm;
   }
 }
 
-double StructureWatch::gap_mm(std::size_t tube, const Vec3& from, const Vec3& to) const noexcept {
+double StructureWatch::gap_mm(std::size_t tube,
+                              const Vec3& from,
+                              const Vec3& to,
+                              double below_mm) const noexcept {
   const Tube& t = tubes_[tube];
   const double reach = segment_distance(from, to, t.middle, t.middle) - t.reach_mm;
-  // Where even its ball is far away its distance tells nobody anything.
-  if (!(reach < kFarFromStructureMm - t.radius_mm)) return kFarFromStructureMm;
-  double least = kFarFromStructureMm;
-  for (std::size_t i = t.first + 1; i < t.first + t.count; ++i) {
-    least = std::min(least, segment_distance(from, to, now_[i - 1], now_[i]));
+  if (!(reach < below_mm)) return below_mm;
+  double least = below_mm + t.radius_mm;
+  for (std::size_t i = t.first + 1; i < t.first + t.count;) {
+    const double away = segment_distance(from, to, now_[i - 1], now_[i]);
+    least = std::min(least, away);
+    // So many pieces farther on nothing can be nearer than what was found.
+    i += 1 + static_cast<std::size_t>((away - least) / t.longest_step_mm);
   }
   return least - t.radius_mm;
 }

@@ -61,13 +61,16 @@ class StructureWatch {
 
   [[nodiscard]] std::size_t size() const noexcept { return tubes_.size(); }
 
-  /// Lays the tubes where the bones have taken them; poses by body of the case. Cheap, and only
-  /// needed before `gap_mm`. Only + - * / and sqrt.
+  /// Lays the tubes where the bones have taken them; poses by body of the case. Only needed before
+  /// `gap_mm`, and nearly free while the bones that take them stay. Only + - * / and sqrt.
   void follow(std::span<const Pose<frame::Patient, frame::Bone>> poses) noexcept;
 
   /// Least distance of a tube's surface from the segment [mm]; negative where the segment is in it;
-  /// kFarFromStructureMm where it is far away.
-  [[nodiscard]] double gap_mm(std::size_t tube, const Vec3& from, const Vec3& to) const noexcept;
+  /// `below_mm` where it is no nearer than that, which is found out sooner.
+  [[nodiscard]] double gap_mm(std::size_t tube,
+                              const Vec3& from,
+                              const Vec3& to,
+                              double below_mm = kFarFromStructureMm) const noexcept;
 
  private:
   struct Tube {
@@ -77,12 +80,16 @@ class StructureWatch {
     std::uint8_t forearm = kNoBody;
     Vec3 middle;  ///< of a ball round it as it lies now
     double reach_mm = 0;
+    double longest_step_mm = 0;  ///< between neighbouring points
   };
   std::vector<Tube> tubes_;
   std::vector<Vec3> scanned_;
   std::vector<double> hand_share_;
   std::vector<Vec3> now_;
   std::uint8_t hand_ = kNoBody;
+  std::array<std::uint8_t, 3> carriers_{};  ///< hand, radius, ulna
+  std::array<Pose<frame::Patient, frame::Bone>, 3> laid_by_{};
+  bool is_laid_ = false;
 };
 
 /// Least distance of two segments [mm]. Source: [ericson2004realtime] §5.1.9.

@@ -58,10 +58,7 @@ void World::State::watch_structures(const Model& model) noexcept {
     if (item == nullptr || spent.hands[h].wish.driver == Driver::Off) continue;
     const instruments::Instrument& kind = kind_of(model, *item);
     if (kind.work == instruments::Work::None) continue;
-    if (!structures_are_laid) {
-      structures.follow({poses.data(), snapshot.body_count});
-      structures_are_laid = true;
-    }
+    structures.follow({poses.data(), snapshot.body_count});
     const Bare bare = bare_part(now.held[h]);
     // What rides on a wire takes its way, held open: it harms what the wire's way leads through.
     const instruments::Instrument& opens =
@@ -69,7 +66,8 @@ void World::State::watch_structures(const Model& model) noexcept {
     const double radius = opens.cut_tip_radius_mm;
     for (std::size_t i = 0; i < structures.size(); ++i) {
       detail::StructureHarm& harm = structure_state.harm[i];
-      const double gap = structures.gap_mm(i, bare.from, bare.to) - radius;
+      // Only what is nearer than ever before changes anything; what is struck is below 0 already.
+      const double gap = structures.gap_mm(i, bare.from, bare.to, harm.least_mm + radius) - radius;
       if (gap < harm.least_mm) {
         harm.least_mm = gap;
         harm.by = item->instrument;

@@ -55,7 +55,6 @@ struct World::State {
   detail::Spent spent;
   detail::StructureState structure_state;
   detail::StructureWatch structures;
-  bool structures_are_laid = false;  ///< where the bones are now
   detail::Tissue tissue;
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
   std::array<detail::BodyPose, kMaxBodies> poses{};  ///< follow from wrist and shifts

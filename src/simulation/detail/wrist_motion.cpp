@@ -96,7 +96,6 @@ void World::State::pose_bodies(const Model& model) noexcept {
     poses[b] = now.moved[b].is_none() ? bases[b] : bases[b] * now.moved[b].pose();
     inverses[b] = poses[b].inverse();
   }
-  structures_are_laid = false;
 }
 
 /// What is fixed in bone lies where its body has taken it.
