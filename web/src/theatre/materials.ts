@@ -311,7 +311,10 @@ export function structureMaterial(
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, motion);
     shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", `#include <common>\nattribute float _hand_share;\n${BLEND_DECLARATIONS}`)
+      .replace(
+        "#include <common>",
+        `#include <common>\nattribute float _hand_share;\n${BLEND_DECLARATIONS}`,
+      )
       .replace(
         "#include <beginnormal_vertex>",
         "blendBegin(_hand_share);\nvec3 objectNormal = blendTurned(normal);",

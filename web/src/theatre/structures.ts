@@ -44,7 +44,10 @@ export class Structures {
     ulna: RESTING,
     hand: RESTING,
   };
-  private readonly uniforms: Record<Carrier, { readonly real: { value: THREE.Vector4 }; readonly dual: { value: THREE.Vector4 } }>;
+  private readonly uniforms: Record<
+    Carrier,
+    { readonly real: { value: THREE.Vector4 }; readonly dual: { value: THREE.Vector4 } }
+  >;
 
   constructor(surfaces: readonly StructureSurface[], bones: ReadonlySet<string>) {
     const uniform = (): { real: { value: THREE.Vector4 }; dual: { value: THREE.Vector4 } } => ({
@@ -96,9 +99,7 @@ export class Structures {
     this.uniforms[carrier].dual.value.set(...moved.dual);
     for (const { forearm, middle, share, marker } of this.named) {
       if (carrier !== "hand" && carrier !== forearm) continue;
-      marker.position.set(
-        ...blendedPoint(middle, this.motions[forearm], this.motions.hand, share),
-      );
+      marker.position.set(...blendedPoint(middle, this.motions[forearm], this.motions.hand, share));
       marker.updateWorldMatrix(true, false);
     }
   }
