@@ -11,7 +11,7 @@ export const BONE_COLOR = "#e9dfc7";
 export const SKIN_COLOR = "#c99a80";
 /** As in atlases. */
 export const STRUCTURE_COLORS: Readonly<Record<StructureKind, string>> = {
-  tendon: "#f4ead2",
+  tendon: "#b9d3d6",
   artery: "#c63a35",
   nerve: "#f0cf3c",
 };

@@ -38,4 +38,4 @@ export function carriedBy(bone: string): Carrier | undefined {
 
 /** Said wherever they are shown. */
 export const STRUCTURES_NOTE =
-  "Tendons ivory, arteries red, nerves yellow: generated, not seen in the CT";
+  "Tendons pale blue, arteries red, nerves yellow: generated, not seen in the CT";
