@@ -36,7 +36,8 @@ namespace carpus::procedures::scaphoid_fixation {
     const procedure::OperationRecord& record,
     const procedure::Procedure& procedure);
 
-/// Placement, conduct and structures, graded by the procedure's rules; of an operation that was declined, that.
+/// Placement, conduct and structures, graded by the procedure's rules; of an operation that was
+/// declined, that.
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record,
                                            const Fixation& fixation);
