@@ -57,20 +57,30 @@ class Flood {
         options_(options),
         labels_(labels),
         queue_(relief.values().size(), options.levels),
-        closed_(relief.values().size(), 0),
-        neighbour_count_(options.space == FloodSpace::Volume ? 6 : 4) {
-    for (std::size_t i = 0; i < closed_.size(); ++i) {
-      closed_[i] = labels[i] != 0 || (!mask.empty() && mask[i] == 0) ? 1 : 0;
+        neighbours_(relief.geometry(), options.space, options.connectivity),
+        state_(relief.values().size(), kOpen) {
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (labels[i] != 0) {
+        state_[i] = kMarker;
+      } else if (!mask.empty() && mask[i] == 0) {
+        state_[i] = kOutside;
+      } else {
+        ++to_flood_;
+      }
     }
+    mark_inner();
     measure_relief();
   }
 
   void run() {
-    for (std::size_t i = 0; i < closed_.size(); ++i) {
-      if (closed_[i] == 0) queue_if_touching_marker(i);
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (is_open(i)) queue_if_touching_marker(i);
     }
     for (std::size_t level = 0; level < static_cast<std::size_t>(options_.levels); ++level) {
-      for (std::uint32_t i = queue_.pop(level); i != kEnd; i = queue_.pop(level)) settle(i, level);
+      for (std::uint32_t i = queue_.pop(level); i != kEnd; i = queue_.pop(level)) {
+        settle(i, level);
+        if ((++settled_ & kReportMask) == 0) report();
+      }
     }
   }
 
@@ -78,9 +88,9 @@ class Flood {
   void measure_relief() {
     float high = -std::numeric_limits<float>::infinity();
     low_ = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < closed_.size(); ++i) {
+    for (std::size_t i = 0; i < state_.size(); ++i) {
       const float v = relief_[i];
-      if (closed_[i] != 0 || !std::isfinite(v)) continue;
+      if (!is_open(i) || !std::isfinite(v)) continue;
       low_ = std::min(low_, v);
       high = std::max(high, v);
     }
@@ -94,33 +104,58 @@ class Flood {
     return std::min(top, static_cast<std::size_t>((v - low_) * scale_));
   }
 
-  /// Calls visit(j) for each neighbour j of voxel i, in the order -x +x -y +y -z +z.
+  /// What a voxel is: the low bits; kInner beside it where all its neighbours lie in the grid.
+  static constexpr std::uint8_t kOpen = 0;
+  static constexpr std::uint8_t kMarker = 1;
+  static constexpr std::uint8_t kOutside = 2;
+  static constexpr std::uint8_t kQueued = 3;
+  static constexpr std::uint8_t kStateBits = 3;
+  static constexpr std::uint8_t kInner = 4;
+  static constexpr std::size_t kReportMask = (std::size_t{1} << 20U) - 1;
+
+  [[nodiscard]] bool is_open(std::size_t i) const { return (state_[i] & kStateBits) == kOpen; }
+
+  /// The flood asks for neighbours at random places: whether a voxel lies on a side of the volume
+  /// is found out once, in order, without divisions.
+  void mark_inner() {
+    const std::array<int, 3>& size = relief_.geometry().size;
+    const bool in_slices = options_.space == FloodSpace::Slices;
+    std::size_t i = 0;
+    for (int z = 0; z < size[2]; ++z) {
+      for (int y = 0; y < size[1]; ++y) {
+        const bool inner_row =
+            y > 0 && y + 1 < size[1] && (in_slices || (z > 0 && z + 1 < size[2]));
+        for (int x = 0; x < size[0]; ++x, ++i) {
+          if (inner_row && x > 0 && x + 1 < size[0]) state_[i] |= kInner;
+        }
+      }
+    }
+  }
+
   template <typename Visit>
   void for_neighbours(std::size_t i, const Visit& visit) const {
-    const GridGeometry& g = relief_.geometry();
-    const VoxelIndex v = g.index_of(i);
-    const auto dy = static_cast<std::size_t>(g.size[0]);
-    const std::size_t dz = dy * static_cast<std::size_t>(g.size[1]);
-    if (v.x > 0) visit(i - 1);
-    if (v.x + 1 < g.size[0]) visit(i + 1);
-    if (v.y > 0) visit(i - dy);
-    if (v.y + 1 < g.size[1]) visit(i + dy);
-    if (neighbour_count_ == 4) return;
-    if (v.z > 0) visit(i - dz);
-    if (v.z + 1 < g.size[2]) visit(i + dz);
+    if ((state_[i] & kInner) != 0) {
+      neighbours_.for_each_of_inner(i, visit);
+    } else {
+      neighbours_.for_each(i, visit);
+    }
+  }
+
+  void report() const {
+    options_.progress("watershed", static_cast<double>(settled_) / static_cast<double>(to_flood_));
   }
 
   void queue_if_touching_marker(std::size_t i) {
     RegionLabel found = 0;
     for_neighbours(i, [&](std::size_t j) {
       // Markers only: a label just given to a queued neighbour is not one.
-      if (found == 0 && labels_[j] != 0 && closed_[j] == 1) found = labels_[j];
+      if (found == 0 && (state_[j] & kStateBits) == kMarker) found = labels_[j];
     });
     if (found != 0) enqueue(i, found, 0);
   }
 
   void enqueue(std::size_t i, RegionLabel label, std::size_t current_level) {
-    closed_[i] = 2;
+    state_[i] |= kQueued;
     if (!options_.keep_dams) labels_[i] = label;
     queue_.push(std::max(level_of(i), current_level), static_cast<std::uint32_t>(i));
   }
@@ -129,7 +164,7 @@ class Flood {
     if (options_.keep_dams && !claim_or_dam(i)) return;
     const RegionLabel label = labels_[i];
     for_neighbours(i, [&](std::size_t j) {
-      if (closed_[j] == 0) enqueue(j, label, level);
+      if (is_open(j)) enqueue(j, label, level);
     });
   }
 
@@ -152,8 +187,10 @@ class Flood {
   WatershedOptions options_;
   GridView<RegionLabel> labels_;
   LevelQueue queue_;
-  std::vector<std::uint8_t> closed_;  ///< 0 to be flooded, 1 marker or outside the mask, 2 queued
-  int neighbour_count_;
+  Neighbourhood neighbours_;
+  std::vector<std::uint8_t> state_;
+  std::size_t to_flood_ = 0;
+  std::size_t settled_ = 0;
   float low_ = 0;
   float scale_ = 0;
 };

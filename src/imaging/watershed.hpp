@@ -9,27 +9,26 @@
 #include <cstdint>
 #include <span>
 
+#include "core/progress.hpp"
 #include "geometry/grid.hpp"
+#include "imaging/neighbourhood.hpp"
 
 namespace carpus::imaging {
 
 /// Region numbers; 0 = none.
 using RegionLabel = std::uint16_t;
 
-/// Which voxels the water can flow between.
-enum class FloodSpace : std::uint8_t {
-  Volume,  ///< the six face neighbours
-  Slices,  ///< the four neighbours in the slice: each slice for itself, as in the thesis
-};
-
 struct WatershedOptions {
-  FloodSpace space = FloodSpace::Volume;
+  FloodSpace space = FloodSpace::Volume;  ///< Slices: each slice for itself, as in the thesis
+  Connectivity connectivity = Connectivity::Faces;  ///< what water flows through
   /// Leave a wall of label 0, one voxel thick, where basins meet (the thesis's form); otherwise
   /// such voxels belong to the basin that reached them first.
   bool keep_dams = false;
   /// The relief is quantised to this many levels between its least and greatest finite value;
   /// first-in-first-out within one level.
   int levels = 4096;
+  /// Told now and then; what it throws ends the flood, and labels are then of no use.
+  Progress progress = no_progress;
 };
 
 /// Floods `relief` from the voxels of `labels` that are not 0, which keep their label, until no

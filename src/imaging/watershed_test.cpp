@@ -7,7 +7,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <string_view>
 #include <vector>
 
 #include "core/rng.hpp"
@@ -54,11 +56,35 @@ Grid<RegionLabel> flooded(const Problem& p, const WatershedOptions& options) {
   return labels;
 }
 
+/// The neighbours of v, some beyond the grid, by counting the axes that differ.
+std::vector<VoxelIndex> around(const VoxelIndex& v, const WatershedOptions& how) {
+  std::vector<VoxelIndex> found;
+  const int most = how.connectivity == Connectivity::Faces   ? 1
+                   : how.connectivity == Connectivity::Edges ? 2
+                                                             : 3;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const int differing = (x != 0 ? 1 : 0) + (y != 0 ? 1 : 0) + (z != 0 ? 1 : 0);
+        if (differing == 0 || differing > most) continue;
+        if (how.space == FloodSpace::Slices && z != 0) continue;
+        found.push_back({v.x + x, v.y + y, v.z + z});
+      }
+    }
+  }
+  return found;
+}
+
+constexpr std::array kConnectivities{Connectivity::Faces, Connectivity::Edges,
+                                     Connectivity::Corners};
+
+constexpr float kUnreached = 1e9F;
+
 /// Greatest height on the lowest path from the markers of each label to `target`: by Dijkstra on
 /// the maximum, the slow and obvious definition.
-std::vector<float> pass_heights(const Problem& p, RegionLabel label) {
+std::vector<float> pass_heights(const Problem& p, RegionLabel label, const WatershedOptions& how) {
   const GridGeometry& g = p.relief.geometry();
-  std::vector<float> best(p.relief.values().size(), 1e9F);
+  std::vector<float> best(p.relief.values().size(), kUnreached);
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (p.markers[i] == label) best[i] = -1;
   }
@@ -67,9 +93,7 @@ std::vector<float> pass_heights(const Problem& p, RegionLabel label) {
     for (std::size_t i = 0; i < best.size(); ++i) {
       if (p.markers[i] != 0) continue;
       const VoxelIndex v = g.index_of(i);
-      for (const VoxelIndex& n : {VoxelIndex{v.x - 1, v.y, v.z}, VoxelIndex{v.x + 1, v.y, v.z},
-                                  VoxelIndex{v.x, v.y - 1, v.z}, VoxelIndex{v.x, v.y + 1, v.z},
-                                  VoxelIndex{v.x, v.y, v.z - 1}, VoxelIndex{v.x, v.y, v.z + 1}}) {
+      for (const VoxelIndex& n : around(v, how)) {
         if (!g.contains(n)) continue;
         const float through = std::max(best[g.offset_of(n)], p.relief[i]);
         if (through < best[i]) {
@@ -84,15 +108,52 @@ std::vector<float> pass_heights(const Problem& p, RegionLabel label) {
 
 RC_GTEST_PROP(Watershed, GivesEachVoxelToAMarkerThatReachesItOverTheLowestPass, ()) {
   const Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
-  const Grid<RegionLabel> labels = flooded(p, exact_levels(p));
+  WatershedOptions options = exact_levels(p);
+  options.connectivity = *rc::gen::elementOf(kConnectivities);
+  options.space = *rc::gen::element(FloodSpace::Volume, FloodSpace::Slices);
+  const Grid<RegionLabel> labels = flooded(p, options);
   std::vector<std::vector<float>> heights(p.marker_count + std::size_t{1});
-  for (RegionLabel m = 1; m <= p.marker_count; ++m) heights[m] = pass_heights(p, m);
+  for (RegionLabel m = 1; m <= p.marker_count; ++m) heights[m] = pass_heights(p, m, options);
   for (std::size_t i = 0; i < labels.values().size(); ++i) {
-    RC_ASSERT(labels[i] != 0);
     for (RegionLabel m = 1; m <= p.marker_count; ++m) {
-      RC_ASSERT(heights[labels[i]][i] <= heights[m][i]);
+      // A slice without a marker is reached by none.
+      RC_ASSERT(labels[i] != 0 || heights[m][i] == kUnreached);
+      if (labels[i] != 0) RC_ASSERT(heights[labels[i]][i] <= heights[m][i]);
     }
   }
+}
+
+RC_GTEST_PROP(Watershed, TheNamesOfTheMarkersChangeNothing, ()) {
+  Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
+  WatershedOptions options = exact_levels(p);
+  options.connectivity = *rc::gen::elementOf(kConnectivities);
+  options.keep_dams = *rc::gen::arbitrary<bool>();
+  const Grid<RegionLabel> before = flooded(p, options);
+  const auto other_name = [&](RegionLabel m) {
+    return m == 0 ? RegionLabel{0} : static_cast<RegionLabel>(100 - m);
+  };
+  for (RegionLabel& m : p.markers.values()) m = other_name(m);
+  const Grid<RegionLabel> after = flooded(p, options);
+  for (std::size_t i = 0; i < before.values().size(); ++i) {
+    RC_ASSERT(after[i] == other_name(before[i]));
+  }
+}
+
+TEST(Watershed, TellsHowFarItIsAndCanBeStopped) {
+  GridGeometry g;
+  g.size = {128, 128, 160};
+  Problem p{Grid<float>(g), Grid<RegionLabel>(g), 1};
+  p.markers[0] = 1;
+  WatershedOptions options;
+  std::vector<double> told;
+  options.progress = [&](std::string_view, double fraction) { told.push_back(fraction); };
+  flooded(p, options);
+  ASSERT_GE(told.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LE(told.back(), 1.0);
+  struct Stopped {};
+  options.progress = [](std::string_view, double) { throw Stopped{}; };
+  EXPECT_THROW(flooded(p, options), Stopped);
 }
 
 RC_GTEST_PROP(Watershed, KeepsMarkersPartitionsTheMaskAndStaysInside, ()) {
@@ -142,12 +203,12 @@ RC_GTEST_PROP(Watershed, DamsKeepBasinsApart, ()) {
   const Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
   WatershedOptions options = exact_levels(p);
   options.keep_dams = true;
+  options.connectivity = *rc::gen::elementOf(kConnectivities);
   const Grid<RegionLabel> labels = flooded(p, options);
   const GridGeometry& g = p.relief.geometry();
   for (std::size_t i = 0; i < labels.values().size(); ++i) {
     const VoxelIndex v = g.index_of(i);
-    for (const VoxelIndex& n : {VoxelIndex{v.x + 1, v.y, v.z}, VoxelIndex{v.x, v.y + 1, v.z},
-                                VoxelIndex{v.x, v.y, v.z + 1}}) {
+    for (const VoxelIndex& n : around(v, options)) {
       if (!g.contains(n) || labels[i] == 0 || labels[n] == 0) continue;
       // Only markers placed side by side may touch.
       if (p.markers[i] != 0 && p.markers[n] != 0) continue;

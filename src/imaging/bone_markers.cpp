@@ -1,0 +1,126 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// 1. Smooth; crop to what is dense. 2. Bone mask: flood the outside through everything that is not
+// dense or lies in a dark cleft; what the flood cannot reach is bone and the marrow it encloses.
+// 3. Distance to the mask's border; its prominent peaks are markers; watershed. 4. Join regions
+// whose neck is nearly as thick as they are. 5. What lies deep in a region is the bone's marker.
+#include "imaging/bone_markers.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "imaging/binary_mask.hpp"
+#include "imaging/distance_transform.hpp"
+#include "imaging/gaussian.hpp"
+#include "imaging/peak_markers.hpp"
+#include "imaging/region_merging.hpp"
+
+namespace carpus::imaging {
+namespace {
+
+/// Muscle, tendon, cartilage and fluid lie in this range; fat and air below, bone above.
+constexpr float kSoftTissueLowHu = -50;
+constexpr float kSoftTissueHighHu = 150;
+/// Where no such tissue is seen (a bone in air), muscle's usual density.
+constexpr float kUsualSoftTissueHu = 45;
+
+Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
+                                    const Grid<float>& cleft,
+                                    const BoneSegmentationOptions& options) {
+  Grid<std::uint8_t> low(smoothed.geometry());
+  const auto weight = static_cast<float>(options.cleft_weight);
+  const auto threshold = static_cast<float>(options.bone_threshold_hu);
+  for (std::size_t i = 0; i < low.values().size(); ++i) {
+    low[i] = smoothed[i] - weight * cleft[i] < threshold ? 1 : 0;
+  }
+  const Components components = connected_components(low.view());
+  const std::uint32_t outside = components.largest();
+  Grid<std::uint8_t> mask(smoothed.geometry());
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    mask[i] = outside == 0 || components.labels[i] != outside ? 1 : 0;
+  }
+  return opened_by_one_voxel(mask.view());
+}
+
+float median_soft_tissue(const Grid<float>& smoothed, const Grid<std::uint8_t>& mask) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    const float v = smoothed[i];
+    if (mask[i] == 0 && v >= kSoftTissueLowHu && v <= kSoftTissueHighHu) values.push_back(v);
+  }
+  if (values.empty()) return kUsualSoftTissueHu;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Steps 3 and 4: the bodies within the mask, one label each. Returns how many.
+RegionLabel separate_bodies(const Grid<std::uint8_t>& mask,
+                            const Grid<float>& depth,
+                            const BoneSegmentationOptions& options,
+                            Grid<RegionLabel>& regions) {
+  const auto peaks = prominent_peaks(depth.view(), mask.view(),
+                                     {options.peak_prominence_mm, options.peak_height_mm});
+  const std::size_t most = 60000;  // fits a RegionLabel; noise alone makes so many
+  for (std::size_t i = 0; i < std::min(peaks.size(), most); ++i) {
+    regions[peaks[i]] = static_cast<RegionLabel>(i + 1);
+  }
+  Grid<float> relief(depth.geometry());
+  for (std::size_t i = 0; i < relief.values().size(); ++i) relief[i] = -depth[i];
+  flood_from_markers(relief.view(), mask.values(), {}, regions.view());
+  const auto merged = merge_regions(measure_regions(regions.view(), depth.view()),
+                                    depth.geometry().voxel_volume_mm3(),
+                                    {options.neck_ratio, options.min_bone_mm3});
+  relabel(regions.view(), merged);
+  return merged.empty() ? RegionLabel{0} : *std::max_element(merged.begin(), merged.end());
+}
+
+/// Step 5: bodies keep what is deeper than marker_depth_mm; the outside is a body too.
+void keep_inner_parts(const BoneSegmentationOptions& options, BoneMarkers& found) {
+  for (std::size_t i = 0; i < found.markers.values().size(); ++i) {
+    if (found.mask[i] == 0) {
+      found.markers[i] = found.outside();
+    } else if (!(static_cast<double>(found.depth[i]) > options.marker_depth_mm)) {
+      found.markers[i] = 0;
+    }
+  }
+}
+
+}  // namespace
+
+BoneMarkers find_bone_markers(const GridView<const std::int16_t>& ct,
+                              const BoneSegmentationOptions& options,
+                              const Progress& progress) {
+  BoneMarkers found;
+  progress("smooth", 0.0);
+  const Grid<float> whole = as_float(ct);
+  const Grid<float> smoothed_whole = gaussian_smooth(whole.view(), options.smoothing_sigma_mm);
+  if (whole.values().empty()) return found;
+  found.densest_hu = static_cast<double>(
+      *std::max_element(smoothed_whole.values().begin(), smoothed_whole.values().end()));
+  found.status = SegmentationStatus::NoBone;
+  const auto box =
+      box_above(smoothed_whole.view(), options.crop_threshold_hu, options.crop_margin_mm);
+  if (!box) return found;
+  found.offset = box->low;
+  found.hu = crop(whole.view(), *box);
+  found.smoothed_hu = crop(smoothed_whole.view(), *box);
+
+  progress("joint clefts", 0.2);
+  const Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);
+  progress("bone mask", 0.57);
+  found.mask = enclosed_by_bone(found.smoothed_hu, cleft, options);
+  found.soft_tissue_hu = static_cast<double>(median_soft_tissue(found.smoothed_hu, found.mask));
+  found.depth = distance_to_background(found.mask.view());
+
+  progress("markers", 0.71);
+  found.markers = Grid<RegionLabel>(found.hu.geometry());
+  found.bone_count = separate_bodies(found.mask, found.depth, options, found.markers);
+  if (found.bone_count == 0) return found;
+  keep_inner_parts(options, found);
+  found.status = SegmentationStatus::Ok;
+  return found;
+}
+
+}  // namespace carpus::imaging
