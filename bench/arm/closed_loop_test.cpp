@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "bench/arm/avr_board.hpp"
@@ -76,18 +77,27 @@ TEST(ClosedLoop, ABadLineAndASilentHostAreBorne) {
   EXPECT_TRUE(rig.is_driven()) << "recovered";
 }
 
-TEST(ClosedLoop, AnswersWithin700UsMostlyAndAlwaysWithin800) {
-  OurRig rig(with_hand(1));
-  for (int ms = 0; ms < 500; ++ms) rig.run_ms();
-  ASSERT_GT(rig.round_trips_us().size(), 400U);
-  // The first are those of the calibration, whose frames are longer.
-  std::vector<double> trips(rig.round_trips_us().begin() + 20, rig.round_trips_us().end());
+TEST(ClosedLoop, AnswersWithin700UsWhateverItsLegsDo) {
+  std::vector<double> trips;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RigOptions options = with_hand(1);
+    options.seed = seed;
+    OurRig rig(options);
+    for (int ms = 0; ms < 700; ++ms) {  // into the wall, along it, out again
+      const double t = 1e-3 * ms;
+      rig.plant().set_intent(
+          {rig.start() + Vec3{20 * std::sin(9 * t), 0, -25 * std::sin(4.5 * t)}, {}});
+      rig.run_ms();
+    }
+    ASSERT_GT(rig.round_trips_us().size(), 600U);
+    // The first are those of the calibration, whose frames are longer.
+    trips.insert(trips.end(), rig.round_trips_us().begin() + 20, rig.round_trips_us().end());
+  }
   std::sort(trips.begin(), trips.end());
   std::printf(
       "round trip with legs that move at their stops: p50 %.0f us, p90 %.0f us, worst %.0f us\n",
       trips[trips.size() / 2], trips[trips.size() * 9 / 10], trips.back());
-  EXPECT_LE(trips[trips.size() / 2], 700);
-  EXPECT_LE(trips.back(), 800) << "a frame that ends while a leg's law is computed waits for it";
+  EXPECT_LE(trips.back(), 700);
 }
 
 }  // namespace

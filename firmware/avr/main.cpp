@@ -25,9 +25,17 @@ using carpus::firmware::StopArm;
 
 constexpr uint8_t kLegs = StopArm::kLegs;
 constexpr uint8_t kSupplyPin = 3;
+/// In GPIOR0, where a bit is set in one instruction: an interrupt left something to do. Most leave
+/// nothing, and the loop sleeps on.
+constexpr uint8_t kNews = 1;
 constexpr uint16_t kSlotHalfUs = 13333;  // three a frame of 20 ms
 constexpr uint16_t kEarlyHalfUs = 44;
 constexpr uint8_t kConversions = 4;
+/// A leg's law, and its sample, wait for a frame that so few bytes end, or its answer would wait
+/// for them. Where two of them are due they do not: no line, however bad, holds them up for longer
+/// than from one leg's sample to the next's.
+constexpr uint8_t kBytesALawTakes = 9;
+constexpr uint8_t kBytesASampleTakes = 4;
 static_assert(carpus::firmware::kSamplePeriodUs == 104 * kLegs * kConversions, "Timer 0 below");
 
 /// Bytes between an interrupt and the loop.
@@ -47,7 +55,6 @@ class Ring {
     tail_ = static_cast<uint8_t>((tail_ + 1) % kSize);
     return true;
   }
-  bool is_empty() const volatile { return head_ == tail_; }
 
  private:
   uint8_t bytes_[kSize];
@@ -64,6 +71,11 @@ volatile uint16_t pulses[kLegs] = {0, 0, 0};
 volatile uint16_t sums[kLegs];
 volatile uint8_t fresh = 0;  ///< a bit a leg: sums holds a new sample
 volatile uint8_t begun = 0;  ///< a bit a leg: its pulse has begun
+
+/// Whether what waits, a bit a leg, is due while so many bytes of a frame are missing.
+bool is_due(uint8_t waiting, uint8_t missing, uint8_t takes) {
+  return waiting != 0 && (missing > takes || (waiting & (waiting - 1)) != 0);
+}
 
 struct StartSending {
   void operator()(uint8_t length) const {
@@ -121,6 +133,7 @@ void set_up() {
 ISR(USART_RX_vect) {
   const uint8_t byte = UDR0;
   received.push(byte);  // what does not fit is a corrupt frame
+  GPIOR0 |= kNews;
 }
 
 ISR(USART_UDRE_vect) {
@@ -130,6 +143,7 @@ ISR(USART_UDRE_vect) {
   } else {
     UCSR0B &= static_cast<uint8_t>(~_BV(UDRIE0));
     send_length = 0;
+    GPIOR0 |= kNews;
   }
 }
 
@@ -150,6 +164,7 @@ ISR(TIMER0_COMPA_vect) {
   if (++count == kConversions) {
     sums[leg] = sum;
     fresh = static_cast<uint8_t>(fresh | (1 << leg));
+    GPIOR0 |= kNews;
     sum = 0;
     count = 0;
     leg = leg == kLegs - 1 ? uint8_t{0} : static_cast<uint8_t>(leg + 1);
@@ -171,6 +186,7 @@ ISR(TIMER1_COMPA_vect) {
       }
       PORTB = pins;
       begun = static_cast<uint8_t>(begun | (1 << leg));
+      GPIOR0 |= kNews;
       is_high = true;
       edge = static_cast<uint16_t>(edge + pulse);
       OCR1A = static_cast<uint16_t>(edge - kEarlyHalfUs);
@@ -196,6 +212,7 @@ int main() {
   uint8_t to_step = 0;  ///< a bit a leg: it has a new sample; between, an answer can be sent
   for (;;) {
     wdt_reset();
+    GPIOR0 &= static_cast<uint8_t>(~kNews);
     uint8_t byte = 0;
     if (received.pop(byte)) {
       if (arm.push(byte)) arm.act(now = clock_us());
@@ -207,7 +224,7 @@ int main() {
       for (uint8_t leg = 0; leg < kLegs; ++leg) {
         if ((legs & (1 << leg)) != 0) arm.sent(leg);
       }
-    } else if (fresh != 0) {
+    } else if (is_due(fresh, arm.bytes_missing(), kBytesASampleTakes)) {
       uint8_t leg = 0;
       while ((fresh & (1 << leg)) == 0) ++leg;
       cli();
@@ -216,7 +233,7 @@ int main() {
       sei();
       arm.sample(leg, sum, now = clock_us());
       to_step = static_cast<uint8_t>(to_step | (1 << leg));
-    } else if (to_step != 0) {
+    } else if (is_due(to_step, arm.bytes_missing(), kBytesALawTakes)) {
       uint8_t leg = 0;
       while ((to_step & (1 << leg)) == 0) ++leg;
       to_step = static_cast<uint8_t>(to_step & ~(1 << leg));
@@ -235,12 +252,12 @@ int main() {
       sei();
     } else {
       cli();
-      if (received.is_empty() && fresh == 0 && begun == 0 &&
-          !(arm.has_reply() && send_length == 0)) {
+      while ((GPIOR0 & kNews) == 0) {
         sleep_enable();
         sei();
         sleep_cpu();
         sleep_disable();
+        cli();
       }
       sei();
     }

@@ -26,30 +26,38 @@ class FrameDecoder {
 
   /// Whether a frame has become whole; it stands until the next call of push() or next().
   bool next() {
-    drop(taken_);
+    if (taken_ != 0) drop(taken_);
     taken_ = 0;
     while (count_ > 0) {
-      if (at(0) != kSync) {
-        drop(1);
-        continue;
+      if (length_ == 0) {
+        if (at(0) != kSync) {
+          drop(1);
+          continue;
+        }
+        if (count_ < 2) return false;
+        const uint8_t payload = kPayloadBytes(at(1));
+        if (payload > kCapacity - kFrameOverhead) {  // 255: unknown
+          ++refused_;
+          drop(1);
+          continue;
+        }
+        length_ = static_cast<uint8_t>(payload + kFrameOverhead);
+        crc_ = add_to_crc(kFirstCrc, version_in_checksum(at(1)));
+        summed_ = 1;
       }
-      if (count_ < 2) return false;
-      const uint8_t payload = kPayloadBytes(at(1));
-      if (payload > kCapacity - kFrameOverhead) {  // 255: unknown
-        ++refused_;
-        drop(1);
-        continue;
+      // Byte by byte as they come: the last one is answered the sooner.
+      for (; summed_ < length_ - 2 && summed_ < count_; ++summed_) {
+        crc_ = add_to_crc(crc_, at(summed_));
       }
-      const uint8_t length = static_cast<uint8_t>(payload + kFrameOverhead);
-      if (count_ < length) return false;
+      if (count_ < length_) return false;
       uint16_t crc = 0;
-      read(bytes_ + first_ + length - 2, crc);
-      if (crc != frame_crc(bytes_ + first_ + 1, static_cast<uint8_t>(payload + 2))) {
+      read(bytes_ + first_ + length_ - 2, crc);
+      if (crc != crc_) {
         ++refused_;
         drop(1);
         continue;
       }
-      taken_ = length;
+      taken_ = length_;
       return true;
     }
     return false;
@@ -62,6 +70,10 @@ class FrameDecoder {
   template <typename Frame>
   bool read_frame(Frame& out) const {
     return kind() == kind_of(out) && read_payload(payload(), out);
+  }
+  /// How many bytes the frame that has begun still waits for, if it is one; 255: none has.
+  uint8_t missing() const {
+    return length_ == 0 || taken_ != 0 ? uint8_t{255} : static_cast<uint8_t>(length_ - count_);
   }
   /// Sync bytes that began no frame, since the start; wraps.
   uint16_t refused() const { return refused_; }
@@ -76,6 +88,7 @@ class FrameDecoder {
     first_ = static_cast<uint8_t>(first_ + n);
     count_ = static_cast<uint8_t>(count_ - n);
     if (count_ == 0) first_ = 0;
+    length_ = 0;
   }
   void compact() {
     for (uint8_t i = 0; i < count_; ++i) bytes_[i] = bytes_[first_ + i];
@@ -86,6 +99,9 @@ class FrameDecoder {
   uint8_t first_ = 0;
   uint8_t count_ = 0;
   uint8_t taken_ = 0;
+  uint8_t length_ = 0;  ///< of the frame that has begun; 0: none has, as far as is known
+  uint8_t summed_ = 0;  ///< how many of its bytes are in `crc_`
+  uint16_t crc_ = 0;
   uint16_t refused_ = 0;
 };
 

@@ -37,6 +37,20 @@ std::uint8_t tempting_byte(Rng& rng) {
   return rng.below(3) == 0 ? static_cast<std::uint8_t>(rng.below(256)) : kTempting[rng.below(8)];
 }
 
+TEST(FrameDecoder, SaysHowManyBytesOfAFrameAreMissing) {
+  Bytes stream;
+  append(stream, Stop{}, 1);
+  append(stream, Stop{}, 2);
+  DeviceDecoder decoder;
+  EXPECT_EQ(decoder.missing(), 255);
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    decoder.push(stream[i]);
+    const std::size_t in_frame = i % 11 + 1;
+    EXPECT_EQ(decoder.next(), in_frame == 11);
+    EXPECT_EQ(decoder.missing(), in_frame < 2 || in_frame == 11 ? 255 : 11 - in_frame);
+  }
+}
+
 TEST(FrameDecoder, FindsEveryFrameInGarbageThatLooksLikeFrames) {
   Rng rng(5);
   for (int round = 0; round < 2000; ++round) {

@@ -36,6 +36,8 @@ class StopArm {
     decoder_.push(byte);
     return decoder_.next();
   }
+  /// Of the frame that is coming in; 255: none is.
+  uint8_t bytes_missing() const { return decoder_.missing(); }
   void act(uint32_t now_us) {
     do {
       act_once(now_us);

@@ -233,6 +233,20 @@ TEST(AvrFirmware, ASilentHostLosesTheServosWithin25MsAndOneFrame) {
   EXPECT_GT(bench.pulses.size(), before + 9) << "recovered";
 }
 
+TEST(AvrFirmware, ALineThatFallsSilentWithinAFrameHoldsNothingUp) {
+  for (const std::size_t bytes : {1, 2, 5, 8, 10}) {
+    Bench bench;
+    bench.greet();
+    bench.drive_ms(100, Stop{});
+    std::vector<std::uint8_t> begun = bench.bytes_of(Stop{});
+    begun.resize(bytes);
+    bench.send_bytes(begun);
+    ASSERT_TRUE(bench.avr.is_supply_on());
+    bench.run_ms(26.5);
+    EXPECT_FALSE(bench.avr.is_supply_on()) << bytes << " bytes";
+  }
+}
+
 TEST(AvrFirmware, ABadLineNeverMakesAWrongPulse) {
   Bench bench;
   bench.greet();
