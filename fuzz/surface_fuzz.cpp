@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "case_io/marker_points.hpp"
 #include "case_io/ply.hpp"
 #include "case_io/surface_file.hpp"
 #include "refusals.hpp"
@@ -36,6 +37,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const auto points = case_io::parse_planar_points(bytes, kFile);
       fuzz::require(points.size() <= size);
       for (const Vec2& p : points) fuzz::require(is_finite(Vec3{p.x, p.y, 0}));
+    });
+    fuzz::reads_or_refuses(kFile.string(), [&] {
+      for (const auto& marker : case_io::parse_marker_points(bytes, kFile)) {
+        fuzz::require(is_finite(marker.place) && marker.label > 0 && marker.radius_mm >= 0);
+      }
     });
     return 0;
   }

@@ -18,12 +18,18 @@ namespace carpus::records {
 
 namespace {
 
+/// By which a writer chooses the format: the extension, and what is packed too: ".nii.gz".
+std::string ending_of(const std::filesystem::path& file) {
+  const std::string last = file.extension().string();
+  return last == ".gz" ? file.stem().extension().string() + last : last;
+}
+
 /// A file under a temporary name that vanishes unless it is renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target)
-      : target_(target), name_(target.string() + ".XXXXXX" + target.extension().string()) {
-    descriptor_ = ::mkstemps(name_.data(), static_cast<int>(target.extension().string().size()));
+      : target_(target), name_(target.string() + ".XXXXXX" + ending_of(target)) {
+    descriptor_ = ::mkstemps(name_.data(), static_cast<int>(ending_of(target).size()));
     if (descriptor_ < 0) fail("cannot create");
     // mkstemps makes it private; other users may read it like any file that a program writes.
     const mode_t mask = ::umask(0);

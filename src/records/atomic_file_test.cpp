@@ -73,7 +73,11 @@ TEST(AtomicFile, OfAnotherWriterIsWholeOrNotThereAndNamedAsAsked) {
   write_file_atomically(folder / "a.ply",
                         [](const std::filesystem::path& file) { std::ofstream(file) << "new"; });
   EXPECT_EQ(text_of(folder / "a.ply"), "new");
-  EXPECT_EQ(count_files(folder), 1U);
+  write_file_atomically(folder / "a.nii.gz", [](const std::filesystem::path& file) {
+    EXPECT_TRUE(file.string().ends_with(".nii.gz")) << file;
+    std::ofstream(file) << "new";
+  });
+  EXPECT_EQ(count_files(folder), 2U);
 }
 
 TEST(AtomicFile, MissingFolderAndMissingFileAreNamed) {

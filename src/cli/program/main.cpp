@@ -27,6 +27,7 @@
 #include "cli/reconstruct_command.hpp"
 #include "cli/replay_command.hpp"
 #include "cli/score_command.hpp"
+#include "cli/segment_command.hpp"
 #include "cli/serve_command.hpp"
 #include "cli/simulate_command.hpp"
 #include "cli/stock_command.hpp"
@@ -44,6 +45,7 @@ void add_commands(CLI::App& app) {
   add_phantom_command(app);
   add_stock_command(app);
   add_reconstruct_command(app);
+  add_segment_command(app);
   add_kinematics_command(app);
   add_hull_command(app);
   add_collide_command(app);
