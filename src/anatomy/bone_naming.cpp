@@ -24,8 +24,11 @@ constexpr double kFragmentGapMm = 4.0;
 /// Two pieces together are no larger than this in a wrist of the model's size, whose largest carpal
 /// bone, the capitate, has 2548 mm^3.
 constexpr double kFragmentVolumeMm3 = 4500.0;
-/// Fewer named bones than this is not a wrist that anyone operates on.
+/// Fewer named bones that fit than this is not a wrist that anyone operates on.
 constexpr std::size_t kLeastBones = 8;
+/// Nothing of the wrist has its middle farther than this from the capitate, in a wrist of the
+/// model's size; the nearest body beyond, a sesamoid of the thumb, lies at 65 mm.
+constexpr double kFarMm = 55.0;
 
 /// A naming of the bodies that are left when two regions count as one.
 struct Account {
@@ -48,7 +51,7 @@ Account account_of(const std::vector<BodyShape>& shapes,
 }
 
 bool could_be_fragments(const BodyShape& a, const BodyShape& b, double scale) {
-  return !a.is_cut && !b.is_cut &&
+  return !a.is_cut && !b.is_cut && a.ends.empty() && b.ends.empty() &&
          a.volume_mm3 + b.volume_mm3 < kFragmentVolumeMm3 * scale * scale * scale &&
          a.bounds.grown(kFragmentGapMm).overlaps(b.bounds) && gap_between(a, b) < kFragmentGapMm;
 }
@@ -101,15 +104,48 @@ void tell_parts_apart(const std::vector<BodyShape>& shapes,
   second->part = first_is_proximal ? BonePart::Distal : BonePart::Proximal;
 }
 
-NamingStatus judge(const BoneNaming& result) {
-  if (kBoneCount - result.missing.size() < kLeastBones) return NamingStatus::NotAWrist;
-  // Missing bones are said by name; whether the rest fits is judged without them.
-  double fit = 0;
-  for (const auto& region : result.regions) {
-    if (region && region->part != BonePart::Distal) fit += region->cost;
+/// Fingers, sesamoids, a table's edge: farther from the capitate (from the middle of all bones
+/// where there is none) than the shafts of a wrist of this size begin.
+std::size_t count_far_bodies(const Account& account) {
+  const auto& of_bone = account.naming.body_of_bone;
+  std::vector<bool> is_named(account.bodies.size(), false);
+  Vec3 middle;
+  double count = 0;
+  for (const auto& body : of_bone) {
+    if (!body) continue;
+    is_named[*body] = true;
+    middle += account.bodies[*body].centroid;
+    count += 1;
   }
-  if (fit >= kRefusedNamingCost) return NamingStatus::NotAWrist;
-  if (fit >= kDoubtfulNamingCost) return NamingStatus::Doubtful;
+  if (!(count > 0)) return 0;
+  middle = middle / count;
+  if (const auto capitate = of_bone[static_cast<std::size_t>(BoneId::Capitate) - 1]) {
+    middle = account.bodies[*capitate].centroid;
+  }
+  const double far_mm = kFarMm * account.naming.patient_from_model.scale;
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < account.bodies.size(); ++i) {
+    if (!is_named[i] && distance(account.bodies[i].centroid, middle) > far_mm) ++far;
+  }
+  return far;
+}
+
+/// Missing bones are said by name; whether the rest fits is judged without them, and one bone that
+/// fits badly does not condemn the others.
+NamingStatus judge(const BoneNaming& result) {
+  double fit = 0;
+  double worst = 0;
+  std::size_t good = 0;
+  std::size_t named = 0;
+  for (const auto& region : result.regions) {
+    if (!region || region->part == BonePart::Distal) continue;
+    fit += region->cost;
+    worst = std::max(worst, region->cost);
+    named += 1;
+    good += region->cost < kSuspiciousBoneCost ? 1 : 0;
+  }
+  if (named < kLeastBones || good < kLeastBones) return NamingStatus::NotAWrist;
+  if (fit >= kDoubtfulNamingCost || worst >= kSuspiciousBoneCost) return NamingStatus::Doubtful;
   return result.missing.empty() ? NamingStatus::Ok : NamingStatus::Incomplete;
 }
 
@@ -133,8 +169,10 @@ BoneNaming name_bones(const GridView<const std::uint16_t>& regions, std::uint16_
     other = detail::best_naming(account.bodies, other.side);
   }
   result.side = account.naming.side;
-  result.cost = account.naming.cost;
-  result.other_side_cost = other.cost;
+  const std::size_t far = count_far_bodies(account);
+  result.cost = account.naming.cost - detail::kNamelessCost * static_cast<double>(far);
+  result.far_bodies = far;
+  result.other_side_cost = other.cost - detail::kNamelessCost * static_cast<double>(far);
   fit_frame(account, result);
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     const auto body = account.naming.body_of_bone[b];

@@ -29,8 +29,8 @@ std::vector<Vec3> points_inside(const WristModel& model, const ModelBone& bone) 
   return points;
 }
 
-/// The points within the joint end's length of the end that lies farthest from the cut.
-std::vector<Vec3> joint_end_of(const std::vector<Vec3>& points, const Plane& cut) {
+/// Measures the joint end: what lies within 17 mm of the tip, and how it grows with length.
+void measure_joint_end(const std::vector<Vec3>& points, const Plane& cut, BodyShape& shape) {
   Vec3 face_centre, centre;
   double face_count = 0;
   for (const Vec3& p : points) {
@@ -41,15 +41,16 @@ std::vector<Vec3> joint_end_of(const std::vector<Vec3>& points, const Plane& cut
     }
   }
   CARPUS_CHECK(face_count > 0);
-  const Vec3 towards_joint = normalized_or(
-      centre / static_cast<double>(points.size()) - face_centre / face_count, -cut.normal);
+  face_centre = face_centre / face_count;
+  const Vec3 towards_joint =
+      normalized_or(centre / static_cast<double>(points.size()) - face_centre, -cut.normal);
   double reach = -std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) reach = std::max(reach, dot(towards_joint, p));
-  std::vector<Vec3> end;
   for (const Vec3& p : points) {
-    if (dot(towards_joint, p) > reach - kJointEndLength) end.push_back(p);
+    if (dot(towards_joint, p) > reach - kJointEndLength) shape.moments.add(p);
   }
-  return end;
+  const double available = std::min(kJointEndLength, reach - dot(towards_joint, face_centre));
+  shape.ends.emplace_back(points, towards_joint, available, shape.piece_mm3);
 }
 
 BodyShape measure_bone(const WristModel& model, const ModelBone& bone) {
@@ -58,8 +59,11 @@ BodyShape measure_bone(const WristModel& model, const ModelBone& bone) {
   shape.bounds = bone.bounds;
   shape.is_cut = bone.cut_plane.has_value();
   const std::vector<Vec3> all = points_inside(model, bone);
-  const std::vector<Vec3> measured = shape.is_cut ? joint_end_of(all, *bone.cut_plane) : all;
-  for (const Vec3& p : measured) shape.moments.add(p);
+  if (shape.is_cut) {
+    measure_joint_end(all, *bone.cut_plane, shape);
+  } else {
+    for (const Vec3& p : all) shape.moments.add(p);
+  }
   summarise(shape);
   return shape;
 }
@@ -85,32 +89,31 @@ const ModelShapes& generic_model_shapes(Side side) {
   return side == Side::Left ? kLeft : kRight;
 }
 
-std::vector<BonePlaces> places_in_postures(const ModelShapes& shapes, Side side) {
+Posture::Posture(const ModelShapes& shapes, const Mat3& half_turn) : half_turn_(half_turn) {
   const auto at = [&](BoneId bone) { return shapes[index_of(bone)].centroid; };
   // The wrist turns about the head of the capitate; its two joints lie on either side of the
   // lunate.
-  const Vec3 radiocarpal = 0.5 * at(BoneId::Lunate);  // between it and the origin on the radius
-  const Vec3 midcarpal = 0.5 * (at(BoneId::Lunate) + at(BoneId::Capitate));
+  radiocarpal_ = 0.5 * at(BoneId::Lunate);  // between it and the origin on the radius
+  midcarpal_ = 0.5 * (at(BoneId::Lunate) + at(BoneId::Capitate));
+}
+
+Vec3 Posture::place(BoneId bone, const Vec3& p) const noexcept {
+  if (belongs_to_forearm(bone)) return p;
+  const bool proximal_row = bone == BoneId::Scaphoid || bone == BoneId::Lunate ||
+                            bone == BoneId::Triquetrum || bone == BoneId::Pisiform;
+  const Vec3 turned = proximal_row ? p : half_turned(p, midcarpal_, half_turn_);
+  return half_turned(turned, radiocarpal_, half_turn_);
+}
+
+std::vector<Posture> all_postures(const ModelShapes& shapes, Side side) {
   // The same deviation turns the mirrored hand the other way about z; flexion is about y alike.
   const double mirror = side == Side::Left ? 1 : -1;
-  std::vector<BonePlaces> postures;
+  std::vector<Posture> postures;
   for (int flexion_deg = -70; flexion_deg <= 30; flexion_deg += 20) {
     for (int deviation_deg = -15; deviation_deg <= 25; deviation_deg += 20) {
-      const Mat3 half =
-          rotation_about({0, 0, 1}, mirror * radians_from_degrees(deviation_deg) / 2) *
-          rotation_about({0, 1, 0}, radians_from_degrees(flexion_deg) / 2);
-      BonePlaces places;
-      for (const BoneId bone : kAllBones) {
-        Vec3 p = at(bone);
-        const bool proximal_row = bone == BoneId::Scaphoid || bone == BoneId::Lunate ||
-                                  bone == BoneId::Triquetrum || bone == BoneId::Pisiform;
-        if (!belongs_to_forearm(bone)) {
-          if (!proximal_row) p = half_turned(p, midcarpal, half);
-          p = half_turned(p, radiocarpal, half);
-        }
-        places[index_of(bone)] = p;
-      }
-      postures.push_back(places);
+      postures.emplace_back(
+          shapes, rotation_about({0, 0, 1}, mirror * radians_from_degrees(deviation_deg) / 2) *
+                      rotation_about({0, 1, 0}, radians_from_degrees(flexion_deg) / 2));
     }
   }
   return postures;

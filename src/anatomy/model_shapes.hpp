@@ -10,6 +10,7 @@
 #include "anatomy/bone_id.hpp"
 #include "anatomy/region_shape.hpp"
 #include "anatomy/wrist_model.hpp"
+#include "geometry/mat3.hpp"
 
 namespace carpus::anatomy {
 
@@ -22,12 +23,24 @@ using ModelShapes = std::array<BodyShape, kBoneCount>;
 /// The same for the generic wrist of one side, measured once.
 [[nodiscard]] const ModelShapes& generic_model_shapes(Side side);
 
-/// Where the bones' centroids are when the hand is held in one way; forearm at rest.
-using BonePlaces = std::array<Vec3, kBoneCount>;
+/// One way to hold the hand: the forearm at rest, the carpal rows and the hand turned.
+class Posture {
+ public:
+  /// Half of each angle happens between forearm and carpus, half between the two carpal rows, as in
+  /// life to a first approximation [ruby1988relative].
+  Posture(const ModelShapes& shapes, const Mat3& half_turn);
+
+  /// Where a point of a bone comes to lie; frame Wrist [mm].
+  [[nodiscard]] Vec3 place(BoneId bone, const Vec3& p) const noexcept;
+
+ private:
+  Vec3 radiocarpal_;
+  Vec3 midcarpal_;
+  Mat3 half_turn_;
+};
 
 /// Eighteen postures from 70 degrees of extension to 30 of flexion and 15 degrees of ulnar to 25 of
-/// radial deviation. Half of each rotation happens between forearm and carpus, half between the two
-/// carpal rows, as in life to a first approximation [ruby1988relative].
-[[nodiscard]] std::vector<BonePlaces> places_in_postures(const ModelShapes& shapes, Side side);
+/// radial deviation.
+[[nodiscard]] std::vector<Posture> all_postures(const ModelShapes& shapes, Side side);
 
 }  // namespace carpus::anatomy

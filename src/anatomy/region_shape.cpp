@@ -69,34 +69,81 @@ void thin_out(std::vector<Vec3>& points) {
   points = std::move(kept);
 }
 
-/// Along which a cut bone is measured: from the cut towards the joint.
-struct JointAxis {
-  Vec3 direction;
-  double reach = -std::numeric_limits<double>::infinity();
-};
+/// A whole metacarpal or phalanx: at least this long (as a standard deviation) and this slender.
+/// The longest carpal bone of the largest wrist has 9 mm and 1.8.
+constexpr double kLongExtentMm = 9.0;
+constexpr double kSlenderness = 2.2;
 
-/// Replaces the moments of cut regions by those of their joint ends.
-void restrict_to_joint_ends(const GridView<const std::uint16_t>& labels,
-                            const std::vector<CutFace>& faces,
-                            std::vector<BodyShape>& shapes) {
-  std::vector<JointAxis> axes(shapes.size());
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (!shapes[i].is_cut) continue;
-    const Vec3 face_centre = faces[i].weighted_sum / faces[i].area_mm2;
-    const Vec3 centre = shapes[i].moments.sum / shapes[i].moments.count;
-    axes[i].direction = normalized_or(centre - face_centre, {0, 0, 1});
-    shapes[i].moments = {};
+bool is_whole_long_bone(const BodyShape& shape) {
+  return !shape.is_cut && shape.extents.x > kLongExtentMm &&
+         shape.extents.x > kSlenderness * shape.extents.y;
+}
+
+SquareMatrix<3> covariance_of(const Moments& m) {
+  const Vec3 c = m.sum / m.count;
+  const auto entry = [&](std::size_t k, double a, double b) {
+    return m.products[k] / m.count - a * b;
+  };
+  return {{{entry(0, c.x, c.x), entry(3, c.x, c.y), entry(4, c.x, c.z)},
+           {0, entry(1, c.y, c.y), entry(5, c.y, c.z)},
+           {0, 0, entry(2, c.z, c.z)}}};
+}
+
+std::vector<std::vector<Vec3>> points_of_long_bones(const GridView<const std::uint16_t>& labels,
+                                                    const std::vector<BodyShape>& shapes) {
+  std::vector<char> is_long;
+  for (const BodyShape& shape : shapes) {
+    is_long.push_back(shape.is_cut || is_whole_long_bone(shape) ? 1 : 0);
   }
+  std::vector<std::vector<Vec3>> points(shapes.size());
   for_region_voxels(labels, [&](std::uint16_t label, const VoxelIndex&, const Vec3& p) {
-    const std::size_t i = label - std::size_t{1};
-    if (shapes[i].is_cut) axes[i].reach = std::max(axes[i].reach, dot(axes[i].direction, p));
+    if (is_long[label - std::size_t{1}] != 0) points[label - std::size_t{1}].push_back(p);
   });
-  for_region_voxels(labels, [&](std::uint16_t label, const VoxelIndex&, const Vec3& p) {
-    const std::size_t i = label - std::size_t{1};
-    if (shapes[i].is_cut && dot(axes[i].direction, p) > axes[i].reach - kJointEndLength) {
-      shapes[i].moments.add(p);
+  return points;
+}
+
+/// A cut body's joint end: from where it is cut, which lies `available` mm behind its tip.
+void measure_cut_body(const std::vector<Vec3>& points, const Vec3& face, BodyShape& shape) {
+  const Vec3 centre = shape.moments.sum / shape.moments.count;
+  const Vec3 towards_joint = normalized_or(centre - face, {0, 0, 1});
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : points) reach = std::max(reach, dot(towards_joint, p));
+  const double available = reach - dot(towards_joint, face);
+  shape.ends.emplace_back(points, towards_joint, available, shape.piece_mm3);
+  shape.moments = {};
+  for (const Vec3& p : points) {
+    if (dot(towards_joint, p) > reach - kJointEndLength) shape.moments.add(p);
+  }
+}
+
+/// Either end of a whole long bone, to its middle.
+void measure_both_ends(const std::vector<Vec3>& points, BodyShape& shape) {
+  const auto eigen = eigen_of_symmetric<3>(covariance_of(shape.moments));
+  const Vec3 axis{eigen.vectors[0][0], eigen.vectors[0][1], eigen.vectors[0][2]};
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Vec3& p : points) {
+    low = std::min(low, dot(axis, p));
+    high = std::max(high, dot(axis, p));
+  }
+  for (const Vec3& towards : {axis, -axis}) {
+    shape.ends.emplace_back(points, towards, (high - low) / 2, shape.piece_mm3);
+  }
+}
+
+void measure_ends(const GridView<const std::uint16_t>& labels,
+                  const std::vector<CutFace>& faces,
+                  std::vector<BodyShape>& shapes) {
+  const auto points = points_of_long_bones(labels, shapes);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (points[i].empty()) continue;
+    if (shapes[i].is_cut) {
+      measure_cut_body(points[i], faces[i].weighted_sum / faces[i].area_mm2, shapes[i]);
+    } else {
+      measure_both_ends(points[i], shapes[i]);
     }
-  });
+    std::erase_if(shapes[i].ends, [](const JointEnd& end) { return end.length_mm() < 1; });
+  }
 }
 
 }  // namespace
@@ -119,15 +166,7 @@ void summarise(BodyShape& shape) noexcept {
   if (!(m.count > 0)) return;
   shape.volume_mm3 = m.count * shape.piece_mm3;
   shape.centroid = m.sum / m.count;
-  const Vec3& c = shape.centroid;
-  const auto covariance = [&](std::size_t k, double a, double b) {
-    return m.products[k] / m.count - a * b;
-  };
-  const SquareMatrix<3> matrix{
-      {{covariance(0, c.x, c.x), covariance(3, c.x, c.y), covariance(4, c.x, c.z)},
-       {0, covariance(1, c.y, c.y), covariance(5, c.y, c.z)},
-       {0, 0, covariance(2, c.z, c.z)}}};
-  const auto eigen = eigen_of_symmetric<3>(matrix);
+  const auto eigen = eigen_of_symmetric<3>(covariance_of(m));
   for (std::size_t k = 0; k < 3; ++k) shape.extents[k] = std::sqrt(std::max(eigen.values[k], 0.0));
 }
 
@@ -152,7 +191,8 @@ std::vector<BodyShape> measure_shapes(const GridView<const std::uint16_t>& label
     shapes[i].is_cut = faces[i].area_mm2 > kCutFaceAreaMm2;
     thin_out(shapes[i].rim);
   }
-  restrict_to_joint_ends(labels, faces, shapes);
+  for (BodyShape& shape : shapes) summarise(shape);
+  measure_ends(labels, faces, shapes);
   for (BodyShape& shape : shapes) summarise(shape);
   return shapes;
 }
@@ -163,6 +203,7 @@ BodyShape joined(const BodyShape& a, const BodyShape& b) {
   both.moments.add(b.moments);
   both.bounds.include(b.bounds);
   both.rim.insert(both.rim.end(), b.rim.begin(), b.rim.end());
+  both.ends.clear();
   summarise(both);
   return both;
 }

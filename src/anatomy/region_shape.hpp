@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "anatomy/joint_end.hpp"
 #include "geometry/aabb.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/vec3.hpp"
@@ -25,8 +26,9 @@ struct Moments {
   void add(const Moments& other) noexcept;
 };
 
-/// A long bone whose shaft leaves the scan (or the model) is measured by its joint end only, this
-/// long, so that the field of view does not change its shape. The model's metacarpals end there.
+/// A long bone whose shaft leaves the scan (or the model) is measured by its joint end only, at
+/// most this long, so that the field of view does not change its shape. The model's metacarpals end
+/// there.
 inline constexpr double kJointEndLength = 17.0;
 
 struct BodyShape {
@@ -38,6 +40,8 @@ struct BodyShape {
   double volume_mm3 = 0;  ///< of the joint end, if cut
   Vec3 centroid;          ///< likewise
   Vec3 extents;           ///< standard deviations along the principal axes, greatest first [mm]
+  /// Where it could be a long bone: its joint end if it is cut, both ends if all of it is there.
+  std::vector<JointEnd> ends;
 };
 
 /// Fills volume, centroid and extents from the moments.

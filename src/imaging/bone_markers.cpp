@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/parallel.hpp"
+#include "imaging/between_bones.hpp"
 #include "imaging/binary_mask.hpp"
 #include "imaging/distance_transform.hpp"
 #include "imaging/gaussian.hpp"
@@ -24,6 +26,8 @@ constexpr float kSoftTissueLowHu = -50;
 constexpr float kSoftTissueHighHu = 150;
 /// Where no such tissue is seen (a bone in air), muscle's usual density.
 constexpr float kUsualSoftTissueHu = 45;
+/// Voxels that one task of a loop takes at least.
+constexpr std::size_t kGrain = 1U << 16U;
 
 Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
                                     const Grid<float>& cleft,
@@ -31,9 +35,20 @@ Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
   Grid<std::uint8_t> low(smoothed.geometry());
   const auto weight = static_cast<float>(options.cleft_weight);
   const auto threshold = static_cast<float>(options.bone_threshold_hu);
-  for (std::size_t i = 0; i < low.values().size(); ++i) {
-    low[i] = smoothed[i] - weight * cleft[i] < threshold ? 1 : 0;
-  }
+  const auto floor = static_cast<float>(options.cleft_floor_hu);
+  const auto rise = static_cast<float>(options.cleft_rise_hu);
+  parallel_for(low.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool is_dark = smoothed[i] < threshold;
+      const bool may_be_cleft =
+          !is_dark && smoothed[i] - weight * std::max(0.0F, cleft[i] - floor) < threshold;
+      const bool is_low =
+          is_dark ||
+          (may_be_cleft && lies_between_bones(smoothed.view(), low.geometry().index_of(i),
+                                              options.cleft_reach_mm, rise));
+      low[i] = is_low ? 1 : 0;
+    }
+  });
   const Components components = connected_components(low.view());
   const std::uint32_t outside = components.largest();
   Grid<std::uint8_t> mask(smoothed.geometry());

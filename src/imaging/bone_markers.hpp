@@ -18,6 +18,9 @@ struct BoneSegmentationOptions {
   double smoothing_sigma_mm = 0.3;  ///< against noise; about one voxel
   double cleft_sigma_mm = 0.5;      ///< half the width of a joint cleft
   double cleft_weight = 2.0;        ///< how much a cleft (dark_sheet_measure) lowers the density
+  double cleft_floor_hu = 40;       ///< what trabeculae and noise measure; no cleft up to there
+  double cleft_rise_hu = 150;       ///< how much denser bone is on both sides of a cleft
+  double cleft_reach_mm = 1.6;      ///< within this distance
   double bone_threshold_hu = 250;   ///< between soft tissue (45) and thin blurred cortex (650)
   double crop_threshold_hu = 400;   ///< only bone is denser; finds the part of the scan to look at
   double crop_margin_mm = 4.0;

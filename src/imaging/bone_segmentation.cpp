@@ -72,7 +72,10 @@ BoneSegmentation segment_bones(const GridView<const std::int16_t>& ct,
       result.regions[i] = 0;
     }
   }
-  keep_largest_components(result.regions.view());
+  part_components(
+      result.regions.view(),
+      static_cast<std::size_t>(options.min_bone_mm3 / result.regions.geometry().voxel_volume_mm3()),
+      result.region_count);
   return result;
 }
 

@@ -71,6 +71,52 @@ TEST(BoneSegmentation, PartsTwoBonesAcrossANarrowJoint) {
   }
 }
 
+/// A bone of 24 mm with a crack at a third of its length, open all the way through.
+Grid<std::int16_t> cracked_bone(double crack_mm, double filling_hu, std::size_t& bone_voxels) {
+  GridGeometry g;
+  g.size = {112, 60, 60};
+  g.spacing = {0.3, 0.3, 0.3};
+  const Vec3 a{12, 9, 9};
+  const Vec3 b{22, 9, 9};
+  Rng rng(5);
+  Grid<float> hu(g);
+  bone_voxels = 0;
+  for (std::size_t i = 0; i < hu.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    const Vec3 p{v.x * g.spacing.x, v.y * g.spacing.y, v.z * g.spacing.z};
+    const Vec3 on_axis{std::clamp(p.x, a.x, b.x), a.y, a.z};
+    const double depth = kRadius - distance(p, on_axis);
+    const bool in_crack = std::abs(p.x - 13.4) < crack_mm / 2;
+    hu[i] = depth < 0 ? 45.0F
+                      : (in_crack      ? static_cast<float>(filling_hu)
+                         : depth < 0.8 ? 1200.0F
+                                       : 300.0F);
+    bone_voxels += depth >= 0 && !in_crack ? 1U : 0U;
+  }
+  const Grid<float> blurred = gaussian_smooth(hu.view(), 0.25);
+  Grid<std::int16_t> ct(g);
+  for (std::size_t i = 0; i < hu.values().size(); ++i) {
+    ct[i] =
+        static_cast<std::int16_t>(std::lround(static_cast<double>(blurred[i]) + 25 * rng.normal()));
+  }
+  return ct;
+}
+
+TEST(BoneSegmentation, LosesNoPieceOfABoneThroughACrack) {
+  for (const double filling : {45.0, 150.0}) {
+    for (const double crack : {0.4, 0.55, 0.7, 0.9, 1.2, 1.8}) {
+      std::size_t bone_voxels = 0;
+      const Grid<std::int16_t> ct = cracked_bone(crack, filling, bone_voxels);
+      const BoneSegmentation s = segment_bones(ct.view(), {}, no_progress);
+      ASSERT_EQ(s.status, SegmentationStatus::Ok);
+      std::size_t found = 0;
+      for (const RegionLabel label : s.regions.values()) found += label != 0 ? 1U : 0U;
+      EXPECT_GT(static_cast<double>(found), 0.93 * static_cast<double>(bone_voxels))
+          << crack << " mm, " << filling << " HU, " << s.region_count << " regions";
+    }
+  }
+}
+
 TEST(BoneSegmentation, IsTheSameEachTime) {
   const TwoBones scan = make_two_bones(0.4, 3);
   const BoneSegmentation a = segment_bones(scan.ct.view(), {}, no_progress);

@@ -149,6 +149,13 @@ void relabel(const GridView<RegionLabel>& labels, const std::vector<RegionLabel>
 }
 
 std::size_t keep_largest_components(const GridView<RegionLabel>& labels) {
+  RegionLabel count = 0;
+  return part_components(labels, std::numeric_limits<std::size_t>::max(), count);
+}
+
+std::size_t part_components(const GridView<RegionLabel>& labels,
+                            std::size_t least_voxels,
+                            RegionLabel& count) {
   const GridGeometry& g = labels.geometry();
   const auto dy = static_cast<std::size_t>(g.size[0]);
   const std::size_t dz = dy * static_cast<std::size_t>(g.size[1]);
@@ -183,9 +190,15 @@ std::size_t keep_largest_components(const GridView<RegionLabel>& labels) {
     if (best_of.size() <= label) best_of.resize(label + std::size_t{1}, 0);
     if (size_of[number] > size_of[best_of[label]]) best_of[label] = number;
   }
+  std::vector<RegionLabel> own_label(size_of.size(), 0);
   std::size_t removed = 0;
   for (std::size_t i = 0; i < component.size(); ++i) {
-    if (labels[i] != 0 && component[i] != best_of[labels[i]]) {
+    if (labels[i] == 0 || component[i] == best_of[labels[i]]) continue;
+    const std::uint32_t piece = component[i];
+    if (size_of[piece] >= least_voxels) {
+      if (own_label[piece] == 0) own_label[piece] = ++count;
+      labels[i] = own_label[piece];
+    } else {
       labels[i] = 0;
       ++removed;
     }

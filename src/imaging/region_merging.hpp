@@ -52,4 +52,10 @@ void relabel(const GridView<RegionLabel>& labels, const std::vector<RegionLabel>
 /// Returns the number of voxels removed.
 std::size_t keep_largest_components(const GridView<RegionLabel>& labels);
 
+/// The same, but a further component of at least `least_voxels` becomes a region of its own,
+/// numbered from `count` + 1, and is counted: a fragment that hung on by a bridge is no noise.
+std::size_t part_components(const GridView<RegionLabel>& labels,
+                            std::size_t least_voxels,
+                            RegionLabel& count);
+
 }  // namespace carpus::imaging

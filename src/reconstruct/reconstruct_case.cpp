@@ -55,7 +55,7 @@ void refuse_what_cannot_be_operated(const BoneNaming& naming, RegionLabel region
         "the bones in this volume do not make a wrist: " + std::to_string(regions) +
         " separate bones were found, " + std::to_string(kBoneCount - naming.missing.size()) +
         " could be matched, with a misfit of " + std::to_string(std::lround(naming.cost)) +
-        " (known wrists: up to 10). Give a CT that shows distal radius and ulna, all carpal bones "
+        " (known wrists: up to 20). Give a CT that shows distal radius and ulna, all carpal bones "
         "and the bases of the metacarpals, of one hand only, without metal.");
   }
   std::vector<BoneId> needed;
@@ -80,12 +80,18 @@ std::vector<std::string> warnings_of(const BoneNaming& naming) {
   if (naming.status == NamingStatus::Doubtful) {
     warnings.push_back("the names fit worse than on any known wrist (misfit " +
                        std::to_string(std::lround(naming.cost)) +
-                       ", known up to 10): check them before use");
+                       ", known up to 20): check them before use");
   }
-  const auto nameless = std::count(naming.regions.begin(), naming.regions.end(), std::nullopt);
-  if (nameless > 0) {
-    warnings.push_back(std::to_string(nameless) +
-                       " dense bodies are no bone of the wrist and were left out");
+  const auto nameless = static_cast<std::size_t>(
+      std::count(naming.regions.begin(), naming.regions.end(), std::nullopt));
+  if (naming.far_bodies > 0) {
+    warnings.push_back(std::to_string(naming.far_bodies) +
+                       " bodies beyond the wrist (fingers, sesamoids, a support) were left out");
+  }
+  if (nameless > naming.far_bodies) {
+    warnings.push_back(std::to_string(nameless - naming.far_bodies) +
+                       " dense bodies in the wrist are no bone of it and were left out: look "
+                       "whether one is a fragment");
   }
   return warnings;
 }

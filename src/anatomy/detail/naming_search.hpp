@@ -18,6 +18,9 @@
 
 namespace carpus::anatomy::detail {
 
+/// What a body that is no bone of the wrist costs: as much as a bone in a wrong place.
+inline constexpr double kNamelessCost = 12.0;
+
 /// One way to name the bodies.
 struct Naming {
   double cost = 0;  ///< of all bones, missing bones and nameless bodies
