@@ -8,6 +8,7 @@
 #include "bench/collision/command.hpp"
 #include "bench/fluoroscopy/command.hpp"
 #include "bench/hull/command.hpp"
+#include "bench/imaging/command.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"carpus-bench: our algorithms against the best peers, in one run"};
@@ -16,6 +17,8 @@ int main(int argc, char** argv) {
   carpus::bench::add_hull(app, hull);
   carpus::bench::FluoroscopyArguments fluoroscopy;
   carpus::bench::add_fluoroscopy(app, fluoroscopy);
+  carpus::bench::ImagingArguments imaging;
+  carpus::bench::add_imaging(app, imaging);
 #ifdef CARPUS_HAS_COLLISION_BENCH
   carpus::bench::CollisionArguments collision;
   carpus::bench::add_collision(app, collision);

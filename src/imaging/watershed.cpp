@@ -4,7 +4,7 @@
 // 1. Quantise the relief. 2. Queue, at its own level, each unlabelled voxel that touches a marker.
 // 3. Take the first voxel of the lowest level; it gets the label of its basin (or becomes a dam);
 // its unlabelled neighbours are queued at their level, but never below the present one. 4. Repeat.
-// The queue is one linked list a level through the voxels: every voxel is queued at most once.
+// Every voxel is queued at most once.
 #include "imaging/watershed.hpp"
 
 #include <algorithm>
@@ -18,33 +18,126 @@ namespace {
 
 constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
 
-/// First-in-first-out lists, one a level.
+/// First-in-first-out lists of voxels, one a level, in chunks that are used again.
 class LevelQueue {
  public:
-  LevelQueue(std::size_t voxels, int levels)
-      : next_(voxels, kEnd),
-        head_(static_cast<std::size_t>(levels), kEnd),
-        tail_(static_cast<std::size_t>(levels), kEnd) {}
+  explicit LevelQueue(int levels) : lists_(static_cast<std::size_t>(levels)) {}
 
   void push(std::size_t level, std::uint32_t voxel) {
-    if (head_[level] == kEnd) {
-      head_[level] = voxel;
-    } else {
-      next_[tail_[level]] = voxel;
-    }
-    tail_[level] = voxel;
+    List& list = lists_[level];
+    if (list.end == kChunk || list.last == kEnd) append_chunk(list);
+    chunks_[list.last].voxels[list.end++] = voxel;
   }
   /// The first voxel at `level`, or kEnd.
   std::uint32_t pop(std::size_t level) {
-    const std::uint32_t voxel = head_[level];
-    if (voxel != kEnd) head_[level] = next_[voxel];
+    List& list = lists_[level];
+    if (list.first == kEnd || (list.first == list.last && list.begin == list.end)) return kEnd;
+    const std::uint32_t voxel = chunks_[list.first].voxels[list.begin++];
+    if (list.begin == kChunk) drop_first_chunk(list);
     return voxel;
   }
 
  private:
-  std::vector<std::uint32_t> next_;
-  std::vector<std::uint32_t> head_;
-  std::vector<std::uint32_t> tail_;
+  static constexpr std::uint32_t kChunk = 31;  // a chunk fills two lines of a processor's cache
+  struct Chunk {
+    std::array<std::uint32_t, kChunk> voxels;
+    std::uint32_t next;
+  };
+  struct List {
+    std::uint32_t first = kEnd;
+    std::uint32_t last = kEnd;
+    std::uint32_t begin = 0;  ///< in the first chunk
+    std::uint32_t end = 0;    ///< in the last chunk
+  };
+
+  void append_chunk(List& list) {
+    std::uint32_t chunk = free_;
+    if (chunk != kEnd) {
+      free_ = chunks_[chunk].next;
+    } else {
+      chunk = static_cast<std::uint32_t>(chunks_.size());
+      chunks_.emplace_back();
+    }
+    chunks_[chunk].next = kEnd;
+    if (list.last != kEnd) {
+      chunks_[list.last].next = chunk;
+    } else {
+      list.first = chunk;
+      list.begin = 0;
+    }
+    list.last = chunk;
+    list.end = 0;
+  }
+  void drop_first_chunk(List& list) {
+    const std::uint32_t dropped = list.first;
+    list.first = chunks_[dropped].next;
+    if (list.first == kEnd) list.last = kEnd;
+    list.begin = 0;
+    chunks_[dropped].next = free_;
+    free_ = dropped;
+  }
+
+  std::vector<List> lists_;
+  std::vector<Chunk> chunks_;
+  std::uint32_t free_ = kEnd;
+};
+
+/// All that the flood asks of a voxel, in one word: it visits voxels at random places, so that
+/// each array that it has to look into would be a miss of the cache.
+class Voxel {
+ public:
+  enum class State : std::uint32_t { Open, Marker, Outside, Queued };
+
+  Voxel() = default;
+  Voxel(State state, RegionLabel label, std::size_t level)
+      : word_(static_cast<std::uint32_t>(state) << kStateAt |
+              static_cast<std::uint32_t>(level) << kLevelAt | label) {}
+
+  [[nodiscard]] State state() const { return static_cast<State>(word_ >> kStateAt & 3U); }
+  [[nodiscard]] RegionLabel label() const { return static_cast<RegionLabel>(word_ & 0xFFFFU); }
+  [[nodiscard]] std::size_t level() const { return word_ >> kLevelAt & (kMostLevels - 1); }
+  /// All its neighbours lie in the grid.
+  [[nodiscard]] bool is_inner() const { return (word_ & kInner) != 0; }
+  void set_inner() { word_ |= kInner; }
+  void set_queued() { word_ |= 3U << kStateAt; }
+  /// Of a voxel without one.
+  void set_label(RegionLabel label) { word_ |= label; }
+
+ private:
+  static constexpr std::uint32_t kLevelAt = 16;
+  static constexpr std::uint32_t kStateAt = 29;
+  static constexpr std::uint32_t kInner = 1U << 31U;
+  static_assert(kMostLevels == 1 << (kStateAt - kLevelAt));
+
+  std::uint32_t word_ = 0;
+};
+static_assert(sizeof(Voxel) == 4);
+
+/// The relief in levels between its least and greatest finite value where `is_open` holds.
+class Quantiser {
+ public:
+  template <typename IsOpen>
+  Quantiser(std::span<const float> relief, int levels, const IsOpen& is_open)
+      : top_(static_cast<std::size_t>(levels - 1)) {
+    float high = -std::numeric_limits<float>::infinity();
+    low_ = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < relief.size(); ++i) {
+      const float v = relief[i];
+      if (!is_open(i) || !std::isfinite(v)) continue;
+      low_ = std::min(low_, v);
+      high = std::max(high, v);
+    }
+    scale_ = high > low_ ? static_cast<float>(levels - 1) / (high - low_) : 0.0F;
+  }
+  [[nodiscard]] std::size_t operator()(float v) const {
+    if (!std::isfinite(v)) return top_;
+    return std::min(top_, static_cast<std::size_t>((v - low_) * scale_));
+  }
+
+ private:
+  std::size_t top_;
+  float low_ = 0;
+  float scale_ = 0;
 };
 
 class Flood {
@@ -53,27 +146,29 @@ class Flood {
         std::span<const std::uint8_t> mask,
         const WatershedOptions& options,
         const GridView<RegionLabel>& labels)
-      : relief_(relief),
-        options_(options),
-        labels_(labels),
-        queue_(relief.values().size(), options.levels),
+      : options_(options),
         neighbours_(relief.geometry(), options.space, options.connectivity),
-        state_(relief.values().size(), kOpen) {
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-      if (labels[i] != 0) {
-        state_[i] = kMarker;
-      } else if (!mask.empty() && mask[i] == 0) {
-        state_[i] = kOutside;
-      } else {
+        queue_(options.levels),
+        voxels_(relief.values().size()) {
+    const auto is_open = [&](std::size_t i) {
+      return labels[i] == 0 && (mask.empty() || mask[i] != 0);
+    };
+    const Quantiser level_of(relief.values(), options.levels, is_open);
+    for (std::size_t i = 0; i < voxels_.size(); ++i) {
+      if (is_open(i)) {
+        voxels_[i] = Voxel(Voxel::State::Open, 0, level_of(relief[i]));
         ++to_flood_;
+      } else if (labels[i] != 0) {
+        voxels_[i] = Voxel(Voxel::State::Marker, labels[i], 0);
+      } else {
+        voxels_[i] = Voxel(Voxel::State::Outside, 0, 0);
       }
     }
-    mark_inner();
-    measure_relief();
+    mark_inner(relief.geometry().size);
   }
 
   void run() {
-    for (std::size_t i = 0; i < state_.size(); ++i) {
+    for (std::size_t i = 0; i < voxels_.size(); ++i) {
       if (is_open(i)) queue_if_touching_marker(i);
     }
     for (std::size_t level = 0; level < static_cast<std::size_t>(options_.levels); ++level) {
@@ -84,49 +179,27 @@ class Flood {
     }
   }
 
+  void write(const GridView<RegionLabel>& labels) const {
+    for (std::size_t i = 0; i < voxels_.size(); ++i) labels[i] = voxels_[i].label();
+  }
+
  private:
-  void measure_relief() {
-    float high = -std::numeric_limits<float>::infinity();
-    low_ = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < state_.size(); ++i) {
-      const float v = relief_[i];
-      if (!is_open(i) || !std::isfinite(v)) continue;
-      low_ = std::min(low_, v);
-      high = std::max(high, v);
-    }
-    scale_ = high > low_ ? static_cast<float>(options_.levels - 1) / (high - low_) : 0.0F;
-  }
-
-  [[nodiscard]] std::size_t level_of(std::size_t i) const {
-    const auto top = static_cast<std::size_t>(options_.levels - 1);
-    const float v = relief_[i];
-    if (!std::isfinite(v)) return top;
-    return std::min(top, static_cast<std::size_t>((v - low_) * scale_));
-  }
-
-  /// What a voxel is: the low bits; kInner beside it where all its neighbours lie in the grid.
-  static constexpr std::uint8_t kOpen = 0;
-  static constexpr std::uint8_t kMarker = 1;
-  static constexpr std::uint8_t kOutside = 2;
-  static constexpr std::uint8_t kQueued = 3;
-  static constexpr std::uint8_t kStateBits = 3;
-  static constexpr std::uint8_t kInner = 4;
   static constexpr std::size_t kReportMask = (std::size_t{1} << 20U) - 1;
 
-  [[nodiscard]] bool is_open(std::size_t i) const { return (state_[i] & kStateBits) == kOpen; }
+  [[nodiscard]] bool is_open(std::size_t i) const {
+    return voxels_[i].state() == Voxel::State::Open;
+  }
 
-  /// The flood asks for neighbours at random places: whether a voxel lies on a side of the volume
-  /// is found out once, in order, without divisions.
-  void mark_inner() {
-    const std::array<int, 3>& size = relief_.geometry().size;
+  /// Whether a voxel lies on a side of the volume is found out once, in order, without divisions.
+  void mark_inner(const std::array<int, 3>& size) {
     const bool in_slices = options_.space == FloodSpace::Slices;
     std::size_t i = 0;
     for (int z = 0; z < size[2]; ++z) {
       for (int y = 0; y < size[1]; ++y) {
-        const bool inner_row =
+        const bool is_inner_row =
             y > 0 && y + 1 < size[1] && (in_slices || (z > 0 && z + 1 < size[2]));
         for (int x = 0; x < size[0]; ++x, ++i) {
-          if (inner_row && x > 0 && x + 1 < size[0]) state_[i] |= kInner;
+          if (is_inner_row && x > 0 && x + 1 < size[0]) voxels_[i].set_inner();
         }
       }
     }
@@ -134,7 +207,7 @@ class Flood {
 
   template <typename Visit>
   void for_neighbours(std::size_t i, const Visit& visit) const {
-    if ((state_[i] & kInner) != 0) {
+    if (voxels_[i].is_inner()) {
       neighbours_.for_each_of_inner(i, visit);
     } else {
       neighbours_.for_each(i, visit);
@@ -149,20 +222,21 @@ class Flood {
     RegionLabel found = 0;
     for_neighbours(i, [&](std::size_t j) {
       // Markers only: a label just given to a queued neighbour is not one.
-      if (found == 0 && (state_[j] & kStateBits) == kMarker) found = labels_[j];
+      if (found == 0 && voxels_[j].state() == Voxel::State::Marker) found = voxels_[j].label();
     });
     if (found != 0) enqueue(i, found, 0);
   }
 
   void enqueue(std::size_t i, RegionLabel label, std::size_t current_level) {
-    state_[i] |= kQueued;
-    if (!options_.keep_dams) labels_[i] = label;
-    queue_.push(std::max(level_of(i), current_level), static_cast<std::uint32_t>(i));
+    Voxel& voxel = voxels_[i];
+    voxel.set_queued();
+    if (!options_.keep_dams) voxel.set_label(label);
+    queue_.push(std::max(voxel.level(), current_level), static_cast<std::uint32_t>(i));
   }
 
   void settle(std::size_t i, std::size_t level) {
     if (options_.keep_dams && !claim_or_dam(i)) return;
-    const RegionLabel label = labels_[i];
+    const RegionLabel label = voxels_[i].label();
     for_neighbours(i, [&](std::size_t j) {
       if (is_open(j)) enqueue(j, label, level);
     });
@@ -173,26 +247,22 @@ class Flood {
     RegionLabel found = 0;
     bool several = false;
     for_neighbours(i, [&](std::size_t j) {
-      const RegionLabel label = labels_[j];
+      const RegionLabel label = voxels_[j].label();
       if (label == 0) return;
       several = several || (found != 0 && found != label);
       found = label;
     });
     if (several) return false;
-    labels_[i] = found;
+    voxels_[i].set_label(found);
     return true;
   }
 
-  GridView<const float> relief_;
   WatershedOptions options_;
-  GridView<RegionLabel> labels_;
-  LevelQueue queue_;
   Neighbourhood neighbours_;
-  std::vector<std::uint8_t> state_;
+  LevelQueue queue_;
+  std::vector<Voxel> voxels_;
   std::size_t to_flood_ = 0;
   std::size_t settled_ = 0;
-  float low_ = 0;
-  float scale_ = 0;
 };
 
 }  // namespace
@@ -201,11 +271,13 @@ void flood_from_markers(const GridView<const float>& relief,
                         std::span<const std::uint8_t> mask,
                         const WatershedOptions& options,
                         const GridView<RegionLabel>& labels) {
-  CARPUS_CHECK(options.levels > 0);
+  CARPUS_CHECK(options.levels > 0 && options.levels <= kMostLevels);
   CARPUS_CHECK(labels.values().size() == relief.values().size());
   CARPUS_CHECK(mask.empty() || mask.size() == relief.values().size());
   CARPUS_CHECK(relief.values().size() < kEnd);
-  Flood(relief, mask, options, labels).run();
+  Flood flood(relief, mask, options, labels);
+  flood.run();
+  flood.write(labels);
 }
 
 }  // namespace carpus::imaging

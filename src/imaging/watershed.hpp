@@ -18,6 +18,9 @@ namespace carpus::imaging {
 /// Region numbers; 0 = none.
 using RegionLabel = std::uint16_t;
 
+/// The finest that a relief can be quantised to.
+inline constexpr int kMostLevels = 8192;
+
 struct WatershedOptions {
   FloodSpace space = FloodSpace::Volume;  ///< Slices: each slice for itself, as in the thesis
   Connectivity connectivity = Connectivity::Faces;  ///< what water flows through
@@ -25,9 +28,9 @@ struct WatershedOptions {
   /// such voxels belong to the basin that reached them first.
   bool keep_dams = false;
   /// The relief is quantised to this many levels between its least and greatest finite value;
-  /// first-in-first-out within one level.
+  /// first-in-first-out within one level. At most kMostLevels.
   int levels = 4096;
-  /// Told now and then; what it throws ends the flood, and labels are then of no use.
+  /// Told now and then; what it throws ends the flood, and labels stay as they were.
   Progress progress = no_progress;
 };
 
