@@ -47,11 +47,31 @@ TEST_P(EveryHand, PressesOnAWallThatStandsStillAndIsHard) {
   }
 }
 
+/// Where one leg bears most of it, and where the weight is across.
+constexpr double kThird = 0.57735026918962576;
+constexpr Vec3 kBeside[] = {{1, 0, 0}, {0, -1, 0}, {kThird, kThird, kThird}, {-0.6, 0, -0.8}};
+
+TEST_P(EveryHand, PressesOnAWallBesideItAsWell) {
+  const auto [drive, hand] = GetParam();
+  if (hand.stiffness_n_per_mm == 0) return;
+  for (const Vec3& normal : kBeside) {
+    RigOptions options = of(drive, hand);
+    options.normal = normal;
+    const auto rig = make_rig(options);
+    const Press pressed = press(*rig);
+    EXPECT_TRUE(pressed.is_still(rig->quantum_mm())) << pressed.to_and_fro_mm;
+    EXPECT_LE(pressed.depth_mm, kMostDepthMm) << normal.x << " " << normal.y << " " << normal.z;
+    EXPECT_GE(pressed.half_depth_mm, -kMostDepthMm) << "nor is it met in front of it";
+  }
+}
+
 TEST_P(EveryHand, GetsNoMoreFromAWallThanItGaveIt) {
   const auto [drive, hand] = GetParam();
-  for (const double speed : {50.0, 150.0, 500.0}) {
-    const auto rig = make_rig(of(drive, hand));
-    const Strike struck = strike(*rig, speed);
+  for (const double speed : {50.0, -100.0, 150.0, 500.0}) {  // below 0: beside it
+    RigOptions options = of(drive, hand);
+    if (speed < 0) options.normal = kBeside[0];
+    const auto rig = make_rig(options);
+    const Strike struck = strike(*rig, std::abs(speed));
     EXPECT_LE(struck.most_given_mj, kMostReturnedMj) << speed << " mm/s";
     EXPECT_LE(struck.pulled_back_n, 0.4) << speed << " mm/s";
     EXPECT_TRUE(rig->plant().is_sound());

@@ -74,6 +74,24 @@ TEST(LocalPlanes, WhateverIsWishedTheFrameIsOneThatADeviceTakes) {
   }
 }
 
+double early_at(const arm::DeltaArm& arm, const Vec3& tip, const Vec3& normal) {
+  return early_mm(firmware::delta_forward(arm.size, arm::inverse(arm, tip)->data()), normal);
+}
+
+TEST(LegStops, StandTheEarlierTheFewerLegsBearThePress) {
+  const arm::DeltaArm arm;
+  EXPECT_NEAR(early_at(arm, arm.centre, {0, 0, 1}), 0.4, 0.05);
+  EXPECT_NEAR(early_at(arm, arm.centre, {1, 0, 0}), 0.86, 0.02);
+  EXPECT_NEAR(early_at(arm, arm.centre, {-1, 0, 0}), 0.86, 0.02);
+  for (const double x : {-50.0, 50.0}) {
+    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      const double early = early_at(arm, arm.centre + Vec3{x, x, x < 0 ? -40.0 : 40.0}, normal);
+      EXPECT_GT(early, 0.1);
+      EXPECT_LE(early, kMostEarlyMm);
+    }
+  }
+}
+
 TEST(LegStops, CloseTheSideThatLeadsIntoTheBone) {
   const arm::DeltaArm arm;
   Rng rng(2);
@@ -82,10 +100,12 @@ TEST(LegStops, CloseTheSideThatLeadsIntoTheBone) {
         arm.centre + Vec3{rng.uniform(-30, 30), rng.uniform(-30, 30), rng.uniform(-20, 20)};
     const Vec3 normal =
         normalized_or({rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}, {0, 0, 1});
-    const SurfacePlane plane{normal, dot(normal, tip) - 2 - kEarlyMm, {}};
     const auto outside = arm::inverse(arm, tip);
+    ASSERT_TRUE(outside);
+    const double early = early_at(arm, tip, normal);
+    const SurfacePlane plane{normal, dot(normal, tip) - 2 - early, {}};
     const auto inside = arm::inverse(arm, tip - normal * 3.0);
-    ASSERT_TRUE(outside && inside);
+    ASSERT_TRUE(inside);
     const firmware::Stop stop = LegStops().at(arm, plane, *outside, tip, {});
     int closed = 0;
     for (std::size_t leg = 0; leg < 3; ++leg) {
@@ -125,7 +145,7 @@ TEST(LegStops, GiveWayToALegThatLeansButNeverComeNearer) {
   // Lifted off, they stand on the surface again.
   const Vec3 above{0, 0, -120};
   const firmware::Stop stop = stops.at(arm, plane, *arm::inverse(arm, above), above, {});
-  const auto exact = arm::inverse(arm, {0, 0, -130 + kEarlyMm});
+  const auto exact = arm::inverse(arm, {0, 0, -130 + early_at(arm, above, {0, 0, 1})});
   for (std::size_t leg = 0; leg < 3; ++leg)
     EXPECT_NEAR(stop.legs[leg].angle * kPi / 8192, (*exact)[leg], 1e-3);
 }

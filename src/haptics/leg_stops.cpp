@@ -16,6 +16,22 @@ constexpr double kMostUnits = 8191;
 
 using firmware::LegStopSide;
 
+/// The way along the normal is the legs' work over the press.
+double early_mm(const firmware::DeltaState<double>& state,
+                const Vec3& normal,
+                const LegYield& yield) noexcept {
+  const Vec3 press = normal * kEarlyForPressN;
+  double torques[3];
+  firmware::delta_torques(state, firmware::Vector<double>{press.x, press.y, press.z}, torques);
+  double work_n_mm = 0;
+  for (double torque : torques) {
+    torque = std::abs(torque);
+    const double turned = std::max(0.0, torque - yield.friction_n_mm) / yield.servo_n_mm_per_rad;
+    work_n_mm += torque * (torque / yield.pad_n_mm_per_rad + yield.dead_band_rad + turned);
+  }
+  return std::min(0.5 * work_n_mm / kEarlyForPressN, kMostEarlyMm);
+}
+
 firmware::Stop LegStops::free() noexcept {
   sides_ = {};
   return firmware::Stop();
@@ -29,7 +45,10 @@ firmware::Stop LegStops::at(const arm::DeltaArm& arm,
   const double height = dot(plane.normal, tip) - plane.offset_mm;
   if (!is_finite(velocity) || !(height < kNearSurfaceMm)) return free();
   const Vec3 slide = velocity - plane.normal * dot(plane.normal, velocity);
-  const Vec3 place = tip - plane.normal * (height - kEarlyMm) + slide * kSlideLeadS;
+  const auto here = firmware::delta_forward(arm.size, angles.data());
+  if (!here.is_valid) return free();
+  const double early = early_mm(here, plane.normal);
+  const Vec3 place = tip - plane.normal * (height - early) + slide * kSlideLeadS;
   const auto on_surface = arm::inverse(arm, place);
   if (!on_surface) return free();
   const auto state = firmware::delta_forward(arm.size, on_surface->data());

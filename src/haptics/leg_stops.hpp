@@ -14,6 +14,7 @@
 #include <array>
 
 #include "arm/delta_arm.hpp"
+#include "firmware/core/delta.hpp"
 #include "firmware/core/wire.hpp"
 #include "haptics/local_planes.hpp"
 
@@ -24,9 +25,24 @@ namespace carpus::haptics {
 inline constexpr double kLeastTurnShare = 0.1;
 /// Of the slide along the surface [s]: longer, and stops pump energy into the hand.
 inline constexpr double kSlideLeadS = 0.025;
-/// Stops stand so far outside the surface [mm]: half of what dead band, pad and gears yield under 2
-/// N.
-inline constexpr double kEarlyMm = 0.4;
+/// What a leg yields under load, of data sheets: the pad at the slot's edge; the servo's dead band;
+/// and, beyond what its gears' friction bears, as far as it must be turned to give so much.
+struct LegYield {
+  double pad_n_mm_per_rad = 20'000;
+  double dead_band_rad = 0.0035;
+  double friction_n_mm = 80;
+  double servo_n_mm_per_rad = 235 / 0.0698;
+};
+
+/// Stops stand outside the surface by half of what the legs yield together under this press along
+/// its normal: 0.4 mm above the tip, where three legs bear it, 0.9 mm beside it, where one does; in
+/// the corners of the workspace more, but a wall is not met farther before it than it is deep.
+inline constexpr double kEarlyForPressN = 2;
+inline constexpr double kMostEarlyMm = 1.1;
+[[nodiscard]] double early_mm(const firmware::DeltaState<double>& state,
+                              const Vec3& normal,
+                              const LegYield& yield = {}) noexcept;
+
 /// A surface farther than this is no matter yet [mm].
 inline constexpr double kNearSurfaceMm = 25;
 
