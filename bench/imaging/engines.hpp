@@ -8,6 +8,7 @@
 #include <ctime>
 #include <vector>
 
+#include "bench/imaging/peer_vtk.hpp"
 #include "bench/imaging/volume.hpp"
 
 namespace carpus::bench {
@@ -34,6 +35,10 @@ struct GradientRun {
 [[nodiscard]] GradientRun run_our_gradient(const Volume& volume, double sigma_mm);
 /// By recursive filters, whose cost does not grow with sigma.
 [[nodiscard]] GradientRun run_itk_gradient(const Volume& volume, double sigma_mm);
+
+/// Surfaces of all labels, half-way between voxels, in one call.
+[[nodiscard]] SurfacesRun run_our_surfaces(const Volume& volume,
+                                           const std::vector<std::uint16_t>& labels);
 
 /// Processor time of all threads of the program so far [s].
 [[nodiscard]] inline double processor_seconds() {

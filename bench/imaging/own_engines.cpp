@@ -3,6 +3,7 @@
 #include "bench/imaging/engines.hpp"
 #include "imaging/gaussian.hpp"
 #include "imaging/watershed.hpp"
+#include "mesh/label_surfaces.hpp"
 
 namespace carpus::bench {
 namespace {
@@ -35,6 +36,19 @@ GradientRun run_our_gradient(const Volume& volume, double sigma_mm) {
   GradientRun run;
   run.seconds = processor_seconds() - start;
   run.values.assign(gradient.values().begin(), gradient.values().end());
+  return run;
+}
+
+SurfacesRun run_our_surfaces(const Volume& volume, const std::vector<std::uint16_t>& labels) {
+  const GridGeometry g = geometry_of(volume);
+  const double start = processor_seconds();
+  const auto surfaces = mesh::extract_label_surfaces(GridView<const std::uint16_t>(g, labels));
+  SurfacesRun run;
+  run.seconds = processor_seconds() - start;
+  for (const mesh::LabelSurface& surface : surfaces) {
+    run.vertices += surface.mesh.vertices.size();
+    run.facets += surface.mesh.facets.size();
+  }
   return run;
 }
 

@@ -35,7 +35,7 @@ void add_bench_peers_command(CLI::App& bench) {
   for (const auto& [name, what] :
        {std::pair{"hull", "Convex hulls against Qhull, CGAL and Bullet"},
         std::pair{"collision", "Convex bodies in contact against FCL, libccd, Bullet, GLPK, CLP"},
-        std::pair{"imaging", "Watershed and gradient against ITK"},
+        std::pair{"imaging", "Watershed and gradient against ITK, surfaces against VTK"},
         std::pair{"fluoroscopy", "Pictures of moving bones: how exact, how many a second"}}) {
     CLI::App* verb = bench.add_subcommand(name, what);
     verb->set_help_flag();  // carpus-bench answers --help

@@ -15,6 +15,7 @@
 
 #include "case_io/marker_points.hpp"
 #include "case_io/read_volume.hpp"
+#include "case_io/surface_file.hpp"
 #include "case_io/write_volume.hpp"
 #include "cli/segment_pictures.hpp"
 #include "cli/simulated_scan.hpp"
@@ -26,6 +27,7 @@
 #include "imaging/gaussian.hpp"
 #include "imaging/marker_ball.hpp"
 #include "imaging/watershed.hpp"
+#include "mesh/label_surfaces.hpp"
 #include "reconstruct/stage_clock.hpp"
 #include "records/atomic_file.hpp"
 
@@ -45,6 +47,7 @@ struct Arguments {
   fs::path markers;
   fs::path markers_out;
   fs::path pictures;
+  fs::path surfaces;
   fs::path json;
   std::string series;
   std::vector<double> region;
@@ -222,6 +225,18 @@ nlohmann::ordered_json report(const Arguments& a,
   return json;
 }
 
+/// One closed surface a label, half-way between voxels: for a look in another program, not for a
+/// case, whose surfaces follow the grey values (reconstruct).
+void write_surfaces(const fs::path& folder, const Labels& labels) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);  // what fails is said by the first write
+  for (const mesh::LabelSurface& surface : mesh::extract_label_surfaces(labels.view())) {
+    const fs::path file = folder / ("label_" + std::to_string(surface.label) + ".ply");
+    records::write_file_atomically(
+        file, [&](const fs::path& temporary) { case_io::write_surface(temporary, surface.mesh); });
+  }
+}
+
 void check_targets(const Arguments& a) {
   for (const fs::path& file : {a.out, a.markers_out}) {
     if (file.empty() || !fs::exists(file) || a.force) continue;
@@ -279,6 +294,7 @@ void run(const Arguments& a) {
   };
   write(a.out, flooded);
   if (!a.markers_out.empty()) write(a.markers_out, task.markers);
+  if (!a.surfaces.empty()) write_surfaces(a.surfaces, flooded);
   if (!a.json.empty()) records::write_file_atomically(a.json, figures.dump(2) + "\n");
   if (!a.pictures.empty()) {
     const VoxelBox part{task.offset,
@@ -335,6 +351,8 @@ void add_segment_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--pictures", a->pictures,
                       "Folder for pictures of the steps: CT, gradient with markers, basins, bones");
+  command->add_option("--surfaces", a->surfaces,
+                      "Folder for each label's surface, label_N.ply, half-way between voxels");
   command->add_option("--slice", a->slice, "Slice of the pictures; the one that shows most else");
   command->add_option("--series", a->series, "SeriesInstanceUID, where a folder holds several");
   command->add_option("--json", a->json, "Write the figures to this file");

@@ -19,9 +19,12 @@
 #include <vector>
 
 #include "case_io/read_volume.hpp"
+#include "case_io/surface_file.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "core/units.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -107,7 +110,8 @@ double dice(const Grid<std::uint8_t>& labels, std::uint8_t label, const Vec3& mi
 }
 
 TEST_F(Segment, FindsTheMarkersByItself) {
-  run({"--json", file("figures.json"), "--pictures", file("pictures")});
+  run({"--json", file("figures.json"), "--pictures", file("pictures"), "--surfaces",
+       file("surfaces")});
   const Grid<std::uint8_t> found = labels();
   for (const Vec3& middle : kMiddles) {
     const std::uint8_t label = label_at(found, middle);
@@ -120,6 +124,9 @@ TEST_F(Segment, FindsTheMarkersByItself) {
     EXPECT_GT(fs::file_size(folder_ / "pictures" / name), 500U) << name;
   }
   EXPECT_GT(fs::file_size(folder_ / "pictures/4_bones.svg"), 5000U);
+  const TriangleMesh first = case_io::read_surface(folder_ / "surfaces/label_1.ply");
+  EXPECT_EQ(check_surface(first), SurfaceStatus::Ok);
+  EXPECT_NEAR(volume_of(first), 4.0 / 3 * kPi * kRadius * kRadius * kRadius, 50);
 }
 
 TEST_F(Segment, FloodsFromPointsAndFromAVolumeAlike) {
