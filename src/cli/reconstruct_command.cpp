@@ -16,14 +16,17 @@
 
 #include "case_io/case_folder.hpp"
 #include "case_io/read_volume.hpp"
+#include "case_io/soft_tissue_folder.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/simulated_scan.hpp"
+#include "cli/soft_tissue_report.hpp"
 #include "core/error.hpp"
 #include "core/person_name.hpp"
 #include "core/version.hpp"
 #include "reconstruct/reconstruct_case.hpp"
 #include "reconstruct/reconstruction_report.hpp"
 #include "records/atomic_file.hpp"
+#include "soft_tissue/make_soft_tissue.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -78,6 +81,16 @@ std::string source_in_words(const Arguments& a, const GridGeometry& g, bool simu
   return text.data();
 }
 
+/// After the case is whole: what no CT shows. The case is a case without it.
+std::string generate_soft_tissue(const cases::CaseData& data, const fs::path& folder) {
+  show_progress("soft tissue", 0);
+  const soft_tissue::SoftTissue tissue = soft_tissue::make_soft_tissue(data);
+  for (const std::string& problem : tissue.problems) warn("generated soft tissue: " + problem);
+  case_io::write_soft_tissue(tissue, data, folder);
+  show_progress("done", 1);
+  return soft_tissue_line(tissue);
+}
+
 void run(const Arguments& a) {
   check_target(a);
   const auto started = reconstruct::StageClock::Clock::now();
@@ -115,8 +128,12 @@ void run(const Arguments& a) {
                       a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
+  const auto generating = reconstruct::StageClock::Clock::now();
+  const std::string soft_tissue = generate_soft_tissue(result.data, a.out);
+  result.stages.push_back({"soft tissue", reconstruct::StageClock::seconds_since(generating)});
   const reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice);
   std::fputs(reconstruct::text_of(report).c_str(), stdout);
+  std::printf("soft tissue (generated, not seen in the CT): %s\n", soft_tissue.c_str());
   std::printf("case: %s%s\n", a.out.string().c_str(),
               options.provenance.simulated ? " (simulated)" : "");
   // After minutes of work the figures are on the terminal even where the file cannot be written.

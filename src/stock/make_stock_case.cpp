@@ -12,6 +12,7 @@
 #include "case_io/case_folder.hpp"
 #include "case_io/lesson_file.hpp"
 #include "case_io/png.hpp"
+#include "case_io/soft_tissue_folder.hpp"
 #include "cases/lesson_difficulty.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -22,6 +23,7 @@
 #include "reconstruct/ground_truth.hpp"
 #include "reconstruct/reconstruct_case.hpp"
 #include "records/atomic_file.hpp"
+#include "soft_tissue/make_soft_tissue.hpp"
 #include "trainee/attempt.hpp"
 
 namespace carpus::stock {
@@ -148,6 +150,8 @@ cases::Lesson make_stock_case(const StockItem& item,
   cases::Lesson lesson = item.lesson;
   lesson.difficulty = cases::difficulty_of(data.scaphoid, fracture, smallest_screw_radius_mm());
   case_io::write_case(data, folder, case_io::Overwrite::Replace, progress);
+  progress("soft tissue", 0.0);
+  case_io::write_soft_tissue(soft_tissue::make_soft_tissue(data), data, folder);
   if (lesson.right_answer != cases::RightAnswer::Decline) {
     progress("scripted expert", 0.0);
     lesson.expert = prove(data);

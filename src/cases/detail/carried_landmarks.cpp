@@ -6,24 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "anatomy/bone_fit.hpp"
 #include "anatomy/carpal_kinematics.hpp"
-#include "anatomy/model_shapes.hpp"
-#include "core/parallel.hpp"
-#include "core/units.hpp"
+#include "cases/lay_model.hpp"
 
 namespace carpus::cases::detail {
 namespace {
 
-using anatomy::BoneFit;
 using anatomy::Similarity;
 
-/// Points of a bone that take part in its fit.
-constexpr std::size_t kSamples = 220;
-/// A fit to fewer points has lost its bone.
-constexpr std::size_t kFewestPoints = 60;
-/// Ways in which a hand may be held against the generic wrist's, to start from [deg of flexion].
-constexpr std::array<double, 5> kStartsDeg{0, -25, 25, -50, 50};
 /// A landmark farther from its bone is left where the fit puts it [mm].
 constexpr double kFarthestSnapMm = 4;
 /// As far inside the volume's faces as the skin is trimmed for the eye: what is left of the caps
@@ -36,55 +26,10 @@ constexpr double kPlainCosine = 0.95;
 /// Nearest points of the skin that lie sideways of the point asked for are its rim.
 constexpr double kRimCosine = 0.5;
 
-/// Every so many-th vertex of a bone, of both parts of a broken one.
-std::vector<Vec3> samples_of(const CaseData& data, BoneId bone) {
-  std::vector<Vec3> all;
-  for (const Bone& b : data.bones) {
-    if (b.bone == bone) {
-      all.insert(all.end(), b.surface.vertices.begin(), b.surface.vertices.end());
-    }
-  }
-  std::vector<Vec3> chosen;
-  const std::size_t every = std::max<std::size_t>(1, all.size() / kSamples);
-  for (std::size_t i = 0; i < all.size(); i += every) chosen.push_back(all[i]);
-  return chosen;
-}
-
-Vec3 mean_of(const std::vector<Vec3>& points) {
-  Vec3 sum;
-  for (const Vec3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
-
 Vec3 unit_normal(const TriangleMesh& mesh, std::uint32_t facet) {
   const Triangle& t = mesh.facets[facet];
   const Vec3& a = mesh.vertices[t[0]];
   return normalized_or(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a), {0, 0, 1});
-}
-
-/// A fit that lost most of its points is worth nothing.
-double cost_of(const BoneFit& fit) {
-  return fit.points_used < kFewestPoints ? std::numeric_limits<double>::infinity() : fit.rms_mm;
-}
-
-/// The best fit of a bone: from where the wrist's frame puts it, and about its middle with the hand
-/// held in several ways.
-std::optional<BoneFit> best_fit(const CaseData& data, BoneId bone, const Similarity& wrist) {
-  const std::vector<Vec3> border = samples_of(data, bone);
-  if (border.size() < kFewestPoints) return std::nullopt;
-  BoneFit best = anatomy::fit_bone(bone, border, data.side, wrist);
-  if (belongs_to_forearm(bone)) return best;
-  const Vec3 middle = mean_of(border);
-  const Vec3 model_middle =
-      anatomy::generic_model_shapes(data.side)[static_cast<std::size_t>(bone) - 1].centroid;
-  for (const double degrees : kStartsDeg) {
-    Similarity start = wrist;
-    start.rotation = wrist.rotation * rotation_about({0, 1, 0}, radians_from_degrees(degrees));
-    start.translation = middle - start.scale * (start.rotation * model_middle);
-    const BoneFit fit = anatomy::fit_bone(bone, border, data.side, start);
-    if (cost_of(fit) < cost_of(best)) best = fit;
-  }
-  return best;
 }
 
 }  // namespace
@@ -154,29 +99,19 @@ std::optional<WristSurfaces::Depth> WristSurfaces::depth_at(const Vec3& point) c
 
 CarriedLandmarks::CarriedLandmarks(const CaseData& data, const anatomy::StructureTable& table)
     : table_(table), mirror_(data.side == Side::Left ? 1 : -1) {
-  const auto patient_from_wrist = data.wrist_from_patient.inverse();
-  Similarity wrist{patient_from_wrist.rotation, 1, patient_from_wrist.translation};
-  if (const auto radius = best_fit(data, BoneId::Radius, wrist)) {
-    if (cost_of(*radius) < std::numeric_limits<double>::infinity()) {
-      wrist = radius->patient_from_model;
-    }
-  }
-  scale_ = wrist.scale;
-  patient_from_model_.fill(wrist);
   std::array<bool, kBoneCount> is_needed{};
   for (const anatomy::Landmark& l : table.landmarks) {
     is_needed[static_cast<std::size_t>(l.bone) - 1] = true;
   }
+  const LaidModel laid = lay_model(data, is_needed);
+  scale_ = laid.wrist.scale;
+  patient_from_model_.fill(laid.wrist);
   std::array<double, kBoneCount> misfit{};
-  parallel_for(kBoneCount, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!is_needed[i]) continue;
-      const auto fit = best_fit(data, kAllBones[i], wrist);
-      if (!fit || !(cost_of(*fit) < std::numeric_limits<double>::infinity())) continue;
-      patient_from_model_[i] = fit->patient_from_model;
-      misfit[i] = fit->rms_mm;
-    }
-  });
+  for (std::size_t i = 0; i < kBoneCount; ++i) {
+    if (!laid.bones[i]) continue;
+    patient_from_model_[i] = laid.bones[i]->patient_from_model;
+    misfit[i] = laid.bones[i]->rms_mm;
+  }
   worst_misfit_mm_ = *std::max_element(misfit.begin(), misfit.end());
   for (const anatomy::Landmark& l : table.landmarks) {
     const std::size_t i = static_cast<std::size_t>(l.bone) - 1;

@@ -30,6 +30,7 @@
 #include "cli/segment_command.hpp"
 #include "cli/serve_command.hpp"
 #include "cli/simulate_command.hpp"
+#include "cli/soft_tissue_command.hpp"
 #include "cli/stock_command.hpp"
 #include "cli/study_command.hpp"
 #include "core/error.hpp"
@@ -46,6 +47,7 @@ void add_commands(CLI::App& app) {
   add_stock_command(app);
   add_reconstruct_command(app);
   add_segment_command(app);
+  add_soft_tissue_command(app);
   add_kinematics_command(app);
   add_hull_command(app);
   add_collide_command(app);

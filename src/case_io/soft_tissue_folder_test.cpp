@@ -1,0 +1,129 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/soft_tissue_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace carpus::case_io {
+namespace {
+
+namespace fs = std::filesystem;
+using soft_tissue::SoftTissue;
+using ::testing::HasSubstr;
+
+TriangleMesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
+SoftTissue small_tissue() {
+  SoftTissue tissue;
+  tissue.size = 1.03;
+  tissue.problems = {"LT_volar: 3.9 mm long"};
+  soft_tissue::Ligament l;
+  l.id = "SL_dorsal";
+  l.name = "scapholunate, dorsal part";
+  l.group = "proximal_row";
+  l.body = tetrahedron();
+  l.length_mm = 5.3;
+  soft_tissue::Strand s;
+  s.course = {{1, 2, 3}, {0.1, 0.2, 0.3}};
+  s.rest_length_mm = 3.25;
+  s.stiffness_n_per_mm = 23;
+  s.anchors = {{3, "", 0, {1, 2, 3}, 0}, {0, "VRUL", 0.45, {0.1, 0.2, 0.3}, 1}};
+  l.strands = {s};
+  tissue.ligaments = {l};
+  soft_tissue::Cartilage c;
+  c.label = 3;
+  c.body = tetrahedron();
+  c.vertex_thickness_mm = {0, 0.5F};
+  tissue.cartilage = {c};
+  tissue.disc.body = tissue.disc.middle = tetrahedron();
+  tissue.spaces = {{"radiocarpal",
+                    "radiocarpal joint",
+                    tetrahedron(),
+                    {soft_tissue::Lining::Bone, soft_tissue::Lining::Disc,
+                     soft_tissue::Lining::Synovium, soft_tissue::Lining::Ligament},
+                    12}};
+  return tissue;
+}
+
+class SoftTissueFolder : public ::testing::Test {
+ protected:
+  SoftTissueFolder() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "case.json") << "{}";
+    data_.bones.resize(1);
+    data_.bones[0].bone = BoneId::Scaphoid;
+    data_.bones[0].label = 3;
+  }
+  ~SoftTissueFolder() override { fs::remove_all(folder_); }
+
+  void change(const std::string& from, const std::string& to) const {
+    const fs::path file = folder_ / "soft_tissue" / "soft_tissue.json";
+    std::ifstream in(file);
+    std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream(file) << text.replace(at, from.size(), to);
+  }
+  template <typename Error>
+  std::string refusal() const {
+    try {
+      (void)read_soft_tissue(folder_);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  fs::path folder_ = fs::path(::testing::TempDir()) / "carpus_soft_tissue_folder";
+  cases::CaseData data_;
+};
+
+TEST_F(SoftTissueFolder, ComesBackAsItWas) {
+  EXPECT_FALSE(read_soft_tissue(folder_));
+  const SoftTissue tissue = small_tissue();
+  write_soft_tissue(tissue, data_, folder_);
+  write_soft_tissue(tissue, data_, folder_);
+  const auto back = read_soft_tissue(folder_);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->size, tissue.size);
+  EXPECT_EQ(back->problems, tissue.problems);
+  const soft_tissue::Strand& s = back->ligaments.at(0).strands.at(0);
+  EXPECT_EQ(s.course, tissue.ligaments[0].strands[0].course);
+  EXPECT_EQ(s.anchors.at(0).label, 3);
+  EXPECT_EQ(s.anchors.at(1).ligament, "VRUL");
+  EXPECT_EQ(back->cartilage.at(0).vertex_thickness_mm, tissue.cartilage[0].vertex_thickness_mm);
+  EXPECT_EQ(back->spaces.at(0).lining, tissue.spaces[0].lining);
+  EXPECT_EQ(back->disc.body.vertices, tissue.disc.body.vertices);
+  EXPECT_TRUE(fs::exists(folder_ / "soft_tissue" / "cartilage_scaphoid.ply"));
+}
+
+TEST_F(SoftTissueFolder, DamageIsNamed) {
+  const auto damaged = [&](const std::string& from, const std::string& to) {
+    write_soft_tissue(small_tissue(), data_, folder_);
+    change(from, to);
+    return refusal<IoError>();
+  };
+  EXPECT_THAT(damaged("carpus soft tissue", "something"), HasSubstr("soft_tissue.json"));
+  EXPECT_THAT(damaged("disc.ply", "../case.json"), HasSubstr("no name of a surface's file"));
+  EXPECT_THAT(damaged("\"lining\":\"1", "\"lining\":\"9"), HasSubstr("lining"));
+  EXPECT_THAT(damaged("\"point\":1", "\"point\":7"), HasSubstr("beyond its course"));
+  EXPECT_THAT(damaged("\"fraction\":0.45", "\"fraction\":-3"), HasSubstr("impossible"));
+  write_soft_tissue(small_tissue(), data_, folder_);
+  change("\"schema_version\":1", "\"schema_version\":2");
+  EXPECT_THAT(refusal<SchemaError>(), HasSubstr("newer program"));
+  EXPECT_THROW(write_soft_tissue(small_tissue(), data_, folder_ / "nowhere"), IoError);
+}
+
+}  // namespace
+}  // namespace carpus::case_io

@@ -1,0 +1,69 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/soft_tissue_report.hpp"
+
+#include <array>
+#include <cstdio>
+
+namespace carpus::cli {
+namespace {
+
+template <typename... Values>
+void print(std::string& out, const char* format, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  out += text.data();
+}
+
+std::string bone_name(const cases::CaseData& data, std::uint8_t label) {
+  for (const cases::Bone& bone : data.bones) {
+    if (bone.label == label) return std::string(name_of(bone.bone, bone.part));
+  }
+  return "?";
+}
+
+}  // namespace
+
+std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue, const cases::CaseData& data) {
+  std::string out;
+  print(out, "size %.3f of the generic wrist, worst fit of a bone %.2f mm rms\n", tissue.size,
+        tissue.worst_misfit_mm);
+  print(out, "generated, not seen in the CT; ranges: published or proposed, times the size\n\n");
+  print(out, "%-18s %9s %15s %9s %15s %7s %8s %8s\n", "ligament", "length mm", "range", "thick mm",
+        "range", "width", "straight", "strands");
+  for (const soft_tissue::Ligament& l : tissue.ligaments) {
+    print(out, "%-18s %9.1f %7.1f to %4.1f %9.2f %7.2f to %4.2f %7.1f %8.1f %8zu\n", l.id.c_str(),
+          l.length_mm, l.length_range_mm.low, l.length_range_mm.high, l.measured_thickness_mm,
+          l.thickness_range_mm.low, l.thickness_range_mm.high, l.width_mm, l.straight_mm,
+          l.strands.size());
+  }
+  if (!tissue.disc.body.facets.empty()) {
+    print(out, "%-18s %9s %15s %9.2f %7.2f to %4.2f\n", "disc", "", "",
+          tissue.disc.measured_thickness_mm, tissue.disc.thickness_range_mm.low,
+          tissue.disc.thickness_range_mm.high);
+  }
+  print(out, "\n%-20s %9s %8s %8s %15s\n", "cartilage", "area mm2", "mean mm", "most mm", "range");
+  for (const soft_tissue::Cartilage& c : tissue.cartilage) {
+    print(out, "%-20s %9.0f %8.2f %8.2f %7.2f to %4.2f\n", bone_name(data, c.label).c_str(),
+          c.area_mm2, c.mean_thickness_mm, c.greatest_thickness_mm, c.thickness_range_mm.low,
+          c.thickness_range_mm.high);
+  }
+  print(out, "\n%-30s %10s %8s\n", "space", "volume mm3", "facets");
+  for (const soft_tissue::Space& s : tissue.spaces) {
+    print(out, "%-30s %10.0f %8zu\n", s.name.c_str(), s.volume_mm3, s.surface.facets.size());
+  }
+  print(out, "\ndeepest in bone %.3f mm\n", tissue.deepest_in_bone_mm);
+  for (const std::string& problem : tissue.problems) out += "problem: " + problem + "\n";
+  return out;
+}
+
+std::string soft_tissue_line(const soft_tissue::SoftTissue& tissue) {
+  std::string out;
+  print(out, "%zu ligaments, %zu of cartilage, %s, %zu joint spaces; deepest in bone %.2f mm",
+        tissue.ligaments.size(), tissue.cartilage.size(),
+        tissue.disc.body.facets.empty() ? "no disc" : "disc", tissue.spaces.size(),
+        tissue.deepest_in_bone_mm);
+  return out;
+}
+
+}  // namespace carpus::cli
