@@ -7,6 +7,7 @@ import { keyCap } from "../key_caps";
 import { heldItem, type HandIndex } from "../operation";
 import type { Driver, ExerciseMessage, Item, SnapshotMessage } from "../protocol";
 import { Sparkline } from "./sparkline";
+import "./bottom_bar.css";
 
 export interface BottomBarHandlers {
   hand(hand: HandIndex): void;

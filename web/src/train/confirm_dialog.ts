@@ -3,6 +3,7 @@
 //
 // A question with two answers, before what cannot be taken back.
 import { button, make, setText } from "../dom";
+import "./confirm_dialog.css";
 
 export class ConfirmDialog {
   readonly element: HTMLDialogElement;

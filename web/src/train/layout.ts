@@ -4,6 +4,7 @@
 // Where the panels of the room stand in the page; order is the order of Tab.
 import { make } from "../dom";
 import type { Panels } from "./panels";
+import "./stage.css";
 
 /** Fills `app` with the room. @return the place of the 3-D view */
 export function layOut(app: HTMLElement, panels: Panels): HTMLElement {

@@ -6,6 +6,7 @@ import { make, setText } from "../dom";
 import { keyCap } from "../key_caps";
 import { keysOf, tickText } from "../operation";
 import type { ExerciseMessage, SnapshotMessage, Step } from "../protocol";
+import "./step_panel.css";
 
 const MAX_LOG_LINES = 40;
 

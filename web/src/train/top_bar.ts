@@ -5,6 +5,7 @@
 import { button, make, setText } from "../dom";
 import { heldText, lostText } from "../devices";
 import type { CaseDescription, HandDevice, SnapshotMessage } from "../protocol";
+import "./top_bar.css";
 
 export interface TopBarHandlers {
   pause(): void;

@@ -8,6 +8,7 @@ import { withKeys } from "../key_caps";
 import type { HandIndex, OfferedActions } from "../operation";
 import type { ExerciseMessage, Instrument } from "../protocol";
 import { commonBeginning } from "./family_name_model";
+import "./tray_dialog.css";
 
 export interface TrayState {
   readonly offered: OfferedActions;

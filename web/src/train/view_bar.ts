@@ -5,6 +5,7 @@
 import { button, make } from "../dom";
 import { keyCap } from "../key_caps";
 import { VIEWS, type Cut, type ViewId } from "../theatre";
+import "./view_bar.css";
 
 export interface ViewBarHandlers {
   look(view: ViewId): void;
@@ -86,7 +87,7 @@ export class ViewBar {
     this.element = make(
       "div.view-bar",
       { role: "group", "aria-label": "View" },
-      make("span.secondary", {}, "View ", keyCap("{KeyV}")),
+      make("span.secondary", {}, make("span.view-word", {}, "View "), keyCap("{KeyV}")),
       ...VIEWS.map((view) => this.looks[view]),
       make("span.gap"),
       make(

@@ -8,6 +8,7 @@ import { keyCap, withKeys } from "../key_caps";
 import { WRIST_KEYS, type WristAxis } from "../operation";
 import type { WristLimits, WristPose } from "../protocol";
 import { nudged, readingText, REST, within } from "./wrist_model";
+import "./wrist_panel.css";
 
 const NAMES: Readonly<Record<WristAxis, readonly [name: string, more: string, less: string]>> = {
   flexion_deg: ["Flexion", "flex", "extend"],
