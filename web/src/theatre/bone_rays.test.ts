@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The tree finds what trying every triangle finds, also in bones that have moved; lines know where they
-// run within a bone. Prints what the tree saves.
+// run within a bone. Nothing is timed here, and the balls are as coarse as the question allows: on a busy
+// machine the same is found, only later.
 import * as THREE from "three";
 import { describe, expect, it } from "vitest";
 import { BoneRays, makeHittable, stretchesWithin } from "./bone_rays";
 
-/** A bumpy ball, as fine as the bones of a case. */
-function ball(x: number, detail = 24): THREE.Mesh {
+/** A bumpy ball. */
+function ball(x: number, detail = 8): THREE.Mesh {
   const geometry = new THREE.IcosahedronGeometry(8, detail);
   const p = geometry.getAttribute("position");
   for (let i = 0; i < p.count; ++i) {
@@ -51,19 +52,12 @@ describe("BoneRays", () => {
     bones[1]?.position.set(-14, 3, 2);
     bones[1]?.quaternion.setFromEuler(new THREE.Euler(0.4, -0.2, 0.9));
     bones[1]?.updateMatrixWorld(true);
-    const lines = rays(200);
-    const timed = <T>(run: () => T): [T, number] => {
-      const start = performance.now();
-      return [run(), (performance.now() - start) / lines.length];
-    };
-    const [slow, slowMs] = timed(() => points(bones, lines));
-    const [, buildMs] = timed(() => {
-      bones.forEach(makeHittable);
-    });
-    points(bones, lines.slice(0, 20));
-    const [fast, fastMs] = timed(() => points(bones, lines));
+    const lines = rays(150);
+    const slow = points(bones, lines);
+    bones.forEach(makeHittable);
+    const fast = points(bones, lines);
     const hit = slow.filter((point) => point !== undefined);
-    expect(hit.length).toBeGreaterThan(50);
+    expect(hit.length).toBeGreaterThan(40);
     expect(hit.length).toBeLessThan(lines.length);
     slow.forEach((point, i) => {
       expect(fast[i] === undefined).toBe(point === undefined);
@@ -71,11 +65,6 @@ describe("BoneRays", () => {
         expect(fast[i]?.[axis]).toBeCloseTo(value, 6);
       });
     });
-    const triangles = bones.reduce((n, b) => n + b.geometry.getAttribute("position").count / 3, 0);
-    console.log(
-      `a ray over ${triangles} triangles: every one tried ${(1000 * slowMs).toFixed(0)} us, by trees ` +
-        `${(1000 * fastMs).toFixed(1)} us; trees made in ${(buildMs * lines.length).toFixed(0)} ms`,
-    );
   });
 });
 
