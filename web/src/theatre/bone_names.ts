@@ -4,21 +4,25 @@
 // Names beside the bones, with a leader line to each; two columns so that none overlap. While tendons,
 // arteries and nerves are shown it is they that are named: both would not fit.
 import * as THREE from "three";
+import { linesOf, roomAside, spread, type Label } from "./label_model";
 import type { Structures } from "./structures";
 
-interface Named {
+interface Named extends Label {
   readonly text: string;
+  lines: readonly string[];
   readonly bone: THREE.Object3D;
   /** In the bone's own frame: the leader goes where the bone goes. */
   readonly centre: THREE.Vector3;
   x: number;
-  y: number;
-  labelY: number;
-  left: boolean;
 }
 
-const LINE_PX = 22;
-const MARGIN_PX = 16;
+const FONT = "500 13px 'Inter Variable', sans-serif";
+const LINE_PX = 16;
+const GAP_PX = 6;
+const MARGIN_PX = 12;
+/** Below the lowest name: what the colours mean, and on the left the cube that tells the sides. */
+const FOOT_PX = 36;
+const CUBE_FOOT_PX = 108;
 
 /** "scaphoid_proximal" to "Scaphoid, proximal part"; "metacarpal3" to "Metacarpal 3". */
 export function boneLabel(name: string): string {
@@ -28,12 +32,17 @@ export function boneLabel(name: string): string {
   return part === undefined ? capital : `${capital}, ${part} part`;
 }
 
+function naming(text: string, bone: THREE.Object3D, centre: THREE.Vector3): Named {
+  return { text, lines: [text], bone, centre, x: 0, y: 0, labelY: 0, height: 0, left: false };
+}
+
 export class BoneNames {
   readonly canvas = document.createElement("canvas");
   private readonly context = this.canvas.getContext("2d");
-  private readonly bones: Named[];
-  private readonly tubes: Named[];
-  private named: Named[];
+  private readonly bones: readonly Named[];
+  private readonly tubes: readonly Named[];
+  /** For this much room the names are broken into lines. */
+  private room = 0;
   private readonly projected = new THREE.Vector3();
 
   constructor(
@@ -45,18 +54,12 @@ export class BoneNames {
     this.bones = bones.map((bone) => {
       const centre = new THREE.Vector3();
       bone.geometry.boundingBox?.getCenter(centre);
-      return { text: boneLabel(bone.name), bone, centre, x: 0, y: 0, labelY: 0, left: false };
+      return naming(boneLabel(bone.name), bone, centre);
     });
-    this.tubes = structures.markers.map((marker) => ({
-      text: marker.name.charAt(0).toUpperCase() + marker.name.slice(1),
-      bone: marker,
-      centre: new THREE.Vector3(),
-      x: 0,
-      y: 0,
-      labelY: 0,
-      left: false,
-    }));
-    this.named = this.bones;
+    this.tubes = structures.markers.map((marker) => {
+      const text = marker.name.charAt(0).toUpperCase() + marker.name.slice(1);
+      return naming(text, marker, new THREE.Vector3());
+    });
   }
 
   resize(width: number, height: number, ratio: number): void {
@@ -69,59 +72,59 @@ export class BoneNames {
     const context = this.context;
     if (context === null) return;
     context.clearRect(0, 0, width, height);
-    this.named = this.structures.group.visible ? this.tubes : this.bones;
-    for (const bone of this.named) {
+    context.font = FONT;
+    context.textBaseline = "middle";
+    context.lineJoin = "round";
+    this.breakLines(context, roomAside(width));
+    const named = this.structures.group.visible ? this.tubes : this.bones;
+    for (const bone of named) {
       this.projected.copy(bone.centre).applyMatrix4(bone.bone.matrixWorld).project(camera);
       bone.x = (0.5 + 0.5 * this.projected.x) * width;
       bone.y = (0.5 - 0.5 * this.projected.y) * height;
       bone.left = bone.x < width / 2;
-      bone.labelY = bone.y;
     }
-    this.named.sort(byHeight);
-    this.spread(true, height);
-    this.spread(false, height);
-    context.font = "500 14px 'Inter Variable', sans-serif";
-    context.textBaseline = "middle";
-    context.lineWidth = 1;
-    for (const bone of this.named) this.drawOne(context, bone, width);
+    spread(named, true, MARGIN_PX, height - CUBE_FOOT_PX);
+    spread(named, false, MARGIN_PX, height - FOOT_PX);
+    for (const bone of named) drawLeader(context, bone, width);
+    for (const bone of named) drawName(context, bone, width);
   }
 
-  /** Pushes the labels of one column apart, downwards, then back up from the bottom. */
-  private spread(left: boolean, height: number): void {
-    let free = MARGIN_PX + LINE_PX / 2;
-    for (const bone of this.named) {
-      if (bone.left !== left) continue;
-      bone.labelY = Math.max(bone.labelY, free);
-      free = bone.labelY + LINE_PX;
+  private breakLines(context: CanvasRenderingContext2D, room: number): void {
+    if (room === this.room) return;
+    this.room = room;
+    const measure = (text: string): number => context.measureText(text).width;
+    for (const bone of [...this.bones, ...this.tubes]) {
+      bone.lines = linesOf(bone.text, room, measure);
+      bone.height = bone.lines.length * LINE_PX + GAP_PX;
     }
-    let bottom = height - MARGIN_PX;
-    for (let i = this.named.length - 1; i >= 0; --i) {
-      const bone = this.named[i];
-      if (bone?.left !== left) continue;
-      bone.labelY = Math.min(bone.labelY, bottom);
-      bottom = bone.labelY - LINE_PX;
-    }
-  }
-
-  private drawOne(context: CanvasRenderingContext2D, bone: Named, width: number): void {
-    const edge = bone.left ? MARGIN_PX : width - MARGIN_PX;
-    context.textAlign = bone.left ? "left" : "right";
-    const end = bone.left
-      ? edge + context.measureText(bone.text).width + 8
-      : edge - context.measureText(bone.text).width - 8;
-    context.strokeStyle = "rgba(159, 176, 183, 0.7)";
-    context.beginPath();
-    context.moveTo(end, bone.labelY);
-    context.lineTo(bone.x, bone.y);
-    context.stroke();
-    context.fillStyle = "#e8eef0";
-    context.beginPath();
-    context.arc(bone.x, bone.y, 2.2, 0, 2 * Math.PI);
-    context.fill();
-    context.fillText(bone.text, edge, bone.labelY);
   }
 }
 
-function byHeight(a: Named, b: Named): number {
-  return a.y - b.y;
+function drawLeader(context: CanvasRenderingContext2D, bone: Named, width: number): void {
+  const longest = Math.max(...bone.lines.map((line) => context.measureText(line).width));
+  const end = MARGIN_PX + longest + 6;
+  context.strokeStyle = "rgba(159, 176, 183, 0.7)";
+  context.lineWidth = 1;
+  context.beginPath();
+  context.moveTo(bone.left ? end : width - end, bone.labelY);
+  context.lineTo(bone.x, bone.y);
+  context.stroke();
+  context.fillStyle = "#e8eef0";
+  context.beginPath();
+  context.arc(bone.x, bone.y, 2.2, 0, 2 * Math.PI);
+  context.fill();
+}
+
+/** Readable over whatever it happens to lie on. */
+function drawName(context: CanvasRenderingContext2D, bone: Named, width: number): void {
+  context.textAlign = bone.left ? "left" : "right";
+  const x = bone.left ? MARGIN_PX : width - MARGIN_PX;
+  const top = bone.labelY - ((bone.lines.length - 1) * LINE_PX) / 2;
+  context.strokeStyle = "rgba(14, 18, 20, 0.85)";
+  context.lineWidth = 4;
+  context.fillStyle = "#e8eef0";
+  bone.lines.forEach((line, index) => {
+    context.strokeText(line, x, top + index * LINE_PX);
+    context.fillText(line, x, top + index * LINE_PX);
+  });
 }

@@ -19,6 +19,7 @@ import { cutPlane, type Cut } from "./cut_plane_model";
 import { DrawingSurface } from "./drawing_surface";
 import { Ghost } from "./ghost";
 import { studioLight, type StudioLight } from "./light";
+import { middleOfBones } from "./middle_of";
 import { MovingBones } from "./moving_bones";
 import { OrientationCube } from "./orientation_cube";
 import { PointedAt, type PagePoint } from "./pointed_at";
@@ -371,11 +372,9 @@ export class Theatre {
 }
 
 /** Middle of the bones of these names, or of all [m]. */
-function middleOf(caseScene: CaseScene, names: readonly string[]): THREE.Vector3 {
-  const box = new THREE.Box3();
-  for (const bone of caseScene.bones) {
-    if (names.includes(bone.name)) box.expandByObject(bone);
-  }
-  if (box.isEmpty()) box.setFromObject(caseScene.root);
-  return box.getCenter(new THREE.Vector3());
+function middleOf({ bones, root }: CaseScene, names: readonly string[]): THREE.Vector3 {
+  return (
+    middleOfBones(bones, names) ??
+    new THREE.Box3().setFromObject(root).getCenter(new THREE.Vector3())
+  );
 }
