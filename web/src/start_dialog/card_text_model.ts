@@ -22,5 +22,9 @@ export function cardText(one: CaseCard, index: number, mode: Mode): CardText {
   const difficulty = difficultyText(one.difficulty);
   return mode === "assessed"
     ? { title: `Case ${index + 1}`, difficulty, what: one.history }
-    : { title: one.title, difficulty, what: one.goal };
+    : {
+        title: one.title,
+        difficulty,
+        what: one.goal === "" ? "No lesson comes with it." : one.goal,
+      };
 }

@@ -250,7 +250,7 @@ export class StartDialog {
   open(): void {
     if (this.element.open) return;
     this.element.showModal();
-    this.nextStep().focus();
+    this.nextStep().focus({ preventScroll: true });
   }
 
   private nextStep(): HTMLElement {
@@ -280,6 +280,6 @@ export class StartDialog {
     this.resume.classList.toggle("primary", on);
     this.start.classList.toggle("primary", !on);
     setText(this.start, on ? "Start anew" : "Start");
-    if (this.element.open) this.nextStep().focus();
+    if (this.element.open) this.nextStep().focus({ preventScroll: true });
   }
 }
