@@ -7,6 +7,7 @@ import { fetchAttempts, fetchProcedures } from "../case_data";
 import { button, make, setText } from "../dom";
 import type { AttemptSummary, ProcedureSummary } from "../protocol";
 import { cusum, standing, type CusumPoint } from "./cusum_model";
+import { FiguresSection } from "./figures_section";
 import { cusumCurve, scoreCurve } from "./learning_curve";
 import { CUSUM_LIMITS, FLAT_AFTER, LIMIT_SOURCES, PROFICIENT_SCORE } from "./review_limits";
 import {
@@ -39,7 +40,7 @@ export function mountReview(app: HTMLElement): () => void {
   void (async () => {
     try {
       const [attempts, procedures] = await Promise.all([fetchAll(() => left), fetchProcedures()]);
-      if (!left) new ReviewPage(main, attempts, procedures);
+      if (!left) new ReviewPage(main, attempts, procedures, () => left);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       main.replaceChildren(make("p", { role: "alert" }, why));
@@ -65,12 +66,15 @@ class ReviewPage {
   private filter: ReviewFilter;
   private readonly results = make("div.review-results");
   private readonly said = make("p.secondary", { role: "status" });
+  private readonly figures: FiguresSection;
 
   constructor(
     main: HTMLElement,
     private readonly attempts: readonly AttemptSummary[],
     private readonly procedures: readonly ProcedureSummary[],
+    isLeft: () => boolean,
   ) {
+    this.figures = new FiguresSection(isLeft);
     this.filter = this.firstFilter();
     main.replaceChildren(
       make(
@@ -210,6 +214,7 @@ class ReviewPage {
         make("h2", { id: "compare-title" }, "Compared"),
         comparisonTable(compare(scope, this.filter)),
       ),
+      this.figures.element,
       make(
         "section.review-attempts",
         { "aria-labelledby": "attempts-title" },
@@ -218,6 +223,7 @@ class ReviewPage {
       ),
       sources(),
     );
+    this.figures.show(scope, this.filter);
   }
 
   private legend(): HTMLElement {

@@ -3,3 +3,4 @@
 //
 // The truth about one attempt.
 export { mountScore } from "./score_page";
+export { GRADE_SIGNS, GRADE_WORDS, valueText } from "./score_model";
