@@ -27,6 +27,12 @@ export async function operateAssessed(browser, station) {
         "bones can be named",
       );
       expect(await page.isDisabled("#skin-opacity"), "skin can be taken off");
+      await page.keyboard.press("l");
+      await operator.settle();
+      expect(
+        !(await page.locator("canvas.bone-names").isVisible()),
+        "the key L names bones",
+      );
       await page.keyboard.press("Control+z");
       await operator.settle();
       expect(

@@ -337,7 +337,15 @@ export class Operator {
   /** Entry and aim: the tip on the bone, the shaft along the axis. @return degrees that it is off */
   async placeWire(axis) {
     const { entry, toHand } = await this.axisNow(axis);
-    const angle = await this.turnShaft(toHand);
+    // A turn towards the viewer is none on the screen: from two sides, which two is all the same.
+    const angles = [];
+    for (const side of ["Radial", "Dorsal", "Radial"]) {
+      if (angles.length > 1 && angles.at(-1) < 3) break;
+      await this.page.getByRole("button", { name: side, exact: true }).click();
+      await this.settle();
+      angles.push(await this.turnShaft(toHand));
+    }
+    const angle = angles.at(-1);
     // Looking along the shaft the entry point is in front of everything else that matters.
     await this.page.getByRole("button", { name: "Along shaft" }).click();
     await this.settle();

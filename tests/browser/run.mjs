@@ -386,12 +386,6 @@ async function operateFromVolar(page, station) {
   if (!went) return;
   const drove = await check(page, "its wire is placed and driven", async () => {
     for (const key of ["1", "2"]) await operator.shot(key);
-    // A turn towards the viewer is none on the screen: from two sides.
-    for (const side of ["Radial", "Volar"]) {
-      await page.getByRole("button", { name: side, exact: true }).click();
-      await operator.settle();
-      await operator.turnShaft((await operator.axisNow(axis)).toHand);
-    }
     const angle = await operator.placeWire(axis);
     expect(angle < 3, `the shaft is ${angle.toFixed(1)} degrees off`);
     await operator.driveWireTo(axis.lengthMm - 3);
