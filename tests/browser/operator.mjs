@@ -156,8 +156,11 @@ export class Operator {
       const wanted = add(toHand, shaft, -dot(toHand, shaft));
       const across = [dot(wanted, right), dot(wanted, up)];
       const size = Math.hypot(...across);
+      // What is left is a turn towards the viewer: nothing of it can be done from this side.
+      if (size < 0.02) break;
       if (angle > 4) {
-        const pixels = Math.min(MAX_DRAG_PX, angle / DEG_PER_PX);
+        const seen = (180 / Math.PI) * Math.asin(Math.min(1, size));
+        const pixels = Math.min(MAX_DRAG_PX, seen / DEG_PER_PX);
         await this.page.keyboard.down("Shift");
         await this.page.mouse.move(from.x, from.y);
         await this.page.mouse.down();
@@ -177,7 +180,8 @@ export class Operator {
             : across[1] > 0
               ? "ArrowUp"
               : "ArrowDown";
-        for (let tap = 0; tap < Math.max(1, Math.floor(angle)); ++tap)
+        const taps = Math.max(1, Math.floor((180 / Math.PI) * size));
+        for (let tap = 0; tap < taps; ++tap)
           await this.page.keyboard.press(`Shift+${key}`);
       }
       await this.settle();

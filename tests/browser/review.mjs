@@ -35,7 +35,32 @@ function classOf() {
   return attempts;
 }
 
+const figure = (id, value) => ({
+  id,
+  label: `Figure ${id}`,
+  value,
+  unit: "mm",
+  target: "at most 1 mm good, over 3 mm fails",
+  grade: value <= 1 ? "good" : "fail",
+  points: 0,
+  points_possible: 1,
+  reason: "Made up for a test.",
+});
+
+/** The report of one of them, but for what it measured an attempt that really was. */
+async function reportOf(summary, station) {
+  const real = await (await fetch(`${station.url}/api/attempts/1`)).json();
+  const value = summary.input_device === "script" ? 0.2 : 4 - 0.1 * summary.id;
+  const items = [figure("wire_mm", value), figure("unmeasured_mm", null)];
+  return { ...real, ...summary, score: { ...real.score, items } };
+}
+
 export async function reviewClass(page, station) {
+  await page.route(/\/api\/attempts\/\d+$/, async (route) => {
+    const id = Number(route.request().url().split("/").at(-1));
+    const summary = classOf().find((attempt) => attempt.id === id);
+    return route.fulfill({ json: await reportOf(summary, station) });
+  });
   await page.route(/\/api\/attempts(\?|$)/, (route) => {
     const attempts = classOf();
     return route.fulfill({
@@ -88,5 +113,32 @@ export async function reviewClass(page, station) {
       await page.getByText("No attempt is like that.").waitFor();
     },
   );
+  await check(
+    page,
+    "each figure stands beside one's past, the others, the expert and what is good",
+    async () => {
+      await page
+        .locator(".review-filter select[name=mode]")
+        .selectOption("");
+      const rows = page.locator(".figure-table tbody tr");
+      await rows.first().waitFor();
+      expect((await rows.count()) === 1, "a figure nobody measured has a row");
+      const row = await rows.first().innerText();
+      expect(row.includes("0.2 mm"), `the expert is not in '${row}'`);
+      for (const [part, count] of [
+        ["strip-last", 1],
+        ["strip-own", 7],
+        ["strip-group", 1],
+        ["strip-expert", 1],
+        ["strip-band", 1],
+      ])
+        expect(
+          (await rows.locator(`.${part}`).count()) === count,
+          `not ${count} of ${part}`,
+        );
+      await expectAccessible(page, 6);
+    },
+  );
   await page.unroute(/\/api\/attempts(\?|$)/);
+  await page.unroute(/\/api\/attempts\/\d+$/);
 }

@@ -34,8 +34,8 @@ export class FiguresSection {
       { "aria-labelledby": "figures-title" },
       make("h2", { id: "figures-title" }, "Figure by figure"),
       this.said,
-      this.table,
       legend(),
+      this.table,
     );
   }
 

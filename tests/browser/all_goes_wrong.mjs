@@ -1,0 +1,146 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything that can go wrong does, through the page, and the report says each of it: the wire in the
+// next bone and taken back, too long a screw, the drill beyond the far cortex, no picture, steps left out;
+// then a wire that is left over the radius while the wrist is straightened.
+import { newPage } from "./browser.mjs";
+import { check, expect } from "./checks.mjs";
+import { dot, Operator, readAxis } from "./operator.mjs";
+
+const TRAINEE = "Browser test, all wrong";
+/** Bent by 15 degrees and more. */
+const STRAIGHT_COSINE = 0.966;
+
+/** The report's figures by id, with what must hold and does not. */
+async function finishedReport(page) {
+  await page.keyboard.press("f");
+  await page.locator("dialog.confirm[open]").waitFor();
+  const note = await page.textContent("dialog.confirm[open] .confirm-note");
+  await page.keyboard.press("Enter");
+  await page.locator(".score-table tbody tr").first().waitFor();
+  const rows = await page.locator(".score-table tbody tr").evaluateAll((all) =>
+    all.map((row) => ({
+      id: row.dataset.item,
+      value: Number.parseFloat(row.querySelector(".figure").textContent),
+      failed: row.querySelector(".grade.fail") !== null,
+      reason: row.querySelector(".reason").textContent,
+    })),
+  );
+  return {
+    note,
+    items: Object.fromEntries(rows.map((row) => [row.id, row])),
+    overall: Number(await page.textContent(".overall strong")),
+    verdict: await page.locator(".verdict").innerText(),
+    unmet: await page
+      .locator(".must-haves li", { hasText: "not fulfilled" })
+      .allTextContents(),
+  };
+}
+
+/** Each figure fails and says why. */
+function expectSaid({ items }, ids) {
+  for (const id of ids) {
+    const item = items[id];
+    expect(item !== undefined, `${id} is not in the report`);
+    expect(item.failed, `${id} is ${JSON.stringify(item)}`);
+    expect(item.reason.length > 20, `${id} has no reason: '${item.reason}'`);
+  }
+}
+
+async function harmUndoneAndTooLong(page, station) {
+  const operator = new Operator(page);
+  const axis = readAxis(station.caseFolder);
+  const began = await check(page, "a wire driven into the next bone and taken back", async () => {
+    await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
+    await operator.placeWire(axis);
+    await operator.driveWireTo(axis.lengthMm + 9);
+    await page.keyboard.press("z");
+    await operator.until((s) => s.undos === 1, "the step taken back");
+    await operator.settle();
+  });
+  if (!began) return;
+  const went = await check(page, "over-drilled, and too long a screw put in", async () => {
+    await operator.placeWire(axis);
+    await operator.driveWireTo(axis.lengthMm + 2);
+    await operator.take("cannulated_drill");
+    await operator.driveOn((drill) => drill.depth_mm >= axis.lengthMm + 4, "the drill too deep");
+    await operator.holdKey(
+      "r",
+      (s) => Operator.held(s)?.instrument !== "cannulated_drill",
+      "the drill out",
+    );
+    const { instruments } = await operator.exercise();
+    const long = instruments
+      .filter((one) => one.family !== "" && one.length_mm >= axis.lengthMm + 2)
+      .reduce((a, b) => (b.length_mm < a.length_mm ? b : a));
+    await operator.take(long.id);
+    await operator.holdKey("Space", (s) => Operator.held(s).buried_mm >= 1.5, "the screw buried");
+    await page.keyboard.press("q");
+    await operator.takeWireOut();
+  });
+  if (!went) return;
+  await check(page, "the report says each of it, and gives no point", async () => {
+    const report = await finishedReport(page);
+    expect(report.note.includes("Check the views"), `open steps: '${report.note}'`);
+    expectSaid(report, [
+      "penetration_mm",
+      "screw_length_minus_ideal_mm",
+      "follower_beyond_far_cortex_mm",
+      "wrong_bones_entered",
+      "views_with_wire",
+      "views_with_screw",
+      "steps_left_out",
+    ]);
+    expect(report.items.undos.value === 1, "the undo is not counted");
+    expect(report.items.shots.value === 0, "shots without a picture");
+    expect(report.overall === 0, `${report.overall} points`);
+    expect(/not acceptable/i.test(report.verdict), `the verdict: '${report.verdict}'`);
+    expect(report.unmet.length >= 3, `unmet: ${report.unmet.join("; ")}`);
+    const stands = await page.locator(".lengths").innerText();
+    expect(/Stands out/.test(stands), `where it stands out is not said: '${stands}'`);
+    const log = await page.locator(".events").innerText();
+    expect(/trapezium/i.test(log), "the bone that was harmed is not named");
+  });
+}
+
+async function wireOverTheRadius(page, station) {
+  const operator = new Operator(page);
+  const axis = readAxis(station.caseFolder);
+  const went = await check(page, "a wire left over the radius breaks as the wrist is straightened", async () => {
+    await page.goto(`${station.url}/#/`);
+    await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
+    await operator.placeWire(axis);
+    await operator.driveWireTo(axis.lengthMm - 8);
+    await page.keyboard.press("q");
+    await operator.until((s) => s.hands[0].item < 0, "an empty hand");
+    const whole = (await operator.snapshot()).items[0].length_mm;
+    await operator.holdKey(
+      "u",
+      (s) =>
+        s.wrist.flexion_deg < -20 ||
+        s.items.some(
+          (item) =>
+            item.length_mm < whole - 5 ||
+            dot(item.shaft, item.outer_shaft) < STRAIGHT_COSINE,
+        ),
+      "a wire bent over the radius",
+    );
+  });
+  if (!went) return;
+  await check(page, "ended early, the report says what the wire suffered and that it stays", async () => {
+    const report = await finishedReport(page);
+    const bent = ["wire_bend_deg", "wires_broken"].filter((id) => report.items[id]?.failed);
+    expect(bent.length > 0, `neither bent nor broken: ${JSON.stringify(report.items.wire_bend_deg)}`);
+    expectSaid(report, [...bent, "wires_left_in", "steps_left_out"]);
+    expect(report.overall === 0, `${report.overall} points`);
+    expect(/not acceptable/i.test(report.verdict), `the verdict: '${report.verdict}'`);
+  });
+}
+
+export async function allGoesWrong(browser, station) {
+  const page = await newPage(browser);
+  await harmUndoneAndTooLong(page, station);
+  await wireOverTheRadius(page, station);
+  await page.close();
+}
