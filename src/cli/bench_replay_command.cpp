@@ -19,6 +19,8 @@
 #include "core/rng.hpp"
 #include "procedures/built_in.hpp"
 #include "records/atomic_file.hpp"
+#include "records/attempt_keeper.hpp"
+#include "records/utc_time.hpp"
 #include "server/exercise.hpp"
 #include "server/replay_desk.hpp"
 
@@ -31,6 +33,7 @@ struct BenchReplayArguments {
   double minutes = 30.0;
   int seeks = 100;
   std::string json;
+  std::string records;
 };
 
 double milliseconds_of(const std::function<void()>& work) {
@@ -120,6 +123,18 @@ void print(const cases::CaseData& data, const nlohmann::ordered_json& f) {
   }
 }
 
+/// For a page to look at: an attempt that has neither a score nor a log.
+void store(const cases::CaseData& data,
+           const LongOperation& operation,
+           const std::string& records_file) {
+  records::AttemptKeeper keeper(records_file);
+  const records::KeptAttempt kept = keeper.save(server::make_attempt(
+      {data, operation.recording, {}, {}, "long operation", "script", records::utc_now()}));
+  if (!kept.problem.empty()) throw IoError(kept.problem);
+  std::printf("stored as attempt %lld in %s\n", static_cast<long long>(kept.id),
+              records_file.c_str());
+}
+
 void run(const BenchReplayArguments& arguments) {
   if (!(arguments.minutes >= 1.0 && arguments.minutes <= 120.0) || arguments.seeks < 1 ||
       arguments.seeks > 10'000) {
@@ -131,6 +146,7 @@ void run(const BenchReplayArguments& arguments) {
                                               : find_procedure(arguments.procedure);
   const LongOperation operation =
       make_long_operation(data, procedure, static_cast<Tick>(arguments.minutes * 60'000.0));
+  if (!arguments.records.empty()) store(data, operation, arguments.records);
   const nlohmann::ordered_json figures = measure(data, operation, arguments);
   print(data, figures);
   if (!arguments.json.empty()) {
@@ -152,6 +168,7 @@ void add_bench_replay_command(CLI::App& bench) {
   command->add_option("--seeks", arguments->seeks, "Moments, chosen by chance")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--records", arguments->records, "Store the operation in this file");
   command->callback([arguments] { run(*arguments); });
 }
 

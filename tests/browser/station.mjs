@@ -38,9 +38,10 @@ export function demoCase() {
 /**
  * @param options  of `carpus serve` besides; --open unless the link is what is tried
  * @param where  a case folder, or a folder of them, in place of the demo's
+ * @param fill  puts attempts into the records, whose file it is given, before anybody looks
  * @return {url, caseFolder, stop}
  */
-export async function startStation(options = ["--open"], where) {
+export async function startStation(options = ["--open"], where, fill) {
   const program = need(
     process.env.CARPUS_BIN ?? join(root, "build/release/bin/carpus"),
     "Build it with ./run --build-only, or set CARPUS_BIN.",
@@ -51,6 +52,7 @@ export async function startStation(options = ["--open"], where) {
     "Build the page with: npm --prefix web run build",
   );
   const records = mkdtempSync(join(tmpdir(), "carpus-browser-"));
+  fill?.(program, caseFolder, join(records, "attempts.sqlite"));
   const port = await freePort();
   // Devices and calibrations of its own: none of whoever runs this.
   const env = {

@@ -1,0 +1,22 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What takes minutes in a browser: everything goes wrong, and a long operation is looked at again.
+// Run by `npm --prefix web run test:browser:long` and by ./test --all.
+import { allGoesWrong } from "./all_goes_wrong.mjs";
+import { startBrowser } from "./browser.mjs";
+import { counted } from "./checks.mjs";
+import { replayLong } from "./long_replay.mjs";
+import { startStation } from "./station.mjs";
+
+const station = await startStation();
+const browser = await startBrowser();
+try {
+  await allGoesWrong(browser, station);
+  await replayLong(browser);
+} finally {
+  await browser.close();
+  await station.stop();
+}
+console.log(`${counted.passed} passed, ${counted.failed} failed`);
+process.exit(counted.failed === 0 ? 0 : 1);
