@@ -18,7 +18,7 @@ struct LongOperation {
   std::vector<Tick> shots;  ///< when pictures were taken
 };
 
-/// @param ticks  at least that long; the expert needs some minutes.
+/// @param ticks  at least that long, and the rest of what the expert needs.
 [[nodiscard]] LongOperation make_long_operation(const cases::CaseData& data,
                                                 const procedure::Procedure& procedure,
                                                 Tick ticks);
