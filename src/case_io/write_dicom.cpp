@@ -16,10 +16,10 @@
 #include <string_view>
 #include <vector>
 
+#include "case_io/detail/dicom_text.hpp"
 #include "case_io/detail/disk_space.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/error.hpp"
-#include "core/rng.hpp"
 #include "core/state_hash.hpp"
 
 namespace carpus::case_io {
@@ -32,31 +32,6 @@ static_assert(std::endian::native == std::endian::little,
 constexpr int kInterceptHu = -1024;
 constexpr int kGreatest12BitHu = kInterceptHu + 4095;
 constexpr std::string_view kCtImageStorage = "1.2.840.10008.5.1.4.1.1.2";
-
-/// A UID under 2.25: a random UUID (version 4) as a decimal number.
-std::string uid_from(std::uint64_t seed) {
-  Rng rng(seed);
-  __extension__ using Wide = unsigned __int128;
-  const std::uint64_t high = (rng.next() & ~0xF000ULL) | 0x4000ULL;         // version 4
-  const std::uint64_t low = (rng.next() & ~(3ULL << 62U)) | (2ULL << 62U);  // variant 1
-  Wide number = (static_cast<Wide>(high) << 64U) | low;
-  std::string digits;
-  for (; number != 0; number /= 10) {
-    digits.insert(digits.begin(), static_cast<char>('0' + static_cast<int>(number % 10)));
-  }
-  return "2.25." + digits;
-}
-
-/// A decimal string (VR DS) holds at most 16 characters.
-std::string decimal(double v) {
-  std::array<char, 40> buffer{};
-  int digits = 12;
-  int length = 0;
-  do {
-    length = std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, v == 0 ? 0.0 : v);
-  } while (length > 16 && --digits > 0);
-  return std::string(buffer.data(), static_cast<std::size_t>(length));
-}
 
 std::string decimals(std::initializer_list<double> values) {
   std::string joined;

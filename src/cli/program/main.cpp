@@ -19,6 +19,7 @@
 #include "cli/device_list_command.hpp"
 #include "cli/device_simulate_command.hpp"
 #include "cli/device_test_command.hpp"
+#include "cli/export_command.hpp"
 #include "cli/fluoroscopy_command.hpp"
 #include "cli/hull_command.hpp"
 #include "cli/kinematics_command.hpp"
@@ -48,6 +49,7 @@ void add_commands(CLI::App& app) {
   add_reconstruct_command(app);
   add_segment_command(app);
   add_soft_tissue_command(app);
+  add_export_command(app);
   add_kinematics_command(app);
   add_hull_command(app);
   add_collide_command(app);
