@@ -290,7 +290,8 @@ TEST(BoneNaming, LeavesFingersOutOfTheAccount) {
 }
 
 TEST(BoneNaming, ComparesAForearmOverTheLengthThatTheScanShows) {
-  for (const double limit : {14.0, 11.0, 8.0}) {  // at 8, 17 mm of the radius and 5 of the ulna are left
+  for (const double limit :
+       {14.0, 11.0, 8.0}) {  // at 8, 17 mm of the radius and 5 of the ulna are left
     WristOptions options;
     options.proximal_limit_mm = limit;
     SCOPED_TRACE(limit);

@@ -26,6 +26,8 @@ struct PhantomArguments {
   std::string side = "left";
   double scale = 1.0;
   std::string format = "dicom";
+  std::vector<std::string> conditions;
+  double severity = 0.5;
   bool force = false;
 };
 
@@ -35,6 +37,9 @@ void run(const PhantomArguments& arguments) {
   options.scale = arguments.scale;
   options.fracture = phantom::fracture_of(arguments.fracture).value();  // CLI11 checked the name
   options.side = side_of(arguments.side).value();
+  for (const std::string& name : arguments.conditions) {
+    phantom::apply(phantom::condition_of(name).value(), arguments.severity, options.scan);
+  }
   const auto format =
       arguments.format == "dicom" ? phantom::CtFormat::Dicom : phantom::CtFormat::Nifti;
   const auto overwrite = arguments.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse;
@@ -71,6 +76,17 @@ void add_phantom_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--format", arguments->format, "Of the CT")
       ->check(CLI::IsMember({"dicom", "nifti"}))
+      ->capture_default_str();
+  std::vector<std::string> conditions;
+  for (const phantom::Condition condition : phantom::kAllConditions) {
+    conditions.emplace_back(phantom::name_of(condition));
+  }
+  command
+      ->add_option("--with", arguments->conditions,
+                   "What scanner and patient do otherwise; several may be given")
+      ->check(CLI::IsMember(conditions));
+  command->add_option("--severity", arguments->severity, "Of all that --with names")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_flag("--force", arguments->force, "Replace the folder where it is there already");
   command->callback([arguments] { run(*arguments); });

@@ -17,6 +17,7 @@
 #include "case_io/case_folder.hpp"
 #include "case_io/read_volume.hpp"
 #include "case_io/soft_tissue_folder.hpp"
+#include "case_io/trust_file.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/simulated_scan.hpp"
 #include "cli/soft_tissue_report.hpp"
@@ -91,6 +92,17 @@ std::string generate_soft_tissue(const cases::CaseData& data, const fs::path& fo
   return soft_tissue_line(tissue);
 }
 
+std::vector<case_io::TrustLine> trust_lines(const reconstruct::Reconstruction& result) {
+  std::vector<case_io::TrustLine> lines;
+  for (std::size_t i = 0; i < result.data.bones.size(); ++i) {
+    const cases::Bone& bone = result.data.bones[i];
+    const reconstruct::BoneTrust& trust = result.figures[i].trust;
+    lines.push_back(
+        {std::string(name_of(bone.bone, bone.part)), trust.confidence, trust.flagged, trust.why});
+  }
+  return lines;
+}
+
 void run(const Arguments& a) {
   check_target(a);
   const auto started = reconstruct::StageClock::Clock::now();
@@ -126,6 +138,9 @@ void run(const Arguments& a) {
   const auto writing = reconstruct::StageClock::Clock::now();
   case_io::write_case(result.data, a.out,
                       a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
+  records::write_file_atomically(
+      a.out / case_io::kTrustFile,
+      case_io::trust_text(trust_lines(result), result.data.provenance.made_by));
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
   const auto generating = reconstruct::StageClock::Clock::now();

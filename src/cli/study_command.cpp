@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/study_axes_command.hpp"
+#include "cli/study_segmentation_command.hpp"
 #include "cli/study_validity_command.hpp"
 #include "cli/study_views_command.hpp"
 
@@ -17,6 +18,7 @@ void add_study_command(CLI::App& app) {
   add_study_views_command(*study);
   add_study_validity_command(*study);
   add_study_axes_command(*study);
+  add_study_segmentation_command(*study);
 }
 
 }  // namespace carpus::cli

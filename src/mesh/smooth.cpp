@@ -69,12 +69,21 @@ TriangleMesh smooth(TriangleMesh mesh, const SmoothOptions& options) {
   }
   const Neighbours neighbours = neighbours_of(mesh);
   const double volume_mm3 = options.restores_volume ? volume_of(mesh) : 0.0;
+  const std::vector<Vec3> before =
+      options.max_displacement_mm > 0 ? mesh.vertices : std::vector<Vec3>{};
   std::vector<Vec3> moved(mesh.vertices.size());
   for (int i = 0; i < options.iterations; ++i) {
     step(mesh.vertices, moved, neighbours, options.lambda);
     step(mesh.vertices, moved, neighbours, options.mu);
   }
   if (options.restores_volume) restore_volume(mesh, volume_mm3);
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const Vec3 moved_by = mesh.vertices[v] - before[v];
+    const double way = length(moved_by);
+    if (way > options.max_displacement_mm) {
+      mesh.vertices[v] = before[v] + moved_by * (options.max_displacement_mm / way);
+    }
+  }
   return mesh;
 }
 

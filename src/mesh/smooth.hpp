@@ -17,6 +17,9 @@ struct SmoothOptions {
   /// Scales the result about its centroid to the volume of the input, closed surfaces only:
   /// Taubin's filter keeps volume only to about 1 % on bones of few voxels.
   bool restores_volume = true;
+  /// No vertex ends farther from where it was [mm]; 0 for no bound. The bound holds last, so that
+  /// the volume is then only nearly restored.
+  double max_displacement_mm = 0;
 };
 
 /// The mesh with smoothed vertices [same unit and frame]; facets are unchanged, hence a manifold

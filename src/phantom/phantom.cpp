@@ -21,6 +21,7 @@
 #include "imaging/gaussian.hpp"
 #include "phantom/bone_shapes.hpp"
 #include "phantom/coherent_noise.hpp"
+#include "phantom/scanner_effects.hpp"
 #include "phantom/soft_tissue.hpp"
 #include "phantom/tissue.hpp"
 
@@ -29,16 +30,19 @@ namespace {
 
 /// The hand is extended by about 28 degrees in the model's frame; the scanner's table lies midway.
 constexpr double kBetweenForearmAndHandDegrees = 14.0;
-constexpr double kTiltDegrees = 4.0;  // of the arm in the scanner, random, about each axis
-/// Field of view along the table, from the wrist's origin, and the greatest across [mm].
-constexpr double kProximalReachMm = 32.0;
-constexpr double kDistalReachMm = 54.0;
-constexpr double kGreatestWidthMm = 96.0;
 constexpr double kAirAroundMm = 4.0;
-/// FWHM 0.6 mm.
-constexpr double kPointSpreadSigmaMm = 0.255;
+/// Between skin and splint, of so much HU.
+constexpr double kPaddingMm = 3.0;
+constexpr double kPaddingHu = -850;
+/// A table's sandwich: carbon of 200 HU, 1 mm thick, at both sides of 12 mm of foam.
+constexpr double kTableSkinMm = 1.0;
+constexpr double kTableFoamMm = 12.0;
+constexpr double kTableSkinHu = 200;
+constexpr double kTableFoamHu = -930;
+/// Fused bones: within a joint this wide there is bone of this density.
+constexpr double kFusionMm = 3.4;
+constexpr double kFusionHu = 450;
 constexpr double kNoiseSigmaMm = 0.2;
-constexpr double kNoiseHu = 24.0;
 constexpr double kNoisePerHu = 1.0 / 2500.0;  // relative growth of the noise with HU above 0
 constexpr double kShadingHu = 5.0;
 constexpr double kAirHu = -1000.0;
@@ -51,15 +55,70 @@ constexpr double kReachMm = 2.0;
 /// Half the width of a bone's edge before blur [mm].
 constexpr double kEdgeMm = 0.1;
 
+/// A smooth displacement of all of space: other shapes, the same joints.
+Vec3 other_anatomy(const Vec3& p, const PhantomOptions& o) {
+  Vec3 shift;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    shift[axis] = o.scan.warp_mm * (0.75 * coherent_noise(p, 16, o.seed * 31 + axis) +
+                                    0.35 * coherent_noise(p, 9, o.seed * 37 + axis + 3));
+  }
+  return p + shift;
+}
+
+/// A point as one bone's shape is asked for it: the bone lies elsewhere and has another size.
+struct BonePlace {
+  Vec3 centre{};
+  double size = 1;
+  Vec3 shift{};
+  Mat3 rotation = Mat3::identity();
+
+  bool is_elsewhere = false;
+
+  [[nodiscard]] Vec3 model_point(const Vec3& p) const {
+    if (!is_elsewhere) return p;
+    return centre + (rotation.transposed() * (p - shift - centre)) / size;
+  }
+};
+
+/// Of the shapes, in their order.
+std::vector<BonePlace> bone_places(const BoneShapes& bones,
+                                   const anatomy::WristModel& model,
+                                   const PhantomOptions& o) {
+  constexpr double kDisiDegreesPerMm = 6;
+  std::vector<BonePlace> places;
+  Rng rng(o.seed ^ 0xB0EULL);
+  for (const Shape& shape : bones.shapes()) {
+    BonePlace place;
+    place.centre = model.bone(shape.bone).bounds.centre();
+    const double smaller = o.scan.size_variation * rng.uniform();
+    // Long bones keep their size, for their shafts go on; parts of one bone keep to each other.
+    if (!model.bone(shape.bone).cut_plane && shape.part == BonePart::Whole) place.size -= smaller;
+    if (shape.bone == BoneId::Lunate && o.scan.scapholunate_gap_mm > 0) {
+      const Vec3 away =
+          normalized_or(place.centre - model.bone(BoneId::Scaphoid).bounds.centre(), {0, 1, 0});
+      place.shift = away * (0.5 * o.scan.scapholunate_gap_mm);
+      place.size -= 0.03 * o.scan.scapholunate_gap_mm;
+      place.rotation = rotation_about(
+          {0, 1, 0}, radians_from_degrees(-kDisiDegreesPerMm * o.scan.scapholunate_gap_mm));
+    }
+    place.is_elsewhere = place.size != 1 || squared_length(place.shift) > 0;
+    places.push_back(place);
+  }
+  return places;
+}
+
 struct Scene {
   const BoneShapes& bones;
   const BoneTissue& tissue;
   const SoftTissue& soft;
   Pose<frame::Wrist, frame::Patient> wrist_from_patient;
   double scale;
+  const PhantomOptions& options;
+  std::vector<BonePlace> places;  ///< of the bones, in the order of their shapes
 
   [[nodiscard]] Vec3 model_point(const Vec3& patient) const {
-    return (wrist_from_patient * Point<frame::Patient>{patient}).v / scale;
+    const Vec3 p = (wrist_from_patient * Point<frame::Patient>{patient}).v / scale;
+    return options.scan.warp_mm > 0 ? other_anatomy(p, options) : p;
   }
 };
 
@@ -77,13 +136,13 @@ void check(const PhantomOptions& o) {
 }
 
 /// Scanner: x towards the wrist's +y, y dorsal, z distal, a little tilted.
-Pose<frame::Wrist, frame::Patient> pose_in_scanner(std::uint64_t seed) {
+Pose<frame::Wrist, frame::Patient> pose_in_scanner(std::uint64_t seed, double tilt_degrees) {
   Rng rng(seed ^ 0x7117ULL);
   const Mat3 straight = Mat3::from_columns({0, 0, -1}, {1, 0, 0}, {0, -1, 0});
   Mat3 patient_from_wrist =
       rotation_about({1, 0, 0}, radians_from_degrees(kBetweenForearmAndHandDegrees)) * straight;
   for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-    const double angle = radians_from_degrees(kTiltDegrees * rng.uniform(-1, 1));
+    const double angle = radians_from_degrees(tilt_degrees * rng.uniform(-1, 1));
     patient_from_wrist = rotation_about(axis, angle) * patient_from_wrist;
   }
   const Vec3 shift{rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-3, 3)};
@@ -102,20 +161,21 @@ Aabb hand_box(const Scene& scene) {
     const Vec3 model = g.patient_from_voxel(
         {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
     const Vec3 p = (patient_from_wrist * Point<frame::Wrist>{model * scene.scale}).v;
-    if (p.z - origin.z > -kProximalReachMm * scene.scale &&
-        p.z - origin.z < kDistalReachMm * scene.scale) {
+    if (p.z - origin.z > -scene.options.scan.proximal_reach_mm * scene.scale &&
+        p.z - origin.z < scene.options.scan.distal_reach_mm * scene.scale) {
       box.include(p);
     }
   }
-  box = box.grown(kAirAroundMm);
-  box.low.z = origin.z - kProximalReachMm * scene.scale;
-  box.high.z = origin.z + kDistalReachMm * scene.scale;
+  box = box.grown(kAirAroundMm + scene.options.scan.cast_mm +
+                  (scene.options.scan.cast_mm > 0 ? kPaddingMm : 0.0));
+  box.low.z = origin.z - scene.options.scan.proximal_reach_mm * scene.scale;
+  box.high.z = origin.z + scene.options.scan.distal_reach_mm * scene.scale;
   return box;
 }
 
 GridGeometry field_of_view(const Scene& scene, const PhantomOptions& options) {
   Aabb box = hand_box(scene);
-  const double widest = kGreatestWidthMm * scene.scale;
+  const double widest = options.scan.width_mm * scene.scale;
   if (box.extent().x > widest) {  // cut the thumb, which points away from the wrist's middle
     const bool is_thumb_low = options.side == Side::Left;
     (is_thumb_low ? box.low.x : box.high.x) =
@@ -132,13 +192,16 @@ GridGeometry field_of_view(const Scene& scene, const PhantomOptions& options) {
 
 /// Nearest two bones of each voxel of one slice.
 struct SliceBones {
-  explicit SliceBones(std::size_t count) : nearest(count), first_mm(count), second_mm(count) {}
+  explicit SliceBones(std::size_t count)
+      : nearest(count), second(count), first_mm(count), second_mm(count) {}
   void clear() {
     std::fill(nearest.begin(), nearest.end(), -1);
+    std::fill(second.begin(), second.end(), -1);
     std::fill(first_mm.begin(), first_mm.end(), 1e3F);
     std::fill(second_mm.begin(), second_mm.end(), 1e3F);
   }
   std::vector<int> nearest;  ///< index into shapes, -1 where none is within reach
+  std::vector<int> second;
   std::vector<float> first_mm;
   std::vector<float> second_mm;
 };
@@ -148,7 +211,9 @@ void find_bones(const Scene& scene, const GridGeometry& g, int z, SliceBones& ou
   const double reach = kReachMm / scene.scale + 0.5;
   const auto& shapes = scene.bones.shapes();
   std::vector<Aabb> boxes;
-  for (const Shape& s : shapes) boxes.push_back(s.bounds.grown(reach));
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    boxes.push_back(shapes[s].bounds.grown(reach + 3 * length(scene.places[s].shift)));
+  }
   std::size_t i = 0;
   for (int y = 0; y < g.size[1]; ++y) {
     for (int x = 0; x < g.size[0]; ++x, ++i) {
@@ -156,14 +221,17 @@ void find_bones(const Scene& scene, const GridGeometry& g, int z, SliceBones& ou
           {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}));
       for (std::size_t s = 0; s < shapes.size(); ++s) {
         if (!boxes[s].contains(p)) continue;
-        const double f = scene.bones.value(shapes[s], p);
+        const Vec3 q = scene.places[s].model_point(p);
+        const double f = scene.bones.value(shapes[s], q);
         if (f > reach) continue;
-        const auto d = static_cast<float>(scene.bones.signed_distance(shapes[s], p) * scene.scale);
+        const auto d = static_cast<float>(scene.bones.signed_distance(shapes[s], q) * scene.scale);
         if (d < out.first_mm[i]) {
           out.second_mm[i] = out.first_mm[i];
+          out.second[i] = out.nearest[i];
           out.first_mm[i] = d;
           out.nearest[i] = static_cast<int>(s);
         } else {
+          if (d < out.second_mm[i]) out.second[i] = static_cast<int>(s);
           out.second_mm[i] = std::min(out.second_mm[i], d);
         }
       }
@@ -174,13 +242,27 @@ void find_bones(const Scene& scene, const GridGeometry& g, int z, SliceBones& ou
 /// HU outside bone.
 double surroundings(const Scene& scene, const Vec3& p, double first_mm, double second_mm) {
   const double depth_mm = scene.soft.depth(p) * scene.scale;
-  if (depth_mm <= 0 && first_mm > kReachMm) return kAirHu;
+  if (depth_mm <= 0 && first_mm > kReachMm) {
+    const double out = -depth_mm - kPaddingMm;
+    if (!(scene.options.scan.cast_mm > 0) || out > scene.options.scan.cast_mm) return kAirHu;
+    return out < 0 ? kPaddingHu : scene.options.scan.cast_hu;
+  }
   if (scene.bones.is_gap_tissue(p)) return scene.tissue.gap_hounsfield(p);
   const double soft = scene.soft.hounsfield(p, std::max(depth_mm, 0.0));
   const double joint =
       std::max(1.0 - smooth_step(kJointSpaceMm - 0.6, kJointSpaceMm, first_mm + second_mm),
                1.0 - smooth_step(kCapsuleMm - 0.3, kCapsuleMm, first_mm));
   return soft + (kCartilageHu - soft) * joint;
+}
+
+bool is_fusion(const Scene& scene, const SliceBones& near, std::size_t i) {
+  if (!scene.options.scan.is_fused || near.nearest[i] < 0 || near.second[i] < 0) return false;
+  const auto is_one = [&](int shape) {
+    const BoneId bone = scene.bones.shapes()[static_cast<std::size_t>(shape)].bone;
+    return bone == BoneId::Lunate || bone == BoneId::Triquetrum;
+  };
+  return is_one(near.nearest[i]) && is_one(near.second[i]) &&
+         static_cast<double>(near.first_mm[i] + near.second_mm[i]) < kFusionMm;
 }
 
 void paint_slice(const Scene& scene,
@@ -199,10 +281,18 @@ void paint_slice(const Scene& scene,
       const double first = near.first_mm[i];
       const double in_bone = std::clamp(0.5 - 0.5 * first / kEdgeMm, 0.0, 1.0);
       double value = 0;
-      if (in_bone < 1) value = surroundings(scene, p, first, near.second_mm[i]) * (1 - in_bone);
+      if (in_bone < 1) {
+        const double between = is_fusion(scene, near, i)
+                                   ? kFusionHu
+                                   : surroundings(scene, p, first, near.second_mm[i]);
+        value = between * (1 - in_bone);
+      }
       if (in_bone > 0) {
-        const Shape& shape = shapes[static_cast<std::size_t>(near.nearest[i])];
-        value += in_bone * scene.tissue.hounsfield(shape, p, std::max(0.0, -first));
+        const auto nearest = static_cast<std::size_t>(near.nearest[i]);
+        const double depth_mm = std::max(0.0, -first) / scene.options.scan.cortex_thickness;
+        value += in_bone * scene.options.scan.bone_density *
+                 scene.tissue.hounsfield(shapes[nearest], scene.places[nearest].model_point(p),
+                                         depth_mm);
       }
       hu[at] = static_cast<float>(value);
       if (first < 0) {
@@ -235,9 +325,9 @@ Grid<float> scanner_noise(const GridGeometry& g, std::uint64_t seed) {
   return noise;
 }
 
-Grid<std::int16_t> scanned(const Grid<float>& hu, std::uint64_t seed) {
+Grid<std::int16_t> scanned(const Grid<float>& hu, std::uint64_t seed, double noise_hu) {
+  const Grid<float>& sharp = hu;
   const GridGeometry& g = hu.geometry();
-  const Grid<float> sharp = imaging::gaussian_smooth(hu.view(), kPointSpreadSigmaMm);
   const Grid<float> noise = scanner_noise(g, seed);
   Grid<std::int16_t> ct(g);
   Rng rng(seed ^ 0x5AADEULL);
@@ -248,12 +338,65 @@ Grid<std::int16_t> scanned(const Grid<float>& hu, std::uint64_t seed) {
       const double shading = kShadingHu * std::sin(phase + 4.0 * v.x / g.size[0]) *
                              std::cos(phase + 3.0 * v.y / g.size[1]);
       const double clean = sharp[i];
-      const double grain = kNoiseHu * (1 + kNoisePerHu * std::max(0.0, clean));
+      const double grain = noise_hu * (1 + kNoisePerHu * std::max(0.0, clean));
       const double value = clean + shading + grain * noise[i];
       ct[i] = static_cast<std::int16_t>(std::lround(std::clamp(value, -1024.0, 3071.0)));
     }
   });
   return ct;
+}
+
+/// A table under the arm: below all that is not air, in the scanner's y.
+void add_table(Grid<float>& hu) {
+  const GridGeometry& g = hu.geometry();
+  const int rows = std::max(1, static_cast<int>((2 * kTableSkinMm + kTableFoamMm) / g.spacing.y));
+  // The lowest rows that the field of view still shows: often its upper layer only.
+  for (int y = 0; y < std::min(rows, g.size[1]); ++y) {
+    const double from_top = (std::min(rows, g.size[1]) - 1 - y) * g.spacing.y;
+    const bool is_skin = from_top < kTableSkinMm || from_top > kTableSkinMm + kTableFoamMm;
+    for (int z = 0; z < g.size[2]; ++z) {
+      for (int x = 0; x < g.size[0]; ++x) {
+        float& value = hu[VoxelIndex{x, y, z}];
+        if (static_cast<double>(value) > -950) continue;
+        value = static_cast<float>(is_skin ? kTableSkinHu : kTableFoamHu);
+      }
+    }
+  }
+}
+
+/// A wire along the scaphoid's long axis, as it is left from a fixation before.
+Wire wire_of(const Scene& scene, const LongAxis& axis) {
+  const auto patient_from_wrist = scene.wrist_from_patient.inverse();
+  const auto at = [&](double t) {
+    const Vec3 p = (axis.centroid + axis.direction * t) * scene.scale;
+    return (patient_from_wrist * Point<frame::Wrist>{p}).v;
+  };
+  return {at(axis.least + 2), at(axis.greatest + 6), scene.options.scan.metal_radius_mm};
+}
+
+/// Metal, hardening, motion, kernel, thick slices: in the order in which they come about.
+void add_what_the_scanner_does(const Scene& scene,
+                               const LongAxis& scaphoid,
+                               Grid<float>& hu,
+                               Grid<std::uint8_t>& labels) {
+  const ScanOptions& o = scene.options.scan;
+  const std::uint64_t seed = scene.options.seed;
+  if (o.has_table) add_table(hu);
+  harden_beam(o.beam_hardening_hu, hu);
+  if (o.metal_radius_mm > 0) add_wire(wire_of(scene, scaphoid), o.metal_streaks_hu, seed, hu);
+  if (o.motion_step_mm > 0) {
+    Rng rng(seed ^ 0x307ULL);
+    const int slice = static_cast<int>(hu.geometry().size[2] * rng.uniform(0.3, 0.7));
+    const int step = static_cast<int>(std::lround(o.motion_step_mm / hu.geometry().spacing.x));
+    step_aside(slice, step, static_cast<float>(kAirHu), hu);
+    step_aside(slice, step, std::uint8_t{0}, labels);
+  }
+  hu = blurred_by_kernel(hu, o);
+  const int count = static_cast<int>(std::lround(o.slice_mm / hu.geometry().spacing.z));
+  if (count > 1) {
+    hu = merged_slices(hu, count);
+    labels = merged_slices(labels, count);
+  }
 }
 
 }  // namespace
@@ -267,12 +410,18 @@ Phantom make_phantom(const PhantomOptions& options, const Progress& progress) {
   if (options.fracture != FractureKind::None) {
     phantom.fracture = make_fracture(model, options.fracture, options.seed);
   }
-  phantom.wrist_from_patient = pose_in_scanner(options.seed);
+  phantom.wrist_from_patient = pose_in_scanner(options.seed, options.scan.tilt_degrees);
   progress("outline", 0.0);
   const BoneShapes bones(model, phantom.fracture);
   const BoneTissue tissue(bones, phantom.scaphoid_axis, options.seed * 11 + 1);
   const SoftTissue soft(bones, options.side, options.seed * 13 + 2);
-  const Scene scene{bones, tissue, soft, phantom.wrist_from_patient, options.scale};
+  const Scene scene{bones,
+                    tissue,
+                    soft,
+                    phantom.wrist_from_patient,
+                    options.scale,
+                    options,
+                    bone_places(bones, model, options)};
 
   const GridGeometry g = field_of_view(scene, options);
   Grid<float> hu(g);
@@ -292,7 +441,8 @@ Phantom make_phantom(const PhantomOptions& options, const Progress& progress) {
     });
   }
   progress("scanner", 0.8);
-  phantom.ct = scanned(hu, options.seed);
+  add_what_the_scanner_does(scene, phantom.scaphoid_axis, hu, phantom.labels);
+  phantom.ct = scanned(hu, options.seed, options.scan.noise_hu);
   progress("done", 1.0);
   return phantom;
 }

@@ -13,6 +13,7 @@
 #include "geometry/grid.hpp"
 #include "geometry/pose.hpp"
 #include "phantom/fracture.hpp"
+#include "phantom/scan_conditions.hpp"
 
 namespace carpus::phantom {
 
@@ -22,6 +23,7 @@ struct PhantomOptions {
   Side side = Side::Left;
   double scale = 1.0;           ///< of the whole wrist, 0.7 to 1.4
   Vec3 spacing{0.3, 0.3, 0.5};  ///< mm; 0.15 to 2
+  ScanOptions scan;             ///< what this scanner and this patient do otherwise
 };
 
 struct Phantom {

@@ -68,7 +68,7 @@ Json truth_of(const Phantom& phantom) {
   truth["side"] = name_of(o.side);
   truth["scale"] = o.scale;
   truth["fracture"] = name_of(o.fracture);
-  truth["spacing_mm"] = json_of(o.spacing);
+  truth["spacing_mm"] = json_of(phantom.ct.geometry().spacing);
   truth["wrist_from_patient"] = {
       {"rotation", json_of(phantom.wrist_from_patient.rotation)},
       {"translation_mm", json_of(phantom.wrist_from_patient.translation)}};

@@ -168,6 +168,7 @@ MeshIn<frame::Bone> build_bone_surface(const BoneField& field, const BoneSurface
   if (surface.facets.empty()) return {};
   mesh::SmoothOptions smoothing;
   smoothing.iterations = options.smoothing_pairs;
+  smoothing.max_displacement_mm = options.max_smoothing_mm;
   surface = mesh::smooth(std::move(surface), smoothing);
   return MeshIn<frame::Bone>(simplified(surface, options));
 }

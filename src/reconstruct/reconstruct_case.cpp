@@ -13,8 +13,10 @@
 #include "cases/scaphoid_landmarks.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text_format.hpp"
 #include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
+#include "reconstruct/named_segmentation.hpp"
 #include "reconstruct/skin_surface.hpp"
 
 namespace carpus::reconstruct {
@@ -27,18 +29,6 @@ using imaging::RegionLabel;
 
 /// Part of the whole work that segmentation takes, for the progress bar.
 constexpr double kSegmentationShare = 0.35;
-
-std::string hu(double value) { return std::to_string(std::lround(value)) + " HU"; }
-
-[[noreturn]] void refuse_boneless(const BoneSegmentation& s, const GridGeometry& g) {
-  throw InvalidInput(
-      "no bone found in the volume of " + std::to_string(g.size[0]) + " x " +
-      std::to_string(g.size[1]) + " x " + std::to_string(g.size[2]) +
-      " voxels: the densest smoothed value is " + hu(s.densest_hu) +
-      ", cortical bone has more than 650 HU and encloses its marrow. Give a CT of a wrist in "
-      "Hounsfield units (not MRI, not a label volume), with the rescale slope and intercept "
-      "intact.");
-}
 
 std::string list_of(const std::vector<BoneId>& bones) {
   std::string text;
@@ -96,84 +86,6 @@ std::vector<std::string> warnings_of(const BoneNaming& naming) {
   return warnings;
 }
 
-struct NamedSegmentation {
-  BoneSegmentation segmentation;
-  BoneNaming naming;
-};
-
-/// How bones are told from clefts: a strong weight parts narrow joints, but pierces the thin cortex
-/// of scans with thick slices or much noise, so that bones fall apart or fill up with outside.
-struct Separation {
-  double cleft_weight;
-  double bone_threshold_hu;
-};
-
-/// Tried in this order, after the options as given, until the names fit; the best fit is kept. With
-/// 1 mm slices the second was right where the first was not (misfit 0.7 against 36), with 1.25 mm
-/// the third (0.7 against 237).
-constexpr std::array<Separation, 3> kFurtherSeparations{{{1.0, 250}, {1.0, 180}, {3.0, 250}}};
-
-bool fits(const BoneNaming& naming) {
-  return naming.cost < anatomy::kDoubtfulNamingCost && naming.missing.empty();
-}
-
-template <typename Stage>
-NamedSegmentation segment_and_name(const Grid<std::int16_t>& ct,
-                                   imaging::BoneSegmentationOptions options,
-                                   const Stage& stage) {
-  const auto attempt = [&] {
-    NamedSegmentation result;
-    result.segmentation =
-        imaging::segment_bones(ct.view(), options, [&](std::string_view name, double fraction) {
-          stage(name, kSegmentationShare * fraction);
-        });
-    if (result.segmentation.status != imaging::SegmentationStatus::Ok) {
-      refuse_boneless(result.segmentation, ct.geometry());
-    }
-    stage("names", kSegmentationShare);
-    result.naming =
-        anatomy::name_bones(result.segmentation.regions.view(), result.segmentation.region_count);
-    return result;
-  };
-  NamedSegmentation best = attempt();
-  for (const Separation& other : kFurtherSeparations) {
-    if (fits(best.naming)) break;
-    options.cleft_weight = other.cleft_weight;
-    options.bone_threshold_hu = other.bone_threshold_hu;
-    NamedSegmentation next = attempt();
-    if (next.naming.cost < best.naming.cost) best = std::move(next);
-  }
-  return best;
-}
-
-std::uint8_t label_for(const anatomy::RegionName& name) {
-  return name.part == BonePart::Distal ? kScaphoidDistalLabel
-                                       : static_cast<std::uint8_t>(name.bone);
-}
-
-/// Replaces region numbers by bone labels, on the part of the scan that was segmented.
-Grid<std::uint16_t> bone_labels(const BoneSegmentation& s, const BoneNaming& naming) {
-  std::vector<std::uint16_t> label_of_region(naming.regions.size() + 1, kBackgroundLabel);
-  for (std::size_t i = 0; i < naming.regions.size(); ++i) {
-    if (naming.regions[i]) label_of_region[i + 1] = label_for(*naming.regions[i]);
-  }
-  Grid<std::uint16_t> labels = s.regions;
-  for (std::uint16_t& label : labels.values()) label = label_of_region[label];
-  return labels;
-}
-
-Grid<std::uint8_t> on_whole_scan(const Grid<std::uint16_t>& part,
-                                 const VoxelIndex& offset,
-                                 const GridGeometry& whole) {
-  Grid<std::uint8_t> labels(whole);
-  for (std::size_t i = 0; i < part.values().size(); ++i) {
-    const VoxelIndex v = part.geometry().index_of(i);
-    labels[VoxelIndex{v.x + offset.x, v.y + offset.y, v.z + offset.z}] =
-        static_cast<std::uint8_t>(part[i]);
-  }
-  return labels;
-}
-
 /// One entry a label, in the order of labels, with the naming's figures.
 void list_bones(const BoneNaming& naming, Reconstruction& result) {
   for (const auto& region : naming.regions) {
@@ -209,8 +121,10 @@ void check_bone(const cases::Bone& bone) {
 void build_surfaces(const BoneSegmentation& s,
                     Grid<std::uint16_t> labels,
                     const BoneSurfaceOptions& options,
+                    const BoneNaming& naming,
                     const GridGeometry& whole,
-                    cases::CaseData& data) {
+                    Reconstruction& result) {
+  cases::CaseData& data = result.data;
   std::vector<BoneField> fields(data.bones.size());
   std::vector<std::uint16_t> label_of;
   for (const cases::Bone& bone : data.bones) label_of.push_back(bone.label);
@@ -222,7 +136,24 @@ void build_surfaces(const BoneSegmentation& s,
     }
   });
   label_by_fields(fields, label_of, labels.view());
+  const auto evidence =
+      measure_evidence(labels.view(), s.edge_excess.view(), s.smoothed_hu.view(), naming);
+  for (const BoneEvidence& each : evidence) {
+    for (std::size_t i = 0; i < label_of.size(); ++i) {
+      if (label_of[i] == each.label) result.figures[i].trust = judge(each);
+    }
+  }
   data.labels = on_whole_scan(labels, s.offset, whole);
+}
+
+void warn_of_flagged(Reconstruction& result) {
+  for (std::size_t i = 0; i < result.figures.size(); ++i) {
+    const BoneTrust& trust = result.figures[i].trust;
+    if (!trust.flagged) continue;
+    const cases::Bone& bone = result.data.bones[i];
+    result.warnings.push_back("check the " + std::string(name_of(bone.bone, bone.part)) +
+                              format(" (confidence %.2f): ", trust.confidence) + trust.why);
+  }
 }
 
 /// Runs `work` for each bone, side by side where the program has threads.
@@ -264,7 +195,10 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
     clock.begin(name);
     options.progress(name, fraction);
   };
-  const auto [segmentation, naming] = segment_and_name(ct, options.segmentation, stage);
+  const NamedSegmentation named = segment_and_name(
+      ct, options.segmentation,
+      [&](std::string_view name, double fraction) { stage(name, kSegmentationShare * fraction); });
+  const auto& [segmentation, naming] = named;
   refuse_what_cannot_be_operated(naming, segmentation.region_count);
   result.warnings = warnings_of(naming);
   result.naming_cost = naming.cost;
@@ -278,8 +212,8 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   list_bones(naming, result);
 
   stage("surfaces", 0.45);
-  build_surfaces(segmentation, bone_labels(segmentation, naming), options.surface, ct.geometry(),
-                 data);
+  build_surfaces(segmentation, bone_labels(named), options.surface, naming, ct.geometry(), result);
+  warn_of_flagged(result);
   stage("hulls", 0.6);
   for_each_bone(result, [](cases::Bone& bone, BoneFigures& f) { build_hull(bone, f); });
   stage("distance fields", 0.65);

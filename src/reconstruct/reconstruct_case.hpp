@@ -15,6 +15,7 @@
 #include "core/progress.hpp"
 #include "imaging/bone_segmentation.hpp"
 #include "reconstruct/bone_surface.hpp"
+#include "reconstruct/bone_trust.hpp"
 #include "reconstruct/stage_clock.hpp"
 
 namespace carpus::reconstruct {
@@ -31,6 +32,7 @@ struct ReconstructOptions {
 struct BoneFigures {
   double naming_cost = 0;  ///< see anatomy::BoneNaming
   double hull_seconds = 0;
+  BoneTrust trust;
 };
 
 struct Reconstruction {

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "mesh/genus.hpp"
+
 namespace carpus::reconstruct {
 namespace {
 
@@ -62,17 +64,25 @@ nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
 }
 
 void append_bones(const ReconstructionReport& report, std::string& text) {
-  append(text, "%-18s %8s %8s %8s %8s %9s %8s %7s\n", "bone", "vertices", "facets", "hull v.",
-         "hull f.", "hull ms", "misfit", "Dice");
+  append(text, "%-18s %8s %8s %8s %8s %9s %8s %10s %7s\n", "bone", "vertices", "facets", "hull v.",
+         "hull f.", "hull ms", "misfit", "confidence", "Dice");
   for (const BoneLine& b : report.bones) {
     if (b.is_found) {
-      append(text, "%-18s %8zu %8zu %8zu %8zu %9.2f %8.2f", b.name.c_str(), b.vertices, b.facets,
-             b.hull_vertices, b.hull_facets, 1000 * b.hull_seconds, b.naming_cost);
+      append(text, "%-18s %8zu %8zu %8zu %8zu %9.2f %8.2f %9.2f%s", b.name.c_str(), b.vertices,
+             b.facets, b.hull_vertices, b.hull_facets, 1000 * b.hull_seconds, b.naming_cost,
+             b.trust.confidence, b.trust.flagged ? "!" : " ");
     } else {
-      append(text, "%-18s %8s %44s", b.name.c_str(), "", "NOT FOUND");
+      append(text, "%-18s %8s %55s", b.name.c_str(), "", "NOT FOUND");
     }
     if (b.dice) append(text, " %7.4f", *b.dice);
     text += '\n';
+  }
+  for (const BoneLine& b : report.bones) {
+    if (b.trust.flagged) text += "! " + b.name + ": " + b.trust.why + '\n';
+    if (b.genus != 0) {
+      append(text, "  %s: its surface has %d handles, where a bone has none: look for a leak\n",
+             b.name.c_str(), b.genus);
+    }
   }
 }
 
@@ -132,6 +142,8 @@ ReconstructionReport make_report(const Reconstruction& reconstruction,
     line.hull_facets = bone.hull.facets.size();
     line.hull_seconds = reconstruction.figures[i].hull_seconds;
     line.naming_cost = reconstruction.figures[i].naming_cost;
+    line.trust = reconstruction.figures[i].trust;
+    line.genus = mesh::genus_of(bone.surface);
     report.bones.push_back(line);
   }
   add_dice(dice, reconstruction, report);
@@ -171,7 +183,11 @@ std::string json_of(const ReconstructionReport& report) {
                              {"vertices", b.vertices},
                              {"facets", b.facets},
                              {"hull_vertices", b.hull_vertices},
-                             {"hull_facets", b.hull_facets}});
+                             {"hull_facets", b.hull_facets},
+                             {"confidence", b.trust.confidence},
+                             {"flagged", b.trust.flagged},
+                             {"why", b.trust.why},
+                             {"genus", b.genus}});
   }
   json["dice_mean"] = number_or_null(report.dice_mean);
   json["dice_min"] = number_or_null(report.dice_min);

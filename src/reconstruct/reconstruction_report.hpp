@@ -24,6 +24,8 @@ struct BoneLine {
   std::size_t hull_facets = 0;
   double hull_seconds = 0;
   double naming_cost = 0;
+  BoneTrust trust;
+  int genus = 0;  ///< handles of the surface; a bone has none
 };
 
 struct ReconstructionReport {
@@ -48,7 +50,8 @@ struct ReconstructionReport {
 /// for people.
 [[nodiscard]] std::string text_of(const ReconstructionReport& report);
 
-/// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets"}],
+/// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets",
+/// "confidence", "flagged", "why", "genus"}],
 /// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": [], "structures":
 /// {"generated": true, "count", "in_bone_mm", "in_another_mm", "under_skin_mm", "portals":
 /// [{"portal", "nerve", "mm"}]}}; the Dice figures are null without a truth. A bone that was not

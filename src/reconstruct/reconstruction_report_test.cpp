@@ -25,7 +25,7 @@ Reconstruction two_bones() {
     b.hull.vertices.resize(4);
     b.hull.facets.resize(4);
     r.data.bones.push_back(b);
-    r.figures.push_back({0.5, 0.002});
+    r.figures.push_back({0.5, 0.002, {0.9, false, ""}});
   }
   r.stages = {{"smooth", 1.0}, {"names", 3.0}};
   r.data.provenance.conventions = {"values are stored x 1 + -1024"};
@@ -50,6 +50,18 @@ TEST(ReconstructionReport, WritesTheDocumentedJson) {
   EXPECT_EQ(json["conventions"][0], "values are stored x 1 + -1024");
   EXPECT_EQ(json.size(), 6U);
   EXPECT_NE(text_of(report).find("by convention: values are stored"), std::string::npos);
+}
+
+TEST(ReconstructionReport, SaysWhichBonesToCheckAndWhy) {
+  Reconstruction r = two_bones();
+  r.figures[1].trust = {0.2, true, "it is hollow"};
+  const auto report = make_report(r, {});
+  const auto json = nlohmann::json::parse(json_of(report));
+  EXPECT_EQ(json["bones"][0]["flagged"], false);
+  EXPECT_EQ(json["bones"][1]["flagged"], true);
+  EXPECT_EQ(json["bones"][1]["confidence"], 0.2);
+  EXPECT_EQ(json["bones"][1]["why"], "it is hollow");
+  EXPECT_THAT(text_of(report), HasSubstr("! scaphoid: it is hollow"));
 }
 
 TEST(ReconstructionReport, SaysNothingAboutDiceWithoutATruth) {

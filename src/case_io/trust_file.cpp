@@ -1,0 +1,76 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/trust_file.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/bone_id.hpp"
+#include "core/error.hpp"
+#include "core/json_fields.hpp"
+
+namespace carpus::case_io {
+namespace {
+
+constexpr std::string_view kFormat = "carpus bone trust";
+constexpr std::size_t kLargestFile = 65536;
+constexpr std::size_t kLongestWhy = 2048;
+
+}  // namespace
+
+std::string trust_text(const std::vector<TrustLine>& lines, const std::string& made_by) {
+  nlohmann::ordered_json json;
+  json["format"] = kFormat;
+  json["schema_version"] = kTrustSchemaVersion;
+  json["made_by"] = made_by;
+  json["bones"] = nlohmann::ordered_json::array();
+  for (const TrustLine& line : lines) {
+    json["bones"].push_back(
+        {{"name", line.name}, {"confidence", line.confidence}, {"flagged", line.flagged}});
+    if (!line.why.empty()) json["bones"].back()["why"] = line.why;
+  }
+  return json.dump(1) + "\n";
+}
+
+std::vector<TrustLine> parse_trust(const std::string& text, const std::string& file) {
+  if (text.size() > kLargestFile) throw InvalidInput(file + ": is larger than any such file");
+  const nlohmann::json json = parse_json_text(text, file);
+  JsonFields fields(json, file, "trust");
+  if (fields.text("format") != kFormat) {
+    fields.refuse("format is not '" + std::string(kFormat) + "'");
+  }
+  const double version = fields.number("schema_version", 1, 1e6);
+  if (version > kTrustSchemaVersion) {
+    throw SchemaError(file + ": schema version " + std::to_string(static_cast<int>(version)) +
+                      ", this program knows " + std::to_string(kTrustSchemaVersion) +
+                      "; update carpus");
+  }
+  (void)fields.text_or("made_by", "");
+  std::vector<TrustLine> lines;
+  for (JsonFields& bone : fields.objects("bones")) {
+    TrustLine line;
+    line.name = bone.text("name");
+    if (!bone_of(line.name)) bone.refuse("there is no bone '" + line.name + "'");
+    line.confidence = bone.number("confidence", 0, 1);
+    line.flagged = bone.boolean_or("flagged", false);
+    line.why = bone.text_or("why", "");
+    if (line.why.size() > kLongestWhy) bone.refuse("why is too long");
+    bone.refuse_unknown_fields();
+    lines.push_back(std::move(line));
+  }
+  fields.refuse_unknown_fields();
+  return lines;
+}
+
+std::optional<std::vector<TrustLine>> read_trust(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kTrustFile;
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  std::ifstream in(file, std::ios::binary);
+  std::string text(kLargestFile + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || (in.fail() && !in.eof())) throw IoError(file.string() + ": cannot be read");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return parse_trust(text, file.string());
+}
+
+}  // namespace carpus::case_io

@@ -1,0 +1,36 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// trust.json, how sure the segmentation is of each bone and what to look at (docs/case_format.md).
+// Written beside case.json by `carpus reconstruct`; cases of older programs have none.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carpus::case_io {
+
+inline constexpr const char* kTrustFile = "trust.json";
+inline constexpr int kTrustSchemaVersion = 1;
+
+struct TrustLine {
+  std::string name;       ///< of the bone or part
+  double confidence = 0;  ///< 0 to 1
+  bool flagged = false;
+  std::string why;  ///< what was seen and what to do; empty where nothing is wrong
+};
+
+/// @param made_by  program and version
+[[nodiscard]] std::string trust_text(const std::vector<TrustLine>& lines,
+                                     const std::string& made_by);
+
+/// @throws InvalidInput naming `file` and field; SchemaError where a newer program wrote it.
+[[nodiscard]] std::vector<TrustLine> parse_trust(const std::string& text, const std::string& file);
+
+/// Of a case folder; nothing where it has none.
+/// @throws as parse_trust; IoError where it cannot be read.
+[[nodiscard]] std::optional<std::vector<TrustLine>> read_trust(const std::filesystem::path& folder);
+
+}  // namespace carpus::case_io

@@ -1,0 +1,39 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/trust_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace carpus::case_io {
+namespace {
+
+const std::vector<TrustLine> kLines{{"radius", 0.97, false, ""},
+                                    {"pisiform", 0.2, true, "it is hollow: fill it"}};
+
+TEST(TrustFile, ReadsWhatItWrote) {
+  const auto lines = parse_trust(trust_text(kLines, "carpus 1.0"), "trust.json");
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1].name, "pisiform");
+  EXPECT_EQ(lines[1].confidence, 0.2);
+  EXPECT_TRUE(lines[1].flagged);
+  EXPECT_EQ(lines[1].why, "it is hollow: fill it");
+  EXPECT_FALSE(lines[0].flagged);
+}
+
+TEST(TrustFile, RefusesWhatItDoesNotKnow) {
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = trust_text(kLines, "carpus 1.0");
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_THROW((void)parse_trust(changed("pisiform", "femur"), "trust.json"), InvalidInput);
+  EXPECT_THROW((void)parse_trust(changed("0.97", "1.97"), "trust.json"), InvalidInput);
+  EXPECT_THROW((void)parse_trust(changed("carpus bone trust", "else"), "trust.json"), InvalidInput);
+  EXPECT_THROW((void)parse_trust(changed("\"schema_version\": 1", "\"schema_version\": 2"), "t"),
+               SchemaError);
+  EXPECT_THROW((void)parse_trust("{", "trust.json"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace carpus::case_io

@@ -1,0 +1,82 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Simulated scans of growing difficulty, segmented, compared with their truth, and whether what
+// went wrong was told.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anatomy/bone_id.hpp"
+#include "reconstruct/bone_trust.hpp"
+
+namespace carpus::cli {
+
+/// A bone with less is one that went wrong.
+inline constexpr double kGoodDice = 0.95;
+inline constexpr int kDifficulties = 4;
+
+/// One bone of a scan's truth.
+struct StudiedBone {
+  std::uint8_t label = 0;
+  double dice = 0;
+  bool is_found = false;  ///< otherwise it is said to be missing, or the scan was refused
+  reconstruct::BoneEvidence evidence;
+  reconstruct::BoneTrust trust;
+
+  [[nodiscard]] bool is_wrong() const { return dice < kGoodDice; }
+  [[nodiscard]] bool is_told() const { return !is_found || trust.flagged; }
+};
+
+struct StudiedScan {
+  std::uint64_t seed = 0;
+  int difficulty = 0;                   ///< how many conditions at once, and how severe
+  std::vector<std::string> conditions;  ///< with their severity
+  std::string refused;                  ///< why, where it was
+  bool is_side_right = false;
+  double naming_cost = 0;
+  std::vector<StudiedBone> bones;
+};
+
+/// Simulates and segments the scan of one seed, with cubic voxels of `voxel_mm`.
+[[nodiscard]] StudiedScan study_scan(std::uint64_t seed, double voxel_mm);
+
+/// How well the flag finds what went wrong.
+struct FlagFigures {
+  std::size_t bones = 0;
+  std::size_t wrong = 0;
+  std::size_t told = 0;          ///< of the wrong ones
+  std::size_t false_alarms = 0;  ///< of the right ones
+  double mean_dice = 0;
+  double worst_dice = 1;
+  std::optional<double> auc;  ///< of the confidence; none without both kinds
+
+  [[nodiscard]] double detection() const {
+    return wrong > 0 ? static_cast<double>(told) / static_cast<double>(wrong) : 1.0;
+  }
+  [[nodiscard]] double false_alarm_rate() const {
+    return bones > wrong ? static_cast<double>(false_alarms) / static_cast<double>(bones - wrong)
+                         : 0.0;
+  }
+};
+
+/// Over the scans with this difficulty (any where it is not given), of odd seeds only or of all.
+[[nodiscard]] FlagFigures figures_of(const std::vector<StudiedScan>& scans,
+                                     std::optional<int> difficulty,
+                                     bool odd_only);
+
+struct SegmentationStudy {
+  double voxel_mm = 0;
+  std::vector<StudiedScan> scans;
+};
+
+[[nodiscard]] std::string segmentation_study_text(const SegmentationStudy& study);
+/// docs/json.md.
+[[nodiscard]] std::string segmentation_study_json(const SegmentationStudy& study);
+/// Each bone as a mark, confidence over Dice, as SVG.
+[[nodiscard]] std::string segmentation_study_picture(const SegmentationStudy& study);
+
+}  // namespace carpus::cli

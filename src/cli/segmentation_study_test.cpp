@@ -1,0 +1,56 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/segmentation_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace carpus::cli {
+namespace {
+
+StudiedBone bone(double dice, double confidence, bool is_found = true) {
+  return {3, dice, is_found, {}, {confidence, confidence < 0.5, "why"}};
+}
+
+/// Of four that went wrong one is silent; of two that went well one is flagged.
+SegmentationStudy small_study() {
+  SegmentationStudy study;
+  StudiedScan odd;
+  odd.seed = 1;
+  odd.bones = {bone(0.9, 0.1), bone(0.8, 0.9), bone(0.99, 0.95)};
+  StudiedScan even;
+  even.seed = 2;
+  even.difficulty = 1;
+  even.bones = {bone(0, 0, false), bone(0.5, 0.2), bone(0.98, 0.4)};
+  study.scans = {odd, even};
+  return study;
+}
+
+TEST(SegmentationStudy, CountsWhatWasToldAndWhatWasNot) {
+  const auto study = small_study();
+  const FlagFigures all = figures_of(study.scans, std::nullopt, false);
+  EXPECT_EQ(all.bones, 6U);
+  EXPECT_EQ(all.wrong, 4U);
+  EXPECT_EQ(all.told, 3U);
+  EXPECT_EQ(all.false_alarms, 1U);
+  EXPECT_NEAR(all.detection(), 0.75, 1e-12);
+  EXPECT_NEAR(all.false_alarm_rate(), 0.5, 1e-12);
+  EXPECT_NEAR(*all.auc, 7.0 / 8, 1e-12);
+  EXPECT_EQ(figures_of(study.scans, std::nullopt, true).bones, 3U);
+  EXPECT_EQ(figures_of(study.scans, 1, false).wrong, 2U);
+  EXPECT_FALSE(figures_of(study.scans, 3, false).auc);
+}
+
+TEST(SegmentationStudy, NamesTheSilentOnesAndDrawsEachBone) {
+  const auto study = small_study();
+  EXPECT_NE(segmentation_study_text(study).find("silent: seed 1 scaphoid"), std::string::npos);
+  const auto json = nlohmann::json::parse(segmentation_study_json(study));
+  EXPECT_EQ(json["all"]["told"], 3);
+  EXPECT_EQ(json["scans"][1]["bones"][0]["flagged"], true);
+  EXPECT_EQ(json["scans"][0]["bones"][0]["concerns"].size(), json["concerns"].size());
+  EXPECT_NE(segmentation_study_picture(study).find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carpus::cli
