@@ -67,6 +67,7 @@ std::vector<FoundDevice> find_devices(const DeviceSearch& search) {
     const fs::path target = fs::canonical(path, error);
     // A simulated arm that was killed leaves its link behind.
     if (error || std::find(targets.begin(), targets.end(), target) != targets.end()) return;
+    if (fs::is_directory(target, error)) return;
     targets.push_back(target);
     const bool is_simulated = target.string().find("/pts/") != std::string::npos;
     found.push_back({"arm:" + path.string(),

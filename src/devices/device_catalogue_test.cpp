@@ -39,6 +39,7 @@ TEST(DeviceCatalogue, FindsWhatIsThereAndNothingElse) {
   std::ofstream(search.device_folder / "tty7");
   std::ofstream(search.plugin_folder / "touch.so");
   std::ofstream(search.plugin_folder / "notes.txt");
+  std::filesystem::create_directories(search.device_folder / "ttyUSB_folder");
   const auto found = find_devices(search);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].id, "arm:" + (search.device_folder / "ttyACM0").string());

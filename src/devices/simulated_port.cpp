@@ -3,6 +3,8 @@
 #include "devices/simulated_port.hpp"
 
 #include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <termios.h>
@@ -24,6 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kLateMs = 50;
+/// Below a device's loop (30), which it answers.
+constexpr int kRealTimePriority = 25;
 
 /// So long after the host has said its first word the arm still lies in its cradle, and so long
 /// after its last it is laid back.
@@ -88,10 +92,14 @@ SimulatedPort::~SimulatedPort() {
   thread_.join();
   std::error_code ignored;
   fs::remove(path_, ignored);
-  ::close(master_);
 }
 
 void SimulatedPort::run() {
+  // As a device of its own, which no program's work holds up; where that is not allowed it loses
+  // time.
+  sched_param parameters{};
+  parameters.sched_priority = kRealTimePriority;
+  (void)::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters);
   virtual_arm::VirtualArm& arm = unit_.arm();
   std::vector<std::uint8_t> going;
   arm.on_byte = [&going](std::uint8_t byte, double) { going.push_back(byte); };
@@ -128,6 +136,8 @@ void SimulatedPort::run() {
     constexpr timespec kStep{0, 100'000};
     ::clock_nanosleep(CLOCK_MONOTONIC, 0, &kStep, nullptr);
   }
+  // At once, or it would be silent before it is unplugged.
+  ::close(master_);
 }
 
 }  // namespace carpus::devices
