@@ -18,7 +18,6 @@ using detail::Writer;
 /// A part is whole after so many runs: what a jump to a tick decodes for nothing, and the most that
 /// is copied where bytes grow.
 constexpr std::size_t kRunsOfAPart = 1024;
-constexpr std::size_t kEndBytes = 4;
 
 /// Bits of the mask of what changed: five a hand, then wrist, C-arm and command.
 constexpr unsigned kBitsPerHand = 5;
