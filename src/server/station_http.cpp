@@ -125,6 +125,11 @@ HttpResponse StationHttp::answer_attempt(std::string_view rest, const HttpReques
   if (what.empty()) {
     return make_json(serialize(attempt_message(*attempt, case_fingerprint_)));
   }
+  // With the case at hand it would tell all that a replay keeps to itself.
+  if (!is_truth_open(*attempt)) {
+    return make_problem(
+        409, "This attempt was assessed and does not count: its recording stays closed.");
+  }
   HttpResponse response =
       make_response(200, "application/octet-stream",
                     std::string(reinterpret_cast<const char*>(attempt->recording.data()),

@@ -112,6 +112,23 @@ TEST_F(StationHttpTest, TraineeSeesTheAttemptsOfTheirOwnBrowserAlone) {
   EXPECT_EQ(get("/api/attempts", {Role::Instructor, "x"})["attempts"].size(), 3U);
 }
 
+TEST_F(StationHttpTest, RecordingWhoseTruthIsLockedIsKept) {
+  procedure::ScoreReport score;
+  simulation::Recording assessed;
+  assessed.mode = procedure::Mode::Assessed;
+  for (const bool is_void : {false, true}) {
+    score.is_void = is_void;
+    (void)records_.save(make_attempt({wrist_, assessed, {}, score, "Ada", "", ""}));
+  }
+  EXPECT_EQ(ask("/api/attempts/1/recording", {Role::Instructor, {}}).status, 200U);
+  for (const Role role : {Role::Instructor, Role::Trainee}) {
+    owners_.add(2, "ada");
+    const HttpResponse refused = ask("/api/attempts/2/recording", {role, "ada"});
+    EXPECT_EQ(refused.status, 409U);
+    EXPECT_NE(refused.body->find("stays closed"), std::string::npos);
+  }
+}
+
 TEST_F(StationHttpTest, WhatTakesLongIsKnownHoweverItIsWritten) {
   const std::vector<std::pair<const char*, std::size_t>> lanes{
       {"/", 0},
