@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case_io/detail/case_json.hpp"
+#include "case_io/detail/damaged_file.hpp"
 #include "case_io/detail/disk_space.hpp"
 #include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/hull_from_mesh.hpp"
@@ -178,7 +179,11 @@ cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
   if (const fs::path table = folder / kHandMotionFile; fs::exists(table)) {
     data.hand_motion = parse_hand_motion(read_text(table), table);
   }
-  if (const fs::path tubes = folder / kStructuresFile; fs::exists(tubes)) {
+  const fs::path tubes = folder / kStructuresFile;
+  if (header.has_structures && !fs::exists(tubes)) {
+    throw damaged_file(tubes, IoError("is not there, though case.json names it"));
+  }
+  if (fs::exists(tubes)) {
     data.structures = parse_structures(read_text(tubes), tubes);
   }
   data.ct = read_grid<std::int16_t>(folder, "ct.nii.gz", header);

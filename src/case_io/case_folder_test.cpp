@@ -143,6 +143,15 @@ TEST_F(CaseFolder, OfAnOlderProgramHasNoStructures) {
   EXPECT_TRUE(read_case(target()).structures.empty());
 }
 
+TEST_F(CaseFolder, WhoseStructuresAreLostIsRefused) {
+  cases::CaseData data = small_case();
+  data.structures = test::small_structures();
+  write_case(data, target());
+  fs::remove(target() / "structures.json");
+  EXPECT_THAT(error_of<IoError>(target()),
+              AllOf(HasSubstr("structures.json: is not there"), HasSubstr("make the case again")));
+}
+
 TEST_F(CaseFolder, WithDamagedStructuresIsRefusedByThatFilesName) {
   cases::CaseData data = small_case();
   data.structures = test::small_structures();

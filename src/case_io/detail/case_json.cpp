@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "case_io/detail/damaged_file.hpp"
 #include "case_io/detail/structures_json.hpp"
 #include "core/error.hpp"
 #include "core/json_nesting.hpp"
@@ -178,6 +179,7 @@ CaseHeader header_from(const Json& json) {
     data.bones.push_back(std::move(bone));
   }
   for (const auto& [file, grid] : json.at("grids").items()) header.grids[file] = grid_of(grid);
+  header.has_structures = json.contains("structures");
   return header;
 }
 
@@ -225,11 +227,9 @@ CaseHeader parse_case_json(const std::string& text, const std::filesystem::path&
     check_version(json, file);
     return header_from(json);
   } catch (const Json::exception& error) {
-    throw IoError(file.string() + ": is damaged (" + error.what() +
-                  "); restore it or make the case again from its CT");
+    throw damaged_file(file, error);
   } catch (const IoError& error) {
-    throw IoError(file.string() + ": " + error.what() +
-                  "; restore it or make the case again from its CT");
+    throw damaged_file(file, error);
   }
 }
 

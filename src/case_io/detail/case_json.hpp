@@ -20,6 +20,7 @@ namespace carpus::case_io {
 struct CaseHeader {
   cases::CaseData data;
   std::map<std::string, GridGeometry> grids;
+  bool has_structures = false;  ///< named here, so that their file's absence is noticed
 };
 
 /// @throws SchemaError, IoError; messages name `file`.

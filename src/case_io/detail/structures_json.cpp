@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "case_io/detail/damaged_file.hpp"
 #include "core/error.hpp"
 #include "core/json_nesting.hpp"
 
@@ -97,9 +98,10 @@ std::vector<cases::Structure> parse_structures(const std::string& text,
     const Json json = Json::parse(text);
     if (json.value("format", "") != "carpus structures") throw IoError("is no list of structures");
     if (json.at("schema_version") != kVersion) {
-      throw SchemaError(file.string() +
-                        ": was written by a newer program; update carpus, or remove the file: the "
-                        "case then opens without tendons, arteries and nerves");
+      throw SchemaError(
+          file.string() +
+          ": was written by a newer program; update carpus, or remove the file and \"structures\" "
+          "from case.json: the case then opens without tendons, arteries and nerves");
     }
     std::vector<cases::Structure> structures;
     for (const Json& entry : json.at("structures")) {
@@ -108,11 +110,9 @@ std::vector<cases::Structure> parse_structures(const std::string& text,
     }
     return structures;
   } catch (const Json::exception& error) {
-    throw IoError(file.string() + ": is damaged (" + error.what() +
-                  "); restore it or make the case again from its CT");
+    throw damaged_file(file, error);
   } catch (const IoError& error) {
-    throw IoError(file.string() + ": " + error.what() +
-                  "; restore it or make the case again from its CT");
+    throw damaged_file(file, error);
   }
 }
 
