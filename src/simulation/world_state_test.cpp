@@ -4,6 +4,7 @@
 // A world's state as bytes: it comes back and goes on the same way, or is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,6 +14,7 @@
 
 #include "core/rng.hpp"
 #include "core/state_hash.hpp"
+#include "simulation/broken_wrist_test_support.hpp"
 #include "simulation/detail/bytes.hpp"
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/operation_test_support.hpp"
@@ -192,7 +194,10 @@ TEST(WorldState, ForgedBytesWithARightChecksumAreRefusedAndChangeNothing) {
       {"a driver that is none", [](Forged& f) { f.spent.hands[0].wish.driver = Driver{3}; }},
       {"a push of nobody", [](Forged& f) { f.spent.hands[0].wish.thrust_n = -5; }},
       {"touches no body", [](Forged& f) { f.spent.hands[1].touched_body = 40; }},
-      {"a fragment torn away", [](Forged& f) { f.now.moved[0].w = 2; }},
+      {"a bone enlarged", [](Forged& f) { f.now.moved[0].w = 2; }},
+      {"a whole bone out of its place", [](Forged& f) { f.now.moved[0].shift.x = 0.5; }},
+      {"a body that there is not", [](Forged& f) { f.now.moved[kMaxBodies - 1].shift.x = 0.5; }},
+      {"carried across the room", [](Forged& f) { f.now.carried.shift.y = 300; }},
       {"a track in no body", [](Forged& f) { f.now.tracks[0].body = 99; }},
       {"a track of no hole", [](Forged& f) { f.now.track_hole[0] = 40; }},
       {"a pass with no instrument", [](Forged& f) { f.spent.passes[0].instrument = 250; }},
@@ -216,6 +221,24 @@ TEST(WorldState, ForgedBytesWithARightChecksumAreRefusedAndChangeNothing) {
     EXPECT_EQ(op.now().state_hash, hash) << what;
   }
   EXPECT_TRUE(op.world().read_state(good).has_value());
+}
+
+TEST(WorldState, AFragmentIsTakenBackNoFartherThanItsGapLetsIt) {
+  const cases::CaseData& broken = test::broken_wrist();
+  World world(broken, test::exercise(), 1);
+  Input input;
+  input.wrist = world.now().wrist;
+  input.command = test::shot(45);
+  world.step(input);
+  const std::vector<std::byte> good = world.write_state();
+  const auto proximal =
+      std::find_if(broken.bones.begin(), broken.bones.end(),
+                   [](const cases::Bone& bone) { return bone.part == BonePart::Proximal; });
+  const auto fragment = static_cast<std::size_t>(proximal - broken.bones.begin());
+  for (const auto& [mm, is_possible] : {std::pair{4.9, true}, std::pair{5.1, false}}) {
+    const auto bytes = forged(good, [&](Forged& f) { f.now.moved[fragment].shift.z = mm; });
+    EXPECT_EQ(world.read_state(bytes).has_value(), is_possible) << mm;
+  }
 }
 
 }  // namespace

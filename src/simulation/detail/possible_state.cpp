@@ -19,6 +19,9 @@ namespace {
 constexpr double kGreatest = 1e5;
 /// Rounding of a unit vector is far less.
 constexpr double kUnitTolerance = 1e-6;
+/// From one end of the wrist's motion to the other a carpal bone's centre goes less far [mm].
+constexpr double kCarriedMm = 200.0;
+
 bool is_in(std::uint8_t index, std::size_t count) noexcept { return index == 255 || index < count; }
 
 bool is_near(double value) noexcept { return absolute(value) <= kGreatest; }
@@ -64,10 +67,33 @@ bool is_item_possible(std::uint8_t index,
   return wire.is_there() && wire.is_fixed() && wire.wire == kNoItem && item.is_fixed();
 }
 
-/// Turns about the scan's origin shift what lies far from it by much.
-bool is_displacement_possible(const Displacement& moved) noexcept {
+bool is_turn(const Displacement& moved) noexcept {
   const double size = moved.w * moved.w + squared_length(moved.turn);
-  return absolute(size - 1.0) <= kUnitTolerance && is_near(moved.shift);
+  return absolute(size - 1.0) <= kUnitTolerance;
+}
+
+/// A turn about the scan's origin shifts what lies far from it by much: what counts is its centre.
+bool takes_no_farther(const Displacement& moved, const Vec3& centre, double mm) noexcept {
+  const Vec3 way = (moved.pose() * Point<frame::Bone>{centre}).v - centre;
+  return squared_length(way) <= mm * mm;
+}
+
+/// What no push moves is where the wrist's motion takes it; a fragment goes as far as its gap lets
+/// it.
+bool are_displacements_possible(const Operated& now, const StateBounds& bounds) noexcept {
+  for (std::uint8_t b = 0; b < kMaxBodies; ++b) {
+    const Displacement& moved = now.moved[b];
+    if (moved.is_none()) continue;
+    const bool is_fragment = b < bounds.bodies && (bounds.fragments & bit_of(b)) != 0;
+    if (!is_fragment || !is_turn(moved) ||
+        squared_length(moved.turn) > kGreatestTurn * kGreatestTurn ||
+        !takes_no_farther(moved, bounds.centres[b], kGreatestShiftMm)) {
+      return false;
+    }
+  }
+  if (now.carried.is_none()) return true;
+  if (bounds.target == 0 || !is_turn(now.carried)) return false;
+  return takes_no_farther(now.carried, bounds.centres[first_of(bounds.target)], kCarriedMm);
 }
 
 bool is_hand_possible(const HandState& hand, const StateBounds& bounds) noexcept {
@@ -148,10 +174,7 @@ bool is_possible(const Operated& now, const Spent& spent, const StateBounds& bou
   for (const HandState& hand : spent.hands) {
     if (!is_hand_possible(hand, bounds)) return false;
   }
-  for (const Displacement& moved : now.moved) {
-    if (!is_displacement_possible(moved)) return false;
-  }
-  if (!is_displacement_possible(now.carried)) return false;
+  if (!are_displacements_possible(now, bounds)) return false;
   if (spent.ended != 0 && (spent.ended & 1U) == 0) return false;
   if (spent.tube >= procedure::kTubeSettings || spent.aids >> procedure::kAidCount != 0)
     return false;

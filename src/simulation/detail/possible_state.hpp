@@ -10,6 +10,7 @@
 
 #include "anatomy/hand_pose.hpp"
 #include "procedure/situation.hpp"
+#include "simulation/detail/bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
 
 namespace carpus::simulation::detail {
@@ -20,6 +21,9 @@ struct StateBounds {
   std::size_t instruments = 0;
   std::size_t steps = 0;
   anatomy::HandLimits wrist;
+  std::span<const Vec3> centres;  ///< of the bodies' surfaces, frame Bone
+  BodySet fragments = 0;          ///< that can be pushed out of their place
+  BodySet target = 0;             ///< that can be carried along by what it is pinned to
 };
 
 /// Every index names something, both ends of a relation agree, directions are of unit length, and

@@ -96,8 +96,13 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   visit(*spent, fields);
   detail::StructureState structures;
   if (state_->structures.size() > 0) visit(structures, fields);
-  const detail::StateBounds bounds{model_->data.bones.size(), model_->catalogue.size(),
-                                   model_->procedure.steps.size(), model_->data.hand_motion.limits};
+  const detail::StateBounds bounds{model_->data.bones.size(),
+                                   model_->catalogue.size(),
+                                   model_->procedure.steps.size(),
+                                   model_->data.hand_motion.limits,
+                                   model_->centres,
+                                   model_->kinds.fragments,
+                                   model_->kinds.target};
   is_sound = is_sound && !in.is_spoilt() && detail::is_possible(*now, *spent, bounds) &&
              detail::is_possible(structures, state_->structures.size(), bounds.instruments);
   if (!is_sound) return carpus::Refusal{"keyframe: its state is not one that a tick could leave"};
