@@ -36,6 +36,7 @@ using testing::exchange_raw;
 using testing::Headers;
 using testing::host_of;
 using testing::HttpAnswer;
+using testing::kPatience;
 using testing::RawClient;
 using testing::request;
 
@@ -144,9 +145,8 @@ TEST_F(AccessDoorTest, SlowAnswersKeepNobodyElseWaiting) {
     slow.back()->send("GET /slow HTTP/1.1\r\nHost: " + host_of(port()) +
                       "\r\nConnection: close\r\n\r\n");
   }
-  const auto begin = std::chrono::steady_clock::now();
+  // Those wait until they are let go.
   EXPECT_EQ(request(port(), "/").result_int(), 200U);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 300ms);
   let_go_.set_value();
   for (const auto& client : slow) EXPECT_THAT(client->read_to_end(), StartsWith("HTTP/1.1 200"));
 }
@@ -223,7 +223,7 @@ TEST_F(AccessDoorTest, WhoDoesNotSpeakTlsOrTooOldOneIsClosed) {
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(exchange_raw(port(), ""), "");
   EXPECT_EQ(exchange_raw(port(), "\x16\x03\x01"), "");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kPatience);
   asio::io_context context;
   asio::ssl::context old(asio::ssl::context::tls_client);
   ::SSL_CTX_set_security_level(old.native_handle(), 0);

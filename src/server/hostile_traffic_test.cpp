@@ -25,6 +25,7 @@ using ::testing::StartsWith;
 using namespace std::chrono_literals;
 using testing::Echo;
 using testing::host_of;
+using testing::kPatience;
 using testing::PageClient;
 using testing::RawClient;
 using testing::request;
@@ -64,6 +65,13 @@ class HostileTrafficTest : public ::testing::Test {
     options.hello_timeout = 400ms;
     options.ping_interval = 50ms;
     options.page_timeout = 2s;
+    return options;
+  }
+  /// Deadlines that no test waits for: what is answered or closed is so for another reason.
+  static NetworkOptions patient() {
+    NetworkOptions options = quick();
+    options.request_timeout = options.answer_timeout = options.hello_timeout =
+        options.page_timeout = 1h;
     return options;
   }
   void TearDown() override {
@@ -193,10 +201,10 @@ TEST_F(HostileTrafficTest, SlowLorisIsClosedHoweverOftenItSaysSomething) {
   RawClient client(port());
   const auto begin = std::chrono::steady_clock::now();
   client.send("GET / HTTP/1.1\r\n");
-  while (client.send("X: y\r\n") && std::chrono::steady_clock::now() - begin < 10s) {
+  while (client.send("X: y\r\n") && std::chrono::steady_clock::now() - begin < kPatience) {
     std::this_thread::sleep_for(20ms);
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kPatience);
 }
 
 TEST_F(HostileTrafficTest, WhoReadsAnAnswerTooSlowlyIsClosed) {
@@ -229,19 +237,16 @@ TEST_F(HostileTrafficTest, ManyRequestsAtOnceAreAnsweredInTheirOrder) {
 }
 
 TEST_F(HostileTrafficTest, SilentSocketsDoNotLockOthersOut) {
-  NetworkOptions options;  // with its true, long deadlines
-  start(options);
+  start(patient());
   std::vector<std::unique_ptr<RawClient>> silent;
   for (int i = 0; i < 200; ++i) silent.push_back(std::make_unique<RawClient>(port()));
-  const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(request(port(), "/").result_int(), 200U);
   PageClient page(port());
   EXPECT_TRUE(page.is_connected());
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3s);
 }
 
 TEST_F(HostileTrafficTest, PageThatSaysHelloKeepsItsPlaceAgainstSilentOnes) {
-  NetworkOptions options = quick();
+  NetworkOptions options = patient();
   options.max_connections = 4;
   start(options);
   PageClient page(port());
@@ -257,7 +262,7 @@ TEST_F(HostileTrafficTest, PageThatSaysHelloKeepsItsPlaceAgainstSilentOnes) {
 }
 
 TEST_F(HostileTrafficTest, OneAddressHasNotAllThePlaces) {
-  NetworkOptions options = quick();
+  NetworkOptions options = patient();
   options.max_per_address = 2;
   start(options);
   std::vector<std::unique_ptr<PageClient>> pages;
@@ -276,11 +281,11 @@ TEST_F(HostileTrafficTest, PageThatNeverSaysHelloIsClosed) {
   PageClient page(port());
   page.send("anything");
   EXPECT_TRUE(page.wait_for([](const auto&) { return true; }).has_value());
-  EXPECT_TRUE(page.wait_until_closed(5s));
+  EXPECT_TRUE(page.wait_until_closed());
 }
 
 TEST_F(HostileTrafficTest, FramesThatBreakTheRulesEndTheConnection) {
-  start();
+  start(patient());
   struct Case {
     const char* what;
     std::string bytes;
@@ -313,10 +318,8 @@ TEST_F(HostileTrafficTest, FramesThatBreakTheRulesEndTheConnection) {
     RawClient client(port());
     client.send(upgrade());
     ASSERT_THAT(client.read_until("\r\n\r\n"), StartsWith("HTTP/1.1 101")) << one.what;
-    const auto begin = std::chrono::steady_clock::now();
     client.send(frame(kFin | kText, "keep") + one.bytes);
     EXPECT_TRUE(client.wait_until_closed()) << one.what;
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, 1500ms) << one.what;
   }
   expect_little_memory();
 }
@@ -344,7 +347,7 @@ TEST_F(HostileTrafficTest, UpgradesThatAreNoneAreRefused) {
 }
 
 TEST_F(HostileTrafficTest, FloodOfPingsEndsTheConnection) {
-  start();
+  start(patient());
   PageClient other(port());
   other.send("keep");
   RawClient client(port());
@@ -389,7 +392,10 @@ TEST_F(HostileTrafficTest, ConnectionsThatComeAndGoLeaveNothingBehind) {
     if (i % 4 == 2) client.send(head());
     if (i % 4 == 3) client.send(upgrade());
   }
-  for (int i = 0; i < 300 && descriptors() > before; ++i) std::this_thread::sleep_for(10ms);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  while (descriptors() > before && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(10ms);
+  }
   EXPECT_LE(descriptors(), before);
   expect_little_memory();
 }

@@ -7,15 +7,12 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <string>
 #include <utility>
 
 namespace carpus::server {
 namespace {
-
-using std::chrono::steady_clock;
 
 struct Pipe {
   std::array<int, 2> ends{};
@@ -45,13 +42,9 @@ TEST(LogWriter, WritesEveryLineInOrder) {
 
 TEST(LogWriter, AReaderThatStopsReadingHoldsUpNobody) {
   Pipe pipe;
-  const auto began = steady_clock::now();
-  {
-    LogWriter log(pipe.ends[1]);
-    for (int i = 0; i < 5000; ++i) log.write(std::string(100, 'x'));
-    EXPECT_LT(steady_clock::now() - began, std::chrono::milliseconds(500));
-  }
-  EXPECT_LT(steady_clock::now() - began, std::chrono::seconds(5)) << "the end does not wait either";
+  // Nobody ever reads: a writer that waited would wait for ever, at a line or at the end.
+  LogWriter log(pipe.ends[1]);
+  for (int i = 0; i < 5000; ++i) log.write(std::string(100, 'x'));
 }
 
 TEST(LogWriter, AReaderThatGoesAwayIsNoError) {

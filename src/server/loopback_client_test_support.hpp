@@ -31,6 +31,13 @@ using asio::ip::tcp;
 using Headers = std::map<std::string, std::string>;
 using HttpAnswer = beast::http::response<beast::http::string_body>;
 
+/// How long something is waited for that must come: long enough for any machine on which it does.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr std::chrono::seconds kPatience{120};
+#else
+inline constexpr std::chrono::seconds kPatience{10};
+#endif
+
 inline tcp::endpoint loopback(std::uint16_t port) {
   return {asio::ip::make_address("127.0.0.1"), port};
 }
@@ -75,7 +82,7 @@ class RawClient {
  public:
   explicit RawClient(std::uint16_t port) : socket_(context_) {
     socket_.connect(loopback(port));
-    const timeval limit{10, 0};
+    const timeval limit{kPatience.count(), 0};
     ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     ::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
   }
@@ -85,7 +92,7 @@ class RawClient {
     return ::send(socket_.native_handle(), bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(bytes.size());
   }
-  /// What has come when the other side closes, or says nothing for 10 s.
+  /// What has come when the other side closes, or says nothing for kPatience.
   std::string read_to_end() {
     std::string answer;
     while (append_to(answer)) {
@@ -161,7 +168,7 @@ class PageClient {
 
   /// The next frame that fits, discarding others; nothing after the time given.
   std::optional<Frame> wait_for(const std::function<bool(const Frame&)>& fits,
-                                std::chrono::milliseconds time = std::chrono::seconds(10)) {
+                                std::chrono::milliseconds time = kPatience) {
     const auto deadline = std::chrono::steady_clock::now() + time;
     while (true) {
       while (!frames_.empty()) {
@@ -176,8 +183,7 @@ class PageClient {
   }
 
   /// The next text message of a type.
-  std::string wait_for_type(const std::string& type,
-                            std::chrono::milliseconds time = std::chrono::seconds(10)) {
+  std::string wait_for_type(const std::string& type, std::chrono::milliseconds time = kPatience) {
     const auto frame = wait_for(
         [&](const Frame& f) {
           return !f.is_binary && f.content.find("\"type\":\"" + type + "\"") != std::string::npos;
@@ -186,7 +192,7 @@ class PageClient {
     return frame ? frame->content : "no " + type;
   }
 
-  bool wait_until_closed(std::chrono::milliseconds time = std::chrono::seconds(10)) {
+  bool wait_until_closed(std::chrono::milliseconds time = kPatience) {
     (void)wait_for([](const Frame&) { return false; }, time);
     return closed_;
   }
