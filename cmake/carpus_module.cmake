@@ -53,7 +53,6 @@ std::string_view @stem@() { return R"carpus(@content@)carpus"; }
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE carpus_${name} GTest::gtest GTest::gmock
                           GTest::gtest_main rapidcheck rapidcheck_gtest ${ARG_PRIVATE_PACKAGES})
-    gtest_discover_tests(${name}_test DISCOVERY_MODE PRE_TEST TEST_PREFIX ${name}.
-                         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} PROPERTIES TIMEOUT 600)
+    carpus_test(${name})
   endif()
 endfunction()

@@ -4,13 +4,26 @@
 # Sourced by ./run and ./test: numbered, timed steps that say what they do and what failed.
 step_number=0
 started=$SECONDS
+step_names=()
+step_starts=()
 
 say() { printf '%s\n' "$*"; }
 
 step() {
   step_number=$((step_number + 1))
+  step_names+=("$1")
+  step_starts+=("$SECONDS")
   printf '\n[%d] %s  (%d min %02d s since the start)\n' "$step_number" "$1" \
     $(((SECONDS - started) / 60)) $(((SECONDS - started) % 60))
+}
+
+# What each step took, for whoever wonders where the time went.
+say_where_time_went() {
+  local i ends=("${step_starts[@]:1}" "$SECONDS")
+  for i in "${!step_names[@]}"; do
+    printf '%5d s  %s\n' $((ends[i] - step_starts[i])) "${step_names[i]}"
+  done
+  printf '%5d s  in all\n' $((SECONDS - started))
 }
 
 fail() {

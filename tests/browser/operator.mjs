@@ -121,12 +121,30 @@ export class Operator {
     await this.page.waitForTimeout(120);
   }
 
+  /** An operation whose page has gone holds the seat for half a minute more: it is ended. */
+  async freeSeat() {
+    const { page } = this;
+    const free = page.locator(
+      "dialog.start button[type=submit]:not([disabled])",
+    );
+    const end = page.getByRole("button", { name: "End that operation" });
+    const sure = page.locator("dialog.confirm[open] button.primary");
+    // It may end by itself meanwhile, and the buttons go.
+    const press = (button) =>
+      button.dispatchEvent("click", {}, { timeout: 1000 }).catch(() => {});
+    await free.or(end).first().waitFor();
+    while (!(await free.isVisible())) {
+      if (await sure.isVisible()) await press(sure);
+      else if (await end.isVisible()) await press(end);
+      await page.waitForTimeout(200);
+    }
+    if (await sure.isVisible()) await page.keyboard.press("Escape");
+  }
+
   /** @param mode  "practice" or "assessed"; what was chosen last where it is not said */
   async start(url, trainee, procedure, mode) {
     await this.page.goto(url);
-    await this.page
-      .locator("dialog.start button[type=submit]:not([disabled])")
-      .waitFor();
+    await this.freeSeat();
     if (procedure !== undefined)
       await this.page.check(`input[name=procedure][value=${procedure}]`);
     if (mode !== undefined)
