@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases/make_hand_motion.hpp"
 #include "cases/synthetic_case_test_support.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "procedures/dorsal_scaphoid_fixation/declared.hpp"
 #include "procedures/volar_scaphoid_fixation/declared.hpp"
 
@@ -79,6 +81,20 @@ TEST(BuiltIn, TheHandWaitsWhereTheBoneIsReached) {
             distance(volar.tip_in_target, axis.proximal));
   EXPECT_LT(volar.wrist.flexion_rad, 0.0) << "extended over a roll";
   EXPECT_LT(volar.wrist.radial_deviation_rad, 0.0) << "in ulnar deviation";
+}
+
+/// Whoever only advances and drives has neither found the entry nor aimed.
+TEST(BuiltIn, TheDorsalHandWaitsNeitherAtTheEntryNorOnTheLine) {
+  for (const Side side : {Side::Left, Side::Right}) {
+    cases::CaseData data = wrist();
+    data.side = side;
+    const auto opening = dorsal_scaphoid_fixation::declared().opening(data);
+    const Vec3& shaft = opening.shaft_in_target;
+    const double cosine = std::clamp(-dot(shaft, opening.aim.direction), -1.0, 1.0);
+    EXPECT_GT(degrees_from_radians(std::acos(cosine)), 15.0);
+    const Vec3 to_entry = opening.aim.entry - opening.tip_in_target;
+    EXPECT_GT(length(to_entry - shaft * dot(to_entry, shaft)), 4.0);
+  }
 }
 
 /// The wire that starts blind goes 45 degrees dorsal and 45 degrees ulnar, on either side.

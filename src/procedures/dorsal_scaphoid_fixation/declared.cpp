@@ -12,7 +12,8 @@
 namespace carpus::procedures::dorsal_scaphoid_fixation {
 namespace {
 
-constexpr double kWaitingMm = 60.0;         // from the pole: out of the skin
+constexpr double kWaitingMm = 60.0;         // from beside the pole: out of the skin
+constexpr double kBesidePoleMm = 10.0;      // towards ulnar, over the lunate [E]
 constexpr double kDriverClearanceMm = 6.0;  // beside the axis: half a 12 mm drill guide [E]
 constexpr double kFlexionStepDeg = 5.0;
 constexpr double kGreatestFlexionDeg = 60.0;
@@ -61,18 +62,32 @@ procedure::WristPose flexed(const cases::CaseData& data) {
   return best;
 }
 
+Direction<frame::Patient> in_patient(const cases::CaseData& data, const Vec3& wrist) {
+  return data.wrist_from_patient.inverse() * Direction<frame::Wrist>{normalized_or(wrist, {})};
+}
+
+/// Halfway between dorsal and proximal, as a driver is brought to the back of the hand: by some 30
+/// to 40 degrees not the line that is sought. To find that one is what is practised [E].
+Vec3 from_the_back_of_the_hand(const cases::CaseData& data) {
+  return in_patient(data, {1.0, 0.0, -1.0}).v;
+}
+
+Vec3 towards_ulnar(const cases::CaseData& data) {
+  return in_patient(data, {0.0, data.side == Side::Left ? 1.0 : -1.0, 0.0}).v;
+}
+
 /// The wrist flexed until the central axis, extended out of the proximal pole, clears the radius;
-/// the wire waits on that line.
+/// the wire waits over the back of the hand, neither at the entry nor on the line.
 procedure::Opening opening(const cases::CaseData& data) {
   if (cases::scaphoid_parts(data).empty()) {
     throw InvalidInput("dorsal scaphoid fixation: the case has no scaphoid to operate on");
   }
   const cases::AxisSegment& axis = data.scaphoid.central_axis;
-  const Vec3 outward = normalized_or(axis.proximal - axis.distal, {0, 0, 1});
   procedure::Opening opening;
   opening.wrist = flexed(data);
-  opening.tip_in_target = axis.proximal + outward * kWaitingMm;
-  opening.shaft_in_target = outward;
+  opening.shaft_in_target = from_the_back_of_the_hand(data);
+  opening.tip_in_target =
+      axis.proximal + towards_ulnar(data) * kBesidePoleMm + opening.shaft_in_target * kWaitingMm;
   opening.aim =
       scaphoid_fixation::aim_of(data, scaphoid_fixation::Approach::FromProximal, declared().tray);
   return opening;
