@@ -29,6 +29,19 @@ constexpr float kUsualSoftTissueHu = 45;
 /// Voxels that one task of a loop takes at least.
 constexpr std::size_t kGrain = 1U << 16U;
 
+/// The largest dark body, and any other so large that it is no marrow: within a splint the flesh
+/// has no way to the air.
+std::vector<char> outside_components(const Components& components, const GridGeometry& g) {
+  constexpr double kMostMarrowMm3 = 30000;
+  std::vector<char> is_outside(std::max<std::size_t>(1, components.voxels.size()), 0);
+  const std::size_t largest = components.largest();
+  for (std::size_t c = 1; c < components.voxels.size(); ++c) {
+    const double mm3 = static_cast<double>(components.voxels[c]) * g.voxel_volume_mm3();
+    is_outside[c] = c == largest || mm3 > kMostMarrowMm3 ? 1 : 0;
+  }
+  return is_outside;
+}
+
 Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
                                     const Grid<float>& cleft,
                                     const BoneSegmentationOptions& options) {
@@ -50,10 +63,10 @@ Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
     }
   });
   const Components components = connected_components(low.view());
-  const std::uint32_t outside = components.largest();
   Grid<std::uint8_t> mask(smoothed.geometry());
+  const std::vector<char> is_outside = outside_components(components, smoothed.geometry());
   for (std::size_t i = 0; i < mask.values().size(); ++i) {
-    mask[i] = outside == 0 || components.labels[i] != outside ? 1 : 0;
+    mask[i] = is_outside[components.labels[i]] != 0 ? 0 : 1;
   }
   return opened_by_one_voxel(mask.view());
 }

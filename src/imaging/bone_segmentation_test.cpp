@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/rng.hpp"
@@ -115,6 +116,28 @@ TEST(BoneSegmentation, LosesNoPieceOfABoneThroughACrack) {
           << crack << " mm, " << filling << " HU, " << s.region_count << " regions";
     }
   }
+}
+
+TEST(BoneSegmentation, FindsABoneWithinAClosedSplint) {
+  // Flesh of 40 cm^3 in a tube of plaster that runs through the scan, air around it, a bone inside.
+  GridGeometry g;
+  g.size = {70, 70, 60};
+  g.spacing = {0.8, 0.8, 0.8};
+  Grid<std::int16_t> ct(g);
+  for (std::size_t i = 0; i < ct.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    const double from_axis = 0.8 * std::hypot(v.x - 34.5, v.y - 34.5);
+    const double depth = 7 - 0.8 * std::hypot(v.x - 34.5, v.y - 34.5, v.z - 29.5);
+    ct[i] = from_axis > 24 ? -1000 : (from_axis > 20 ? 700 : 45);
+    if (depth > 0) ct[i] = depth < 1.2 ? 1200 : 300;
+  }
+  const BoneSegmentation s = segment_bones(ct.view(), {}, no_progress);
+  ASSERT_EQ(s.status, SegmentationStatus::Ok);
+  const VoxelIndex middle{35 - s.offset.x, 35 - s.offset.y, 30 - s.offset.z};
+  const RegionLabel bone = s.regions[middle];
+  ASSERT_NE(bone, 0);
+  const auto voxels = std::count(s.regions.values().begin(), s.regions.values().end(), bone);
+  EXPECT_NEAR(static_cast<double>(voxels) * g.voxel_volume_mm3(), 4.0 / 3 * 3.1416 * 343, 200);
 }
 
 TEST(BoneSegmentation, IsTheSameEachTime) {
