@@ -17,6 +17,7 @@
 
 #include "case_io/detail/case_json.hpp"
 #include "case_io/detail/hand_motion_json.hpp"
+#include "case_io/detail/structures_json.hpp"
 #include "case_io/small_case_test_support.hpp"
 #include "checksum.hpp"
 #include "protocol/bodies.hpp"
@@ -156,6 +157,8 @@ int main(int argc, char** argv) {
   write(corpus / "case_json" / "whole", bytes_of(case_io::case_json_text(small)));
   write(corpus / "hand_motion" / "whole",
         bytes_of(case_io::hand_motion_text(case_io::test::small_table())));
+  write(corpus / "structures" / "whole",
+        bytes_of(case_io::structures_text(case_io::test::small_structures())));
   write_keyframes(corpus / "keyframe");
   Recorder recorder("0.1.0", 4711, test::exercise(), 7);
   Operator op([&](const Input& input) { recorder.append(input); });
