@@ -62,6 +62,7 @@ std::string pseudonym_of(const fs::path& folder, const std::string& id) {
 server::ShelvedCase shelved(const fs::path& folder) {
   server::ShelvedCase result;
   result.id = id_of(folder);
+  result.folder = folder;
   result.title = pseudonym_of(folder, result.id);
   const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
   if (!lesson) return result;

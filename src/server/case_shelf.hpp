@@ -5,6 +5,7 @@
 // station is started; a case itself is loaded when it is chosen.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 
 #include "protocol/bodies.hpp"
 #include "server/attempt_owners.hpp"
+#include "server/truth_gate.hpp"
 
 namespace carpus::server {
 
@@ -24,6 +26,7 @@ struct ShelvedCase {
   std::string goal;
   std::optional<double> difficulty;
   std::shared_ptr<const std::string> preview;  ///< PNG; null where it has none
+  std::filesystem::path folder{};              ///< empty: its scan is not shown
 };
 
 struct CaseShelf {
@@ -48,6 +51,8 @@ using ChooseCase = std::function<bool(const std::string& id)>;
 struct OverCases {
   ChooseCase choose;  ///< called in the network's thread; empty: this case is the only one
   std::shared_ptr<AttemptOwners> owners = std::make_shared<AttemptOwners>();
+  /// Closed while an assessed operation runs.
+  std::shared_ptr<TruthGate> truth = std::make_shared<TruthGate>();
 };
 
 }  // namespace carpus::server

@@ -40,6 +40,7 @@ void Station::on_message(const protocol::Start& start) {
   setup.number = exercise_number_;
   setup.guest = &devices_->guest();
   is_beginning_ = true;
+  over_cases_.truth->close(setup.mode == procedure::Mode::Assessed);
   do_aside([this, setup = std::move(setup), owner = owner_word_, network = network_] {
     BegunExercise begun;
     try {
@@ -75,6 +76,7 @@ void Station::take_begun() {
   if (!begun.exercise) {
     log_(begun.problem);
     operator_owns_ = false;
+    over_cases_.truth->close(false);
     return refuse(begun.problem, "Change what the message says and try again.");
   }
   exercise_ = std::move(begun.exercise);

@@ -11,6 +11,7 @@
 #include "server/attempt_messages.hpp"
 #include "server/query_number.hpp"
 #include "server/replay_desk.hpp"
+#include "server/scan_files.hpp"
 #include "session/descriptions.hpp"
 #include "simulation/recording.hpp"
 
@@ -33,10 +34,12 @@ StationHttp::StationHttp(const cases::CaseData& data,
                          const records::AttemptKeeper& records,
                          const AttemptOwners& owners,
                          const std::filesystem::path& web_root,
-                         CaseShelf shelf)
+                         CaseShelf shelf,
+                         std::shared_ptr<const TruthGate> truth)
     : case_fingerprint_(hexadecimal(simulation::fingerprint_of(data))),
       case_json_(serialize(session::case_description(data))),
       shelf_(std::move(shelf)),
+      truth_(std::move(truth)),
       cases_json_(serialize(message_of(shelf_))),
       procedures_json_(serialize(session::procedure_list(procedures))),
       instruments_json_(serialize(session::instrument_list())),
@@ -59,6 +62,7 @@ HttpResponse StationHttp::answer(const HttpRequest& request) const {
 
 std::size_t StationHttp::lane_of(const HttpRequest& request) {
   const auto path = decode_path(request.target);
+  if (path && path->starts_with(kCases) && is_scan_path(*path)) return 3;
   if (!path || !path->starts_with(kAttempts)) return 0;
   const std::size_t replay = path->find(kReplay);
   if (replay == std::string::npos) return 1;
@@ -68,7 +72,10 @@ std::size_t StationHttp::lane_of(const HttpRequest& request) {
 HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& request) const {
   if (path == "/api/case") return make_json(case_json_);
   if (path == "/api/cases") return make_json(cases_json_);
-  if (path.starts_with(kCases)) return answer_preview(path.substr(kCases.size()));
+  if (path.starts_with(kCases)) {
+    const std::string_view rest = path.substr(kCases.size());
+    return is_scan_path(rest) ? answer_scan(shelf_, truth_.get(), rest) : answer_preview(rest);
+  }
   if (path == "/api/procedures") return make_json(procedures_json_);
   if (path == "/api/instruments") return make_json(instruments_json_);
   if (path == "/api/scene.glb") {

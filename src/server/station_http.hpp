@@ -31,7 +31,8 @@ class StationHttp {
               const records::AttemptKeeper& records,
               const AttemptOwners& owners,
               const std::filesystem::path& web_root,
-              CaseShelf shelf = {});
+              CaseShelf shelf = {},
+              std::shared_ptr<const TruthGate> truth = {});
   ~StationHttp();
 
   /// Never throws for a bad request; IoError when the records cannot be read.
@@ -56,6 +57,7 @@ class StationHttp {
   std::string case_fingerprint_;
   std::string case_json_;
   CaseShelf shelf_;
+  std::shared_ptr<const TruthGate> truth_;
   std::string cases_json_;
   std::string procedures_json_;
   std::string instruments_json_;

@@ -81,6 +81,36 @@ TEST_F(StationHttpTest, TellsWhichCasesCanBeChosenWithTheirPictures) {
   }
 }
 
+TEST_F(StationHttpTest, ShowsTheScansOfItsCasesAndNothingElseOfTheirFolders) {
+  const std::filesystem::path folder = folder_ / "wrist";
+  std::filesystem::create_directories(folder / "bones");
+  for (const char* file : {"case.json", "ct.nii.gz", "bones/radius.ply", "lesson.json"}) {
+    std::ofstream(folder / file) << file;
+  }
+  std::filesystem::create_symlink("/dev/zero", folder / "labels.nii.gz");
+  CaseShelf cases = shelf();
+  cases.cases[1].folder = folder;
+  const auto truth = std::make_shared<TruthGate>();
+  const StationHttp http(wrist_, procedures_, "glTF", records_, owners_, folder_, cases, truth);
+  const auto answer = [&](const std::string& path) {
+    return http.answer({"GET", "/api/cases/" + path, {Role::Trainee, "ada"}});
+  };
+  EXPECT_EQ(*answer("plain/scan/case.json").body, "case.json");
+  EXPECT_EQ(*answer("plain/scan/ct.nii.gz").body, "ct.nii.gz");
+  EXPECT_EQ(answer("plain/scan/ct.nii.gz").content_type, "application/gzip");
+  for (const char* path :
+       {"plain/scan/labels.nii.gz", "plain/scan/bones.glb", "plain/scan/lesson.json",
+        "plain/scan/bones/radius.ply", "easy/scan/ct.nii.gz", "none/scan/ct.nii.gz",
+        "plain/scan/scan/ct.nii.gz"}) {
+    EXPECT_EQ(answer(path).status, 404U) << path;
+  }
+  truth->close(true);
+  EXPECT_EQ(answer("plain/scan/ct.nii.gz").status, 409U);
+  EXPECT_EQ(answer("plain/scan/case.json").status, 409U);
+  truth->close(false);
+  EXPECT_EQ(answer("plain/scan/ct.nii.gz").status, 200U);
+}
+
 TEST_F(StationHttpTest, TellsWhetherAnAttemptWasMadeOnTheOpenCase) {
   records::Attempt here;
   here.summary.case_fingerprint = hexadecimal(simulation::fingerprint_of(wrist_));
@@ -133,6 +163,9 @@ TEST_F(StationHttpTest, WhatTakesLongIsKnownHoweverItIsWritten) {
   const std::vector<std::pair<const char*, std::size_t>> lanes{
       {"/", 0},
       {"/api/scene.glb", 0},
+      {"/api/cases/a/preview.png", 0},
+      {"/api/cases/a/scan/ct.nii.gz", 3},
+      {"/api/cases/a/sc%61n/ct.nii.gz", 3},
       {"/api/attempts", 1},
       {"/api/attempts/1", 1},
       {"/api/%61ttempts?x", 1},

@@ -59,6 +59,7 @@ void Station::resume(ResumedExercise&& resumed) {
   exercise_number_ = resumed.setup.number;
   resumed.setup.guest = &devices_->guest();
   owner_word_ = resumed.owner;
+  over_cases_.truth->close(resumed.setup.mode == procedure::Mode::Assessed);
   // As after a lost connection: the seat is kept, and time stands still until the page goes on.
   left_at_ = std::chrono::steady_clock::now();
   paused_by_page_ = true;
@@ -75,6 +76,7 @@ void Station::store_running() {
 
 void Station::conclude() {
   send_news();
+  over_cases_.truth->close(false);
   // A score takes a moment, and ending the thread of ticks another.
   const std::shared_ptr<Exercise> ended = std::move(exercise_);
   do_aside([this, ended, number = exercise_number_, browser = owner_browser_, network = network_] {
