@@ -42,6 +42,14 @@ export async function operateAssessed(browser, station) {
     },
   );
   if (!began) return page.close();
+  await check(page, "no scan is shown while it runs", async () => {
+    const { open } = await (await fetch(`${station.url}/api/cases`)).json();
+    for (const file of ["ct.nii.gz", "labels.nii.gz", "case.json", "bones.glb"]) {
+      const path = `/api/cases/${encodeURIComponent(open)}/scan/${file}`;
+      const { status } = await fetch(station.url + path);
+      expect(status === 409, `${file} is answered with ${status}`);
+    }
+  });
   await check(page, "it ticks off no step and says nothing of one", async () => {
     for (const key of ["1", "2"]) await operator.shot(key);
     await operator.settle(4);

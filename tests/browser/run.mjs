@@ -19,6 +19,7 @@ import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { followFromElsewhere, printedLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
+import { lookAtScan } from "./scan.mjs";
 import { startStation } from "./station.mjs";
 import { playQuiz } from "./view_quiz.mjs";
 
@@ -606,6 +607,7 @@ try {
     expect(problems.length === 0, problems.slice(0, 5).join(" | "));
   });
   await page.close();
+  await lookAtScan(browser, station);
   await byKeysAlone(browser, station);
   await byFinger(browser, station);
   await holdsDevices(browser, station);

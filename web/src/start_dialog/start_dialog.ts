@@ -119,6 +119,7 @@ export class StartDialog {
           make("a", { href: "#/attempts" }, "Past attempts"),
           " · ",
           make("a", { href: "#/views" }, "View quiz"),
+          make("span.start-scan", {}, " · ", make("a", { href: "#/scan" }, "Scan")),
         ),
         this.end,
         this.resume,

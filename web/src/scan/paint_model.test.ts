@@ -1,0 +1,121 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import type { Vec3 } from "../protocol";
+import { inverted, voxelIndexAt, type Volume } from "./nifti_model";
+import { LabelPaint } from "./paint_model";
+
+const SIDE = 20;
+
+/** Half a millimetre a voxel, off the origin, z twice as coarse. */
+function labels(value: (x: number, y: number, z: number) => number): Volume & {
+  readonly values: Uint8Array;
+} {
+  const values = new Uint8Array(SIDE ** 3);
+  values.forEach((_, i) => {
+    values[i] = value(i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2));
+  });
+  const rows = [0.5, 0, 0, 3, 0, 0.5, 0, -4, 0, 0, 1, 7];
+  return {
+    size: [SIDE, SIDE, SIDE],
+    patientFromVoxel: rows,
+    voxelFromPatient: inverted(rows),
+    values,
+    head: new Uint8Array(352),
+  };
+}
+
+const middle: Vec3 = [8, 1, 17];
+const count = (of: { readonly values: Uint8Array }, label: number): number =>
+  of.values.reduce((sum, v) => sum + (v === label ? 1 : 0), 0);
+
+describe("labels that are mended", () => {
+  it("are painted in a ball, whatever the voxels' shape", () => {
+    const volume = labels(() => 0);
+    const paint = new LabelPaint(volume);
+    paint.begin();
+    paint.stroke(middle, middle, 2, 5);
+    paint.end();
+    // 4/3 pi 8 mm3 of 0.25 mm3.
+    expect(count(volume, 5)).toBeGreaterThan(120);
+    expect(count(volume, 5)).toBeLessThan(148);
+    expect(volume.values[voxelIndexAt(volume, [8, 1, 18.9])]).toBe(5);
+    expect(volume.values[voxelIndexAt(volume, [8, 3.5, 17])]).toBe(0);
+  });
+  it("are painted between two places, without gaps, and not beyond the volume", () => {
+    const volume = labels(() => 0);
+    const paint = new LabelPaint(volume);
+    paint.begin();
+    paint.stroke([-5, 1, 17], [30, 1, 17], 0.3, 5);
+    paint.end();
+    expect(count(volume, 5)).toBe(SIDE);
+  });
+  it("come back by undo and go again by redo, to the voxel", () => {
+    const volume = labels((x) => (x > 10 ? 2 : 1));
+    const before = volume.values.slice();
+    const paint = new LabelPaint(volume);
+    expect(paint.undo()).toBe(false);
+    paint.begin();
+    paint.stroke(middle, middle, 2, 5);
+    paint.stroke(middle, [9, 2, 17], 2, 6);
+    paint.end();
+    const once = volume.values.slice();
+    paint.merge(2, 1);
+    const twice = volume.values.slice();
+    expect(paint.undo()).toBe(true);
+    expect(volume.values).toEqual(once);
+    expect(paint.undo()).toBe(true);
+    expect(volume.values).toEqual(before);
+    expect(paint.canUndo).toBe(false);
+    expect(paint.redo() && paint.redo()).toBe(true);
+    expect(volume.values).toEqual(twice);
+    expect(paint.canRedo).toBe(false);
+  });
+  it("lose what could be made again when something else is painted", () => {
+    const paint = new LabelPaint(labels((x) => (x > 10 ? 2 : 1)));
+    paint.merge(2, 1);
+    paint.undo();
+    paint.merge(1, 2);
+    expect(paint.redo()).toBe(false);
+  });
+  it("are no change where nothing changes", () => {
+    const paint = new LabelPaint(labels(() => 3));
+    paint.begin();
+    paint.stroke(middle, middle, 2, 3);
+    paint.end();
+    expect(paint.canUndo).toBe(false);
+  });
+  it("are erased of one bone alone", () => {
+    const volume = labels((x) => (x > 10 ? 2 : 1));
+    const paint = new LabelPaint(volume);
+    paint.begin();
+    paint.stroke(middle, middle, 2, 0, 2);
+    paint.end();
+    expect(count(volume, 1)).toBe(SIDE * SIDE * 11);
+    expect(count(volume, 0)).toBeGreaterThan(20);
+  });
+  it("are split by a line that is drawn, right of who walks along it", () => {
+    const volume = labels(() => 3);
+    const paint = new LabelPaint(volume);
+    // On a screen with x right and y down one walks down: right is where x is less.
+    paint.split(3, 16, [8.1, -4, 17], [8.1, 5, 17], [0, 0, 1]);
+    expect(volume.values[voxelIndexAt(volume, [4, 0, 17])]).toBe(16);
+    expect(volume.values[voxelIndexAt(volume, [11, 0, 17])]).toBe(3);
+    expect(count(volume, 16)).toBe(11 * SIDE * SIDE);
+  });
+  it("are filled where they enclose nothing, but for other bones and what is open", () => {
+    const inside = (v: number): boolean => v >= 5 && v <= 12;
+    const hollow = (v: number): boolean => v >= 7 && v <= 10;
+    const volume = labels((x, y, z) => {
+      if (x === 8 && y === 8 && z === 8) return 9;
+      if (hollow(x) && hollow(y) && hollow(z)) return 0;
+      return inside(x) && inside(y) && inside(z) ? 4 : 0;
+    });
+    const paint = new LabelPaint(volume);
+    paint.fill(4);
+    expect(count(volume, 4)).toBe(8 ** 3 - 1);
+    expect(count(volume, 9)).toBe(1);
+    paint.fill(7);
+    expect(count(volume, 7)).toBe(0);
+  });
+});

@@ -1,0 +1,288 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What mends labels: brush and eraser, fill, rename or merge, split by a line, undo and redo, and the mended
+// labels as a file. What changed is marked until it is saved.
+import { button, make, setText } from "../dom";
+import type { Vec3 } from "../protocol";
+import { niftiOf, type Volume } from "./nifti_model";
+import { LabelPaint } from "./paint_model";
+import type { Plane } from "./planes_model";
+import { boneTitle, KNOWN_BONES, type ScannedBone } from "./scan_case_model";
+import type { Brush } from "./slice_panel";
+
+export type PaintTool = "paint" | "erase" | "split";
+type Phase = "down" | "move" | "up";
+
+export interface PaintWishes {
+  redraw(): void;
+  say(text: string): void;
+  /** A bone has voxels now that had none, or the other way. */
+  bonesChanged(): void;
+}
+
+const RADII_MM = [0.3, 0.5, 0.8, 1.2, 2, 3, 5] as const;
+
+export class PaintTools {
+  readonly element: HTMLElement;
+  tool: PaintTool | undefined;
+  /** The label that is painted. */
+  chosen = 0;
+  private readonly paint: LabelPaint;
+  private radius = 2;
+  private last: Vec3 | undefined;
+  private isSaved = true;
+  private readonly size = make("output", { "aria-label": "Radius of the brush" });
+  private readonly other: HTMLSelectElement;
+  private readonly title = make("strong");
+  private readonly buttons: Readonly<Record<PaintTool, HTMLButtonElement>>;
+  private readonly undoButton: HTMLButtonElement;
+  private readonly redoButton: HTMLButtonElement;
+  private readonly warn = (event: BeforeUnloadEvent): void => {
+    if (!this.isSaved) event.preventDefault();
+  };
+
+  constructor(
+    private readonly labels: Volume,
+    bones: readonly ScannedBone[],
+    private readonly wishes: PaintWishes,
+  ) {
+    this.paint = new LabelPaint(labels);
+    this.chosen = bones[0]?.label ?? 1;
+    this.other = make(
+      "select",
+      { "aria-label": "Another bone" },
+      ...KNOWN_BONES.map(([label, name]) =>
+        make("option", { value: String(label) }, boneTitle(name)),
+      ),
+    );
+    const toggle = (tool: PaintTool, label: string, key: string): HTMLButtonElement =>
+      button(label, key, () => {
+        this.take(this.tool === tool ? undefined : tool);
+      });
+    this.buttons = {
+      paint: toggle("paint", "Paint", "{KeyA}"),
+      erase: toggle("erase", "Erase", "{KeyE}"),
+      split: toggle("split", "Split by a line", "{KeyK}"),
+    };
+    this.undoButton = button("Undo", "{KeyZ}", () => {
+      this.undo();
+    });
+    this.redoButton = button("Redo", "{KeyY}", () => {
+      this.redo();
+    });
+    const fewer = button("Smaller", "{Comma}", () => {
+      this.resize(-1);
+    });
+    const more = button("Larger", "{Period}", () => {
+      this.resize(1);
+    });
+    this.element = make(
+      "details.scan-mend",
+      {},
+      make("summary", {}, "Mend the labels"),
+      make("p", {}, "Bone in hand: ", this.title),
+      make("div.scan-row", {}, this.buttons.paint, this.buttons.erase),
+      make("div.scan-row", {}, fewer, this.size, more),
+      make(
+        "div.scan-row",
+        {},
+        this.undoButton,
+        this.redoButton,
+        button("Fill", "{KeyF}", () => {
+          this.fill();
+        }),
+      ),
+      make("label", {}, "Other bone ", this.other),
+      make(
+        "div.scan-row",
+        {},
+        button("Rename or merge into it", "", () => {
+          this.merge();
+        }),
+        this.buttons.split,
+      ),
+      make(
+        "div.scan-row",
+        {},
+        button("Save the labels as a file", "{KeyS}", () => {
+          this.save();
+        }),
+      ),
+    );
+    window.addEventListener("beforeunload", this.warn);
+    this.choose(this.chosen);
+    this.show();
+  }
+
+  dispose(): void {
+    window.removeEventListener("beforeunload", this.warn);
+  }
+
+  get brush(): Brush | undefined {
+    if (this.tool !== "paint" && this.tool !== "erase") return undefined;
+    return { radiusMm: RADII_MM[this.radius] ?? 1, isEraser: this.tool === "erase" };
+  }
+
+  choose(label: number): void {
+    this.chosen = label;
+    const name = KNOWN_BONES.find(([one]) => one === label)?.[1];
+    setText(this.title, name === undefined ? `label ${label}` : boneTitle(name));
+  }
+
+  take(tool: PaintTool | undefined): void {
+    this.tool = tool;
+    if (tool !== undefined) (this.element as HTMLDetailsElement).open = true;
+    this.wishes.say(
+      tool === "split"
+        ? "Drag a line across the bone in hand: what lies to its right, walking along it, becomes the other bone."
+        : "",
+    );
+    this.show();
+  }
+
+  /** @return whether the hand holds something that it did it with */
+  press(plane: Plane, mm: Vec3, phase: Phase): boolean {
+    const { tool, last } = this;
+    if (tool === undefined) return false;
+    if (tool === "split") {
+      if (phase === "down") this.last = mm;
+      if (phase === "up" && last !== undefined) this.split(last, mm, plane);
+      return true;
+    }
+    if (phase === "down") this.paint.begin();
+    else if (last === undefined) return true;
+    this.stroke(phase === "down" ? mm : (last ?? mm), mm);
+    this.last = phase === "up" ? undefined : mm;
+    if (phase === "up") this.changed();
+    else this.wishes.redraw();
+    return true;
+  }
+
+  /** With the brush, once, where the crosshair is. */
+  dab(mm: Vec3): void {
+    if (this.brush === undefined) return;
+    this.paint.begin();
+    this.stroke(mm, mm);
+    this.changed();
+  }
+
+  private stroke(from: Vec3, to: Vec3): void {
+    const { brush } = this;
+    if (brush === undefined) return;
+    if (brush.isEraser) this.paint.stroke(from, to, brush.radiusMm, 0, this.chosen);
+    else this.paint.stroke(from, to, brush.radiusMm, this.chosen);
+  }
+
+  private split(a: Vec3, b: Vec3, plane: Plane): void {
+    this.last = undefined;
+    const into = Number(this.other.value);
+    if (into === this.chosen) {
+      this.wishes.say("Choose another bone, which the part becomes.");
+      return;
+    }
+    if (Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) < 1) return;
+    this.paint.split(this.chosen, into, a, b, plane.away);
+    this.changed();
+  }
+
+  private merge(): void {
+    const into = Number(this.other.value);
+    if (into === this.chosen) return;
+    this.paint.merge(this.chosen, into);
+    this.choose(into);
+    this.changed();
+  }
+
+  fill(): void {
+    this.paint.fill(this.chosen);
+    this.changed();
+  }
+
+  undo(): void {
+    if (this.paint.undo()) this.changed();
+  }
+
+  redo(): void {
+    if (this.paint.redo()) this.changed();
+  }
+
+  resize(by: number): void {
+    this.radius = Math.min(RADII_MM.length - 1, Math.max(0, this.radius + by));
+    this.show();
+  }
+
+  private changed(): void {
+    this.paint.end();
+    this.isSaved = false;
+    this.wishes.bonesChanged();
+    this.show();
+  }
+
+  save(): void {
+    const packed = new Blob([niftiOf(this.labels)])
+      .stream()
+      .pipeThrough(new CompressionStream("gzip"));
+    new Response(packed).blob().then(
+      (blob) => {
+        const address = URL.createObjectURL(blob);
+        make("a", { href: address, download: "labels.nii.gz" }).click();
+        setTimeout(() => {
+          URL.revokeObjectURL(address);
+        }, 10_000);
+        this.isSaved = true;
+        this.wishes.say("Saved as labels.nii.gz; the case itself is as it was.");
+      },
+      () => {
+        this.wishes.say("The labels could not be packed.");
+      },
+    );
+  }
+
+  /** @return whether the key was one of these */
+  onKey(event: KeyboardEvent): boolean {
+    const acts: Readonly<Record<string, () => void>> = {
+      KeyA: () => {
+        this.take(this.tool === "paint" ? undefined : "paint");
+      },
+      KeyE: () => {
+        this.take(this.tool === "erase" ? undefined : "erase");
+      },
+      KeyK: () => {
+        this.take(this.tool === "split" ? undefined : "split");
+      },
+      KeyZ: () => {
+        if (event.shiftKey) this.redo();
+        else this.undo();
+      },
+      KeyY: () => {
+        this.redo();
+      },
+      KeyF: () => {
+        this.fill();
+      },
+      KeyS: () => {
+        this.save();
+      },
+      Comma: () => {
+        this.resize(-1);
+      },
+      Period: () => {
+        this.resize(1);
+      },
+    };
+    const act = acts[event.code];
+    act?.();
+    return act !== undefined;
+  }
+
+  private show(): void {
+    for (const tool of ["paint", "erase", "split"] as const) {
+      this.buttons[tool].setAttribute("aria-pressed", String(this.tool === tool));
+    }
+    this.undoButton.disabled = !this.paint.canUndo;
+    this.redoButton.disabled = !this.paint.canRedo;
+    setText(this.size, `${(RADII_MM[this.radius] ?? 1).toFixed(1)} mm`);
+    this.wishes.redraw();
+  }
+}

@@ -1,0 +1,538 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The desk on which a scan lies: four pictures with one crosshair, the bones beside them, the tools above.
+import { button, make, setText } from "../dom";
+import type { Vec3 } from "../protocol";
+import { BoneList } from "./bone_list";
+import { BonesPanel } from "./bones_panel";
+import { placeOfLabel } from "./label_place_model";
+import { isWhole, measureText, type Measure, type MeasureKind } from "./measure_model";
+import { PaintTools } from "./paint_tools";
+import { applied, extentAlong, finestSpacing, voxelIndexAt, type Volume } from "./nifti_model";
+import { along, dot, PLANE_IDS, planesOf, type Alignment, type Plane } from "./planes_model";
+import { boneTitle, labelColors, type ScannedBone, type ScannedCase } from "./scan_case_model";
+import { scanHelp } from "./scan_help";
+import type { GreyWindow } from "./slice_model";
+import { SlicePanel, type Shown } from "./slice_panel";
+import { scanAddress } from "./volume_client";
+import { draggedWindow, WINDOWS, windowText } from "./window_model";
+
+export interface DeskCase {
+  readonly id: string;
+  readonly scanned: ScannedCase;
+  readonly ct: Volume;
+  readonly labels: Volume | undefined;
+  readonly ways: readonly HTMLElement[];
+}
+
+const FINE_MM = 0.3;
+const COARSE_MM = 3;
+
+export class ScanDesk {
+  readonly element: HTMLElement;
+  private readonly colors = labelColors();
+  private readonly panels: readonly SlicePanel[];
+  private readonly sliders: readonly HTMLInputElement[];
+  private bones: BonesPanel | undefined;
+  private readonly list: BoneList;
+  private readonly help = scanHelp();
+  private readonly reading = make("output.scan-reading", { "aria-label": "Under the pointer" });
+  private readonly said = make("p.scan-said", { role: "status" });
+  private readonly buttons = new Map<string, HTMLButtonElement>();
+  private readonly opacity = make("input", {
+    type: "range",
+    min: "0",
+    max: "100",
+    "aria-label": "Opacity of the labels",
+  });
+  private readonly step: number;
+  private readonly sizes: ResizeObserver;
+  private alignment: Alignment = "wrist";
+  private grey: GreyWindow = WINDOWS[0] ?? { centre: 500, width: 2000 };
+  private cross: Vec3;
+  private crossShown = true;
+  private labelsShown = true;
+  private mmPerPixel = 0.2;
+  private measures: readonly Measure[] = [];
+  private measuring: MeasureKind | undefined;
+  private focused: SlicePanel;
+  private readonly mend: PaintTools | undefined;
+  private isAsked = false;
+
+  constructor(private readonly data: DeskCase) {
+    const planes = this.planes();
+    const events = {
+      press: this.press.bind(this),
+      hover: this.hover.bind(this),
+      scroll: this.scroll.bind(this),
+      zoom: this.zoom.bind(this),
+      window: (right: number, down: number): void => {
+        this.setWindow(draggedWindow(this.grey, right, down));
+      },
+      focus: (panel: SlicePanel): void => {
+        this.focused = panel;
+      },
+    };
+    this.panels = PLANE_IDS.map((id) => new SlicePanel(planes[id], events));
+    this.focused = this.panels[0] as SlicePanel;
+    this.sliders = this.panels.map((panel) => this.slider(panel));
+    this.step = finestSpacing(data.ct);
+    this.cross = applied(data.ct.patientFromVoxel, [
+      (data.ct.size[0] - 1) / 2,
+      (data.ct.size[1] - 1) / 2,
+      (data.ct.size[2] - 1) / 2,
+    ]);
+    this.list = new BoneList(data.scanned.bones, this.colors, (bone) => {
+      this.goTo(bone);
+    });
+    if (data.labels !== undefined) {
+      this.mend = new PaintTools(data.labels, data.scanned.bones, {
+        redraw: () => {
+          this.ask();
+        },
+        say: (text) => {
+          setText(this.said, text);
+        },
+        bonesChanged: () => {
+          this.list.mark(this.labelAt(this.cross));
+        },
+      });
+    }
+    const pictures = make("div.scan-pictures", {}, ...this.panels.map((panel) => panel.element));
+    this.element = make(
+      "main.scan",
+      {},
+      this.topBar(),
+      pictures,
+      make(
+        "aside.scan-side",
+        { "aria-label": "Bones and measures" },
+        this.heading(),
+        this.list.element,
+        ...(this.mend === undefined ? [] : [this.mend.element]),
+        make("div.scan-side-foot", {}, this.reading, this.said),
+      ),
+      this.help,
+    );
+    try {
+      this.bones = new BonesPanel((mm) => {
+        this.setCross(mm, true);
+      });
+      pictures.append(this.bones.element);
+    } catch {
+      pictures.append(make("p.secondary", {}, "This browser draws no 3-D picture."));
+    }
+    this.opacity.value = "25";
+    this.element.addEventListener("keydown", (event) => {
+      this.onKey(event);
+    });
+    this.sizes = new ResizeObserver(() => {
+      this.ask();
+    });
+    this.sizes.observe(pictures);
+  }
+
+  /** Once it is on the page. */
+  begin(): void {
+    const { id, scanned } = this.data;
+    this.fit();
+    const [proximal, , volar] = scanned.wristFromPatient;
+    const opposite = (v: Vec3): Vec3 => [-v[0], -v[1], -v[2]];
+    const colors = scanned.bones.map(({ name, label }) => ({
+      name,
+      color: this.colors[label] ?? 0xffffff,
+    }));
+    this.bones
+      ?.load(scanAddress(id, "bones.glb"), colors, opposite(proximal), opposite(volar))
+      .catch(() => {
+        setText(this.said, "The bones' surfaces could not be loaded; the slices are whole.");
+      });
+    const first =
+      scanned.bones.find((bone) => bone.flagged) ??
+      scanned.bones.find((bone) => bone.name.startsWith("scaphoid"));
+    if (first !== undefined) this.goTo(first);
+    else this.setCross(this.cross, true);
+    this.focused.canvas.focus({ preventScroll: true });
+  }
+
+  dispose(): void {
+    this.sizes.disconnect();
+    this.bones?.dispose();
+    this.mend?.dispose();
+  }
+
+  private planes(): ReturnType<typeof planesOf> {
+    const { wristFromPatient, side } = this.data.scanned;
+    return planesOf(this.alignment, wristFromPatient, side);
+  }
+
+  private tool(id: string, label: string, key: string, act: () => void): HTMLButtonElement {
+    const made = button(label, key, () => {
+      act();
+    });
+    this.buttons.set(id, made);
+    return made;
+  }
+
+  private topBar(): HTMLElement {
+    const { ways } = this.data;
+    const digits = ["Digit1", "Digit2", "Digit3"];
+    const windows = WINDOWS.map((one, i) =>
+      this.tool(one.name, one.name, `{${digits[i] ?? ""}}`, () => {
+        this.setWindow(one);
+      }),
+    );
+    this.opacity.addEventListener("input", () => {
+      this.labelsShown = true;
+      this.ask();
+    });
+    return make(
+      "header.scan-bar",
+      {},
+      make("div.scan-tools", { role: "group", "aria-label": "Window" }, ...windows),
+      make(
+        "div.scan-tools",
+        { role: "group", "aria-label": "Labels" },
+        this.tool("labels", "Labels", "{KeyO}", () => {
+          this.labelsShown = !this.labelsShown;
+          this.ask();
+        }),
+        this.opacity,
+      ),
+      make(
+        "div.scan-tools",
+        { role: "group", "aria-label": "Measure" },
+        this.tool("distance", "Distance", "{KeyM}", () => {
+          this.measure("distance");
+        }),
+        this.tool("angle", "Angle", "{KeyN}", () => {
+          this.measure("angle");
+        }),
+      ),
+      this.tool("planes", "Along the wrist", "{KeyP}", () => {
+        this.turnPlanes();
+      }),
+      make(
+        "div.scan-ways",
+        {},
+        ...ways,
+        button("Help", "?", () => {
+          this.help.showModal();
+        }),
+      ),
+    );
+  }
+
+  private heading(): HTMLElement {
+    const { scanned } = this.data;
+    const patient = make("p", {}, scanned.pseudonym, ` · ${scanned.side} wrist`);
+    if (scanned.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
+    return make("header.scan-heading", {}, make("h1", {}, "Scan"), patient);
+  }
+
+  private slider(panel: SlicePanel): HTMLInputElement {
+    const input = make("input.scan-slider", {
+      type: "range",
+      step: "any",
+      "aria-label": `Slice, ${panel.planeNow.id}`,
+    });
+    input.addEventListener("input", () => {
+      const { away } = panel.planeNow;
+      const by = Number(input.value) - dot(this.cross, away);
+      this.setCross(along(this.cross, by, away), false);
+    });
+    panel.element.append(input);
+    return input;
+  }
+
+  private press(plane: Plane, mm: Vec3, phase: "down" | "move" | "up"): void {
+    if (this.measuring !== undefined) {
+      if (phase === "down") this.addPlace(mm);
+      return;
+    }
+    if (this.mend?.press(plane, mm, phase) === true) return;
+    if (phase === "up") return;
+    this.setCross(mm, false, plane);
+  }
+
+  private hover(mm: Vec3 | undefined): void {
+    setText(this.reading, mm === undefined ? this.readingAt(this.cross) : this.readingAt(mm));
+  }
+
+  private readingAt(mm: Vec3): string {
+    const { ct, labels, scanned } = this.data;
+    const at = voxelIndexAt(ct, mm);
+    if (at < 0) return "outside the scan";
+    const label = labels === undefined ? 0 : this.labelAt(mm);
+    const bone = scanned.bones.find((one) => one.label === label);
+    const place = mm.map((v) => v.toFixed(1)).join(", ");
+    return `${ct.values[at] ?? 0} HU · ${bone === undefined ? "no bone" : boneTitle(bone.name)} · ${place} mm`;
+  }
+
+  private labelAt(mm: Vec3): number {
+    const { labels } = this.data;
+    const at = labels === undefined ? -1 : voxelIndexAt(labels, mm);
+    return at < 0 ? 0 : (labels?.values[at] ?? 0);
+  }
+
+  /** @param middle  in the middle of all pictures; else they stay where they are */
+  private setCross(mm: Vec3, middle: boolean, from?: Plane): void {
+    const clamped = this.inside(mm);
+    for (const panel of this.panels) {
+      if (middle) panel.pan = [0, 0];
+      // In the picture that is pressed nothing may slip away under the pointer.
+      else if (panel.planeNow === from) {
+        const d = along(clamped, -1, this.cross);
+        panel.pan = [
+          panel.pan[0] - dot(d, panel.planeNow.right),
+          panel.pan[1] - dot(d, panel.planeNow.down),
+        ];
+      } else panel.keepStill(this.cross, clamped, this.mmPerPixel);
+    }
+    this.cross = clamped;
+    this.ask();
+  }
+
+  private inside(mm: Vec3): Vec3 {
+    const { ct } = this.data;
+    const voxel = applied(ct.voxelFromPatient, mm).map((v, i) =>
+      Math.min((ct.size[i] ?? 1) - 1, Math.max(0, v)),
+    ) as [number, number, number];
+    return applied(ct.patientFromVoxel, voxel);
+  }
+
+  private scroll(plane: Plane, slices: number): void {
+    this.setCross(along(this.cross, slices * this.step, plane.away), false);
+  }
+
+  private zoom(factor: number): void {
+    this.mmPerPixel = Math.min(1, Math.max(0.01, this.mmPerPixel / factor));
+    this.ask();
+  }
+
+  private setWindow(grey: GreyWindow): void {
+    this.grey = { centre: grey.centre, width: grey.width };
+    setText(this.said, windowText(grey));
+    this.ask();
+  }
+
+  private fit(): void {
+    const [across] = this.panels;
+    if (across === undefined) return;
+    let worst = 0.01;
+    for (const panel of this.panels) {
+      const { clientWidth: w, clientHeight: h } = panel.canvas;
+      const { right, down } = panel.planeNow;
+      const [l, r] = extentAlong(this.data.ct, right);
+      const [u, d] = extentAlong(this.data.ct, down);
+      if (w > 2 && h > 2) worst = Math.max(worst, Math.min((r - l) / w, (d - u) / h));
+      panel.pan = [0, 0];
+    }
+    this.mmPerPixel = worst;
+    this.ask();
+  }
+
+  private goTo(bone: ScannedBone): void {
+    const { labels } = this.data;
+    const mm = labels === undefined ? undefined : placeOfLabel(labels, bone.label);
+    const why = bone.why === "" ? "" : `: ${bone.why}`;
+    setText(this.said, `${boneTitle(bone.name)}${bone.flagged ? why : ""}`);
+    this.mend?.choose(bone.label);
+    if (mm !== undefined) this.setCross(mm, true);
+  }
+
+  private nextBone(by: number): void {
+    const { bones } = this.data.scanned;
+    const now = bones.findIndex((bone) => bone.label === this.labelAt(this.cross));
+    const next = bones[(now + by + bones.length) % bones.length];
+    if (next !== undefined) this.goTo(next);
+  }
+
+  private measure(kind: MeasureKind): void {
+    this.measuring = this.measuring === kind ? undefined : kind;
+    this.mend?.take(undefined);
+    this.measures = this.measures.filter(isWhole);
+    const what = kind === "distance" ? "its two ends" : "three places, the corner second";
+    setText(this.said, this.measuring === undefined ? "" : `Click ${what}; Esc puts down.`);
+    this.ask();
+  }
+
+  private addPlace(mm: Vec3): void {
+    const kind = this.measuring;
+    if (kind === undefined) return;
+    const last = this.measures.at(-1);
+    const goesOn = last !== undefined && !isWhole(last);
+    const now: Measure = { kind, places: goesOn ? [...last.places, mm] : [mm] };
+    this.measures = [...(goesOn ? this.measures.slice(0, -1) : this.measures), now];
+    if (isWhole(now))
+      setText(this.said, `${kind === "distance" ? "Distance" : "Angle"} ${measureText(now)}`);
+    this.ask();
+  }
+
+  private turnPlanes(): void {
+    this.alignment = this.alignment === "wrist" ? "scan" : "wrist";
+    const planes = this.planes();
+    for (const panel of this.panels) panel.setPlane(planes[panel.planeNow.id]);
+    setText(
+      this.said,
+      this.alignment === "wrist" ? "Planes lie along the wrist." : "Planes lie as scanned.",
+    );
+    this.ask();
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const { target } = event;
+    const isField = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
+    if (isField || this.help.open || event.metaKey) return;
+    const isOnPicture = target instanceof HTMLCanvasElement;
+    const done = (isOnPicture && this.moveByKey(event)) || this.actByKey(event, isOnPicture);
+    if (done) event.preventDefault();
+  }
+
+  private moveByKey(event: KeyboardEvent): boolean {
+    const arrows: Readonly<Record<string, readonly [number, number]>> = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, -1],
+      ArrowDown: [0, 1],
+    };
+    const arrow = arrows[event.key];
+    const panel = this.focused;
+    const { right, down } = panel.planeNow;
+    if (arrow !== undefined && event.ctrlKey) {
+      panel.shift(-30 * arrow[0], -30 * arrow[1]);
+    } else if (arrow !== undefined) {
+      const mm = event.shiftKey ? COARSE_MM : FINE_MM;
+      this.setCross(along(along(this.cross, mm * arrow[0], right), mm * arrow[1], down), false);
+    } else if (event.key === "PageUp" || event.key === "PageDown") {
+      const many = event.shiftKey ? 10 : 1;
+      this.scroll(panel.planeNow, event.key === "PageDown" ? many : -many);
+    } else return false;
+    return true;
+  }
+
+  private actByKey(event: KeyboardEvent, isOnPicture: boolean): boolean {
+    if (event.ctrlKey || event.altKey) return false;
+    if (event.key === "+" || event.key === "=") this.zoom(1.12);
+    else if (event.key === "-") this.zoom(1 / 1.12);
+    else if (event.key === "?") this.help.showModal();
+    else if (event.key === "Enter" && isOnPicture && this.measuring !== undefined) {
+      this.addPlace(this.cross);
+    } else if (event.key === "Enter" && isOnPicture && this.mend?.brush !== undefined) {
+      this.mend.dab(this.cross);
+    } else if (this.mend?.onKey(event) === true) return true;
+    else return this.actByCode(event);
+    return true;
+  }
+
+  private actByCode(event: KeyboardEvent): boolean {
+    const acts: Readonly<Record<string, () => void>> = {
+      Digit0: () => {
+        this.fit();
+      },
+      Digit1: () => {
+        this.setWindow(WINDOWS[0] ?? this.grey);
+      },
+      Digit2: () => {
+        this.setWindow(WINDOWS[1] ?? this.grey);
+      },
+      Digit3: () => {
+        this.setWindow(WINDOWS[2] ?? this.grey);
+      },
+      BracketLeft: () => {
+        this.changeOpacity(-10);
+      },
+      BracketRight: () => {
+        this.changeOpacity(10);
+      },
+      KeyO: () => {
+        this.labelsShown = !this.labelsShown;
+      },
+      KeyX: () => {
+        this.crossShown = !this.crossShown;
+      },
+      KeyB: () => {
+        this.nextBone(event.shiftKey ? -1 : 1);
+      },
+      KeyM: () => {
+        this.measure("distance");
+      },
+      KeyN: () => {
+        this.measure("angle");
+      },
+      KeyP: () => {
+        this.turnPlanes();
+      },
+      Backspace: () => {
+        this.measures = this.measures.slice(0, -1);
+      },
+      Escape: () => {
+        this.measuring = undefined;
+        this.mend?.take(undefined);
+        this.measures = this.measures.filter(isWhole);
+        setText(this.said, "");
+      },
+    };
+    const act = acts[event.code];
+    act?.();
+    if (act !== undefined) this.ask();
+    return act !== undefined;
+  }
+
+  private changeOpacity(by: number): void {
+    this.labelsShown = true;
+    this.opacity.value = String(Number(this.opacity.value) + by);
+  }
+
+  /** Once, before the next picture on the screen. */
+  private ask(): void {
+    if (this.isAsked) return;
+    this.isAsked = true;
+    requestAnimationFrame(() => {
+      this.isAsked = false;
+      if (this.element.isConnected) this.draw();
+    });
+  }
+
+  private draw(): void {
+    const { ct, labels } = this.data;
+    const shown: Shown = {
+      ct,
+      labels: this.labelsShown ? labels : undefined,
+      grey: this.grey,
+      overlay: { colors: this.colors, opacity: Number(this.opacity.value) / 100 },
+      cross: this.cross,
+      crossShown: this.crossShown,
+      measures: this.measures,
+      mmPerPixel: this.mmPerPixel,
+      brush: this.measuring === undefined ? this.mend?.brush : undefined,
+    };
+    this.panels.forEach((panel, i) => {
+      panel.draw(shown);
+      const slider = this.sliders[i];
+      if (slider === undefined) return;
+      const [low, high] = extentAlong(ct, panel.planeNow.away);
+      slider.min = low.toFixed(2);
+      slider.max = high.toFixed(2);
+      slider.value = dot(this.cross, panel.planeNow.away).toFixed(2);
+    });
+    this.bones?.setCross(this.cross, this.crossShown);
+    this.list.mark(this.labelAt(this.cross));
+    setText(this.reading, this.readingAt(this.cross));
+    this.showPressed();
+  }
+
+  private showPressed(): void {
+    const isOn = (id: string, on: boolean): void => {
+      this.buttons.get(id)?.setAttribute("aria-pressed", String(on));
+    };
+    for (const one of WINDOWS) {
+      isOn(one.name, one.centre === this.grey.centre && one.width === this.grey.width);
+    }
+    isOn("labels", this.labelsShown);
+    isOn("distance", this.measuring === "distance");
+    isOn("angle", this.measuring === "angle");
+    isOn("planes", this.alignment === "wrist");
+  }
+}

@@ -1,0 +1,76 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fetches a case's scan and shows it; says what comes, and what does not.
+import { fetchCases } from "../case_data";
+import { button, make, setText } from "../dom";
+import type { CaseList } from "../protocol";
+import "./scan.css";
+import { ScanDesk } from "./scan_desk";
+import { fetchScannedCase, fetchVolume } from "./volume_client";
+
+export function openScan(app: HTMLElement, wanted: string | undefined): () => void {
+  const abort = new AbortController();
+  let desk: ScanDesk | undefined;
+  const note = make("p.secondary", { role: "status" }, "Loading…");
+  app.replaceChildren(
+    make(
+      "main.page.scan-wait",
+      {},
+      make("h1", {}, "Scan"),
+      note,
+      make("div.page-ways", {}, make("a.button-link", { href: "#/" }, "Operate")),
+    ),
+  );
+  const load = async (): Promise<void> => {
+    const cases = await fetchCases();
+    const id = wanted ?? cases.open;
+    const scanned = await fetchScannedCase(id, abort.signal);
+    const percent = (part: number): void => {
+      setText(note, `Loading the scan of ${scanned.pseudonym}: ${Math.round(100 * part)} %`);
+    };
+    const ct = await fetchVolume(id, "ct.nii.gz", abort.signal, percent);
+    const labels = await fetchVolume(id, "labels.nii.gz", abort.signal).catch((error: unknown) => {
+      if (abort.signal.aborted) throw error;
+      return undefined; // bones without labels are seen too
+    });
+    if (abort.signal.aborted) return;
+    desk = new ScanDesk({ id, scanned, ct, labels, ways: ways(cases, id) });
+    app.replaceChildren(desk.element);
+    desk.begin();
+  };
+  load().catch((error: unknown) => {
+    if (abort.signal.aborted) return;
+    note.setAttribute("role", "alert");
+    setText(note, error instanceof Error ? error.message : String(error));
+    note.after(
+      button("Try again", "", () => {
+        abort.abort();
+        desk?.dispose();
+        window.dispatchEvent(new HashChangeEvent("hashchange"));
+      }),
+    );
+  });
+  return () => {
+    abort.abort();
+    desk?.dispose();
+  };
+}
+
+/** Where else one can go: another case's scan, and the operation. */
+function ways(cases: CaseList, id: string): HTMLElement[] {
+  const choice = make(
+    "select",
+    { "aria-label": "Case" },
+    ...cases.cases.map((one) => {
+      const option = make("option", { value: one.id }, one.title);
+      option.selected = one.id === id;
+      return option;
+    }),
+  );
+  choice.addEventListener("change", () => {
+    location.hash = `#/scan/${encodeURIComponent(choice.value)}`;
+  });
+  const operate = make("a.button-link", { href: "#/" }, "Operate");
+  return cases.cases.length > 1 ? [choice, operate] : [operate];
+}
