@@ -108,13 +108,26 @@ FractureOffset Reduction::offset(
 
 std::optional<Reduction> reduction_of(const MeshIn<frame::Bone>& first,
                                       const MeshIn<frame::Bone>& second) {
-  const Vec3 towards = normalized_or(middle_of(second) - middle_of(first), {0, 0, 1});
+  const Vec3 between = middle_of(second) - middle_of(first);
+  const Vec3 towards = normalized_or(between, {0, 0, 1});
   const std::vector<Facet> of_first = facing(first, towards);
   const std::vector<Facet> of_second = facing(second, -towards);
   const auto a = face_of(of_first, of_second);
   const auto b = face_of(of_second, of_first);
   if (!a || !b) return std::nullopt;
-  return Reduction{a->middle, a->normal, b->middle, b->normal};
+  // Most fractures are oblique to their bone: faces that only stand apart, along the bone, do not
+  // lie opposite each other. That much of the way across is no step.
+  const Vec3 way = b->middle - a->middle;
+  const double gap = dot(way, a->normal);
+  Vec3 by_gap;
+  for (int round = 0; round < kRounds; ++round) {  // each ten times nearer
+    const Vec3 step = way - a->normal * gap - by_gap;
+    const Vec3 along = normalized_or(between - step, towards);
+    const double steep = dot(along, a->normal);
+    if (!(steep > kTowards)) break;
+    by_gap = (along - a->normal * steep) * (gap / steep);
+  }
+  return Reduction{a->middle, a->normal, b->middle - by_gap, b->normal};
 }
 
 }  // namespace carpus::anatomy

@@ -80,6 +80,23 @@ TEST(Reduction, TellsTheAngleOfAFlexedFragment) {
   EXPECT_NEAR(found->offset({back, back * Vec3{0, 0, -2.5}}).cosine_angle, 1.0, 2e-4);
 }
 
+TEST(Reduction, AGapAloneAcrossAnObliqueBoneIsNoStep) {
+  // Sheared: the bar runs 30 degrees off the normal of its fracture.
+  const auto sheared = [](MeshIn<frame::Bone> mesh) {
+    for (Vec3& v : mesh.vertices) v.x += 0.577 * v.z;
+    return mesh;
+  };
+  const auto first = sheared(stump(0.0, -12.0));
+  const auto opened = moved(sheared(stump(0.0, 12.0)), Mat3::identity(), {0.577 * 2, 0, 2});
+  const auto apart = reduction_of(first, opened);
+  ASSERT_TRUE(apart.has_value());
+  EXPECT_NEAR(apart->offset({}).gap_mm, 2.0, 0.02);
+  EXPECT_NEAR(apart->offset({}).step_mm, 0.0, 0.1) << "1.2 between the middles";
+  const auto stepped = reduction_of(first, moved(opened, Mat3::identity(), {0, 1.8, 0}));
+  ASSERT_TRUE(stepped.has_value());
+  EXPECT_NEAR(stepped->offset({}).step_mm, 1.8, 0.1);
+}
+
 TEST(Reduction, FindsNothingWhereThereIsNoFace) {
   TriangleMesh splinter;
   splinter.vertices = {{0, 0, 20}, {0.5, 0, 20}, {0, 0.5, 20}, {0, 0, 21}};

@@ -31,7 +31,7 @@ struct StockArguments {
 };
 
 std::string proof_in_words(const cases::Lesson& lesson) {
-  if (lesson.right_answer != cases::RightAnswer::Fix) return "not tried";
+  if (lesson.right_answer == cases::RightAnswer::Decline) return "not tried";
   if (!lesson.expert) return "no procedure that the scripts know";
   const std::string score = std::to_string(static_cast<int>(lesson.expert->overall)) + " of 100";
   return (lesson.expert->is_acceptable ? "acceptable, " : "NOT acceptable, ") + score;
@@ -88,7 +88,8 @@ void run(const StockArguments& arguments) {
       lesson = make(item, folder);
     }
     const bool is_solved = lesson.expert && lesson.expert->is_acceptable;
-    if (lesson.right_answer == cases::RightAnswer::Fix && !is_solved) unsolved.push_back(item.id);
+    if (lesson.right_answer != cases::RightAnswer::Decline && !is_solved)
+      unsolved.push_back(item.id);
   }
   if (unsolved.empty()) return;
   std::string text;

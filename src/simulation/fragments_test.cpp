@@ -181,6 +181,22 @@ TEST(Fragments, AJoystickPullsTheFragmentAndNeverIntoTheOther) {
   EXPECT_EQ(again.now().patient_from_bone[Joystick::proximal()], joystick.pose());
 }
 
+TEST(Fragments, APushNeverTakesBackALedFragment) {
+  Joystick joystick;
+  const auto before = joystick.pose().translation;
+  joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 3.6;
+  joystick.hold(2000);
+  const double led = dot(joystick.pose().translation - before, joystick.inward());
+  ASSERT_GT(led, 2.1) << "farther than a push alone takes it";
+  joystick.rest();
+  joystick.hand().driver = Driver::Forward;
+  for (const double thrust_n : {2.0, 12.0, 40.0}) {
+    joystick.hand().thrust_n = thrust_n;
+    joystick.hold(200);
+    EXPECT_GE(dot(joystick.pose().translation - before, joystick.inward()), led - 1e-9) << thrust_n;
+  }
+}
+
 TEST(Fragments, WhatLiesInBothHoldsThem) {
   Joystick joystick;
   joystick.hand().driver = Driver::Forward;

@@ -32,6 +32,7 @@ constexpr double kSlackMm = 1.0;  // by which the wire lags behind the hand
 constexpr double kSlackRad = 0.03;
 constexpr Tick kComeTicks = 1500;
 constexpr Tick kDriveTicks = 15000;
+constexpr Tick kTakenTicks = 50;   // until a hand has what it reached for
 constexpr Tick kLeadTicks = 4000;  // of each part of the way
 
 ItemView item_of(const Snapshot& now) {
@@ -131,6 +132,8 @@ void Reducing::begin(const Snapshot& now, const HandPose& hand, const Vec3& erro
   if (way) way_ = *way;
   enter(way ? Stage::Take : Stage::Over);
 }
+
+void Reducing::begin_taking_out() { enter(Stage::PickUp); }
 
 void Reducing::enter(Stage stage) {
   stage_ = stage;
@@ -284,8 +287,21 @@ bool Reducing::next(const Snapshot& now, Input& input) {
       lead(now, input);
       break;
     case Stage::LetGo:
+      left_ = is_fixed ? now.hands[kHand].item : simulation::kNoItem;
       input.command = {CommandKind::PutDown, kHand, 0, 0, 0};
       enter(Stage::Over);
+      break;
+    case Stage::PickUp:
+      input.command = {CommandKind::PickUp, kHand, left_, 0, 0};
+      left_ = simulation::kNoItem;
+      enter(Stage::DrawOut);
+      break;
+    case Stage::DrawOut:
+      hand.driver = Driver::Reverse;
+      // The first tick shows the hand as it was before.
+      if (is_fixed && in_stage_ < kDriveTicks) break;
+      if (!is_fixed && in_stage_ < kTakenTicks) break;
+      enter(Stage::LetGo);
       break;
     case Stage::Over:
       return true;

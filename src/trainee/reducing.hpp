@@ -36,6 +36,12 @@ class Reducing {
   ///                  [mm]
   void begin(const simulation::Snapshot& now, const HandPose& hand, const Vec3& error);
 
+  /// Whether its wire stands in a fragment still.
+  [[nodiscard]] bool has_left_wire() const noexcept { return left_ != simulation::kNoItem; }
+  /// Takes that wire out again: the guide wire holds the fragments, and a joystick that stands out
+  /// over the wrist would bend when it is straightened.
+  void begin_taking_out();
+
   /// The second hand's part of the next tick's input. True once it has let go, whatever came of it.
   bool next(const simulation::Snapshot& now, simulation::Input& input);
 
@@ -49,6 +55,8 @@ class Reducing {
     Across,
     Together,
     LetGo,
+    PickUp,
+    DrawOut,
     Over
   };
   /// Where the wire goes in, Patient.
@@ -80,6 +88,7 @@ class Reducing {
   BoneLine second_axis_;  ///< ... and of the second
 
   Stage stage_ = Stage::Over;
+  std::uint8_t left_ = simulation::kNoItem;  ///< item that was let go of in a fragment
   Tick in_stage_ = 0;
   Way way_;
   HandPose hand_;

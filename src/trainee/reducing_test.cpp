@@ -44,6 +44,20 @@ TEST(Reducing, LeadsTheFragmentsTogetherAndLetsGo) {
     if (item.body != simulation::kNoBody) ++left;
   }
   EXPECT_EQ(left, 1U) << "the joystick holds what it led";
+
+  ASSERT_TRUE(reducing.has_left_wire());
+  reducing.begin_taking_out();
+  for (ticks = 0; ticks < 60000; ++ticks) {
+    input.command = {};
+    if (reducing.next(world.now(), input)) break;
+    world.step(input);
+  }
+  EXPECT_LT(ticks, 60000);
+  EXPECT_FALSE(reducing.has_left_wire());
+  for (const simulation::ItemView& item : world.now().items) {
+    EXPECT_EQ(item.body, simulation::kNoBody) << "it is out before the wrist is straightened";
+  }
+  EXPECT_LT(reducing.offset(world.now())->step_mm, 0.5) << "and nothing sprang back";
 }
 
 TEST(Reducing, HasNothingToDoAtAWholeBone) {

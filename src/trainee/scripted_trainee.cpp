@@ -189,6 +189,8 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
     ream_depth_mm_ = true_chord(now, held(now)) - draw(profile_.ream_before_far_mm);
   } else if (phase == Phase::Reduce) {
     reducing_.begin(now, second_hand(), turned(now, random_error(profile_.reduction_error_mm)));
+  } else if (phase == Phase::FreeFragment) {
+    reducing_.begin_taking_out();
   } else if (phase == Phase::LookReduced) {
     plan_on_reduced_bone(now);
   } else if (phase == Phase::Insert) {
@@ -273,7 +275,8 @@ void ScriptedTrainee::judge_line(const Snapshot& now) {
     enter(Phase::Withdraw, now);
   } else {
     const bool goes_on = draws_through_ && is_in && is_way_out_free(now);
-    enter(goes_on ? Phase::DriveThrough : is_in ? Phase::Measure : Phase::Finish, now);
+    after_freeing_ = goes_on ? Phase::DriveThrough : is_in ? Phase::Measure : Phase::Finish;
+    enter(reducing_.has_left_wire() ? Phase::FreeFragment : after_freeing_, now);
   }
 }
 
@@ -562,7 +565,7 @@ void ScriptedTrainee::take_wire(const Snapshot& now, Input& input) {
   for (std::uint8_t i = 0; i < simulation::kMaxItems; ++i) {
     const ItemView& item = now.items[i];
     if (item.instrument >= instruments::catalogue().size() || !item.in_target ||
-        kind_of(item.instrument).work != Work::Drill) {
+        !item.near_end_is_out || kind_of(item.instrument).work != Work::Drill) {
       continue;
     }
     input.command = of_hand(CommandKind::PickUp, 0);
@@ -614,6 +617,9 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
       return look_at_bone(now, input);
     case Phase::Reduce:
       if (reducing_.next(now, input)) enter(Phase::LookReduced, now);
+      return;
+    case Phase::FreeFragment:
+      if (reducing_.next(now, input)) enter(after_freeing_, now);
       return;
     case Phase::Engage:
     case Phase::Drive:
@@ -691,7 +697,8 @@ Input ScriptedTrainee::next(const Snapshot& now) {
   const bool is_held = item.body != simulation::kNoBody;
   input.hands[0].tip_in_patient = is_held ? item.tip_in_patient : hand_.tip + tremor_.next();
   input.hands[0].shaft_in_patient = is_held ? item.shaft_in_patient : hand_.shaft;
-  if (phase_ != Phase::Reduce || wait_ > 0) {
+  const bool is_second_busy = phase_ == Phase::Reduce || phase_ == Phase::FreeFragment;
+  if (!is_second_busy || wait_ > 0) {
     const HandPose beside = second_hand();
     input.hands[1].tip_in_patient = beside.tip;
     input.hands[1].shaft_in_patient = beside.shaft;

@@ -51,6 +51,7 @@ class ScriptedTrainee {
     Drive,
     Check,
     Judge,
+    FreeFragment,
     DriveThrough,
     TakeFarEnd,
     DrawThrough,
@@ -149,6 +150,7 @@ class ScriptedTrainee {
   Vec3 planned_direction_;  ///< Patient, into the bone
   double error_scale_ = 1.0;
   int tries_ = 0;
+  Phase after_freeing_ = Phase::Finish;
   double stop_depth_mm_ = -1.0;
   double ream_depth_mm_ = 0.0;
   double thrust_n_ = 30.0;

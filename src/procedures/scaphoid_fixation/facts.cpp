@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
+#include "anatomy/central_axis.hpp"
 #include "procedures/scaphoid_fixation/screws.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
@@ -53,7 +55,7 @@ void find_passes(Facts& facts) {
 }
 
 void fill_references(ScoreReport& report, const Facts& facts) {
-  const cases::ScaphoidLandmarks& marks = facts.data.scaphoid;
+  const cases::ScaphoidLandmarks& marks = facts.marks;
   report.central_axis_length_mm = distance(marks.central_axis.proximal, marks.central_axis.distal);
   report.central_cylinder_radius_mm = marks.central_radius_mm;
   report.longest_line_mm = distance(marks.longest_line.proximal, marks.longest_line.distal);
@@ -79,7 +81,7 @@ void fill_references(ScoreReport& report, const Facts& facts) {
 }
 
 procedure::PlacementPicture picture_of(const Facts& facts) {
-  const cases::ScaphoidLandmarks& marks = facts.data.scaphoid;
+  const cases::ScaphoidLandmarks& marks = facts.marks;
   procedure::PlacementPicture picture;
   picture.central_axis = {marks.central_axis.proximal, marks.central_axis.distal};
   picture.waist = marks.waist;
@@ -115,6 +117,38 @@ std::vector<MeshIn<frame::Bone>> fragments_seen_from(const cases::CaseData& data
   return fragments;
 }
 
+/// Of the pieces as they lie. A piece that was led or drawn makes another bone: what the line is
+/// measured against is found anew.
+cases::ScaphoidLandmarks marks_of(const cases::CaseData& data,
+                                  const procedure::OperationRecord& record,
+                                  std::size_t body,
+                                  const std::vector<MeshIn<frame::Bone>>& pieces) {
+  constexpr double kMovedMm = 0.3;  // less changes no landmark by more than a mesh's facet
+  double most = 0.0;
+  std::size_t piece = 0;
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone != BoneId::Scaphoid) continue;
+    const auto& scanned = data.bones[b].surface.vertices;
+    const auto& lying = pieces[piece++].vertices;
+    for (std::size_t v = 0; v < scanned.size(); ++v) {
+      most = std::max(most, squared_length(lying[v] - scanned[v]));
+    }
+  }
+  if (!(most > kMovedMm * kMovedMm)) return data.scaphoid;
+  std::vector<const MeshIn<frame::Bone>*> all;
+  for (const MeshIn<frame::Bone>& each : pieces) all.push_back(&each);
+  const Vec3 proximal = (record.displacements[body].inverse() *
+                         Direction<frame::Bone>{data.scaphoid.central_axis.proximal -
+                                                data.scaphoid.central_axis.distal})
+                            .v;
+  const auto found = find_central_axis(BoneSolid(all), proximal);
+  if (!found) return data.scaphoid;
+  return {{found->axis.start, found->axis.end},
+          found->radius_mm,
+          {found->longest_line.start, found->longest_line.end},
+          found->waist};
+}
+
 }  // namespace
 
 const std::optional<LineFacts>& fixed_line(const Facts& facts) noexcept {
@@ -124,14 +158,15 @@ const std::optional<LineFacts>& fixed_line(const Facts& facts) noexcept {
 Facts facts_of(const cases::CaseData& data,
                const procedure::OperationRecord& record,
                const Fixation& fixation) {
-  Facts facts{data, record, fixation, screws_on(fixation.procedure->tray), {}, {}, {}, {}, 0, {}};
+  Facts facts{data, record, fixation, screws_on(fixation.procedure->tray), {}, {}, {}, {},
+              {},   0,      {}};
+  facts.marks = data.scaphoid;
   find_lines(facts);
   find_passes(facts);
   if (const auto& lain = fixed_line(facts)) {
-    const std::vector<MeshIn<frame::Bone>> lie = fragments_seen_from(data, record, lain->body);
-    std::vector<const MeshIn<frame::Bone>*> fragments;
-    for (const MeshIn<frame::Bone>& fragment : lie) fragments.push_back(&fragment);
-    const OuterBone scaphoid(fragments);
+    std::vector<MeshIn<frame::Bone>> lie = fragments_seen_from(data, record, lain->body);
+    facts.marks = marks_of(data, record, lain->body, lie);
+    const LyingBone scaphoid = lying_bone(std::move(lie), facts.marks);
     facts.line =
         place_line(scaphoid, data, fixation.approach, lain->entry_in_bone, lain->direction_in_bone);
     if (facts.line && facts.screw) {

@@ -26,6 +26,9 @@ struct Facts {
   const procedure::OperationRecord& record;
   const Fixation& fixation;
   std::vector<instruments::InstrumentIndex> screws;  ///< on the tray
+  /// Of the bone as it lies at the end, seen from the piece in which the line is fixed; as scanned
+  /// where there is no line.
+  cases::ScaphoidLandmarks marks;
   /// The wire for the screw: the last laid into the scaphoid that fits a screw's bore; the screw's
   /// own line where the wire is out.
   std::optional<procedure::LineFacts> wire;
@@ -36,7 +39,7 @@ struct Facts {
   std::vector<BoneId> entered;  ///< other bones, allowed or not, without repetition
 };
 
-/// Intersects lines with the scaphoid; about 0.5 s.
+/// Intersects lines with the scaphoid; about 0.5 s, 1 s where its pieces were moved.
 /// @param data  as scanned; needs `scaphoid` and `bones`.
 [[nodiscard]] Facts facts_of(const cases::CaseData& data,
                              const procedure::OperationRecord& record,

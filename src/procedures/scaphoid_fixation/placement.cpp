@@ -85,14 +85,14 @@ std::string place_in_words(const cases::CaseData& data,
 
 /// Of the line's part between tail and tip, in the fragment that has less of it; all of it in a
 /// bone that is whole.
-double length_in_smaller_part(const cases::CaseData& data, const ScrewEnvelope& screw) {
+double length_in_smaller_part(const std::vector<MeshIn<frame::Bone>>& pieces,
+                              const ScrewEnvelope& screw) {
   const double whole_mm = distance(screw.tail, screw.tip);
   double least = whole_mm;
-  const auto parts = cases::scaphoid_parts(data);
-  if (parts.size() < 2) return least;
+  if (pieces.size() < 2) return least;
   const Vec3 direction = normalized_or(screw.tip - screw.tail, {0, 0, 1});
-  for (const cases::Bone* part : parts) {
-    const std::array<const MeshIn<frame::Bone>*, 1> alone{&part->surface};
+  for (const MeshIn<frame::Bone>& piece : pieces) {
+    const std::array<const MeshIn<frame::Bone>*, 1> alone{&piece};
     double inside = 0.0;
     for (const LineInterval& interval : BoneSolid(alone).intervals_along(screw.tail, direction)) {
       inside +=
@@ -105,19 +105,27 @@ double length_in_smaller_part(const cases::CaseData& data, const ScrewEnvelope& 
 
 }  // namespace
 
-std::optional<LinePlacement> place_line(const OuterBone& scaphoid,
+LyingBone lying_bone(std::vector<MeshIn<frame::Bone>> pieces,
+                     const cases::ScaphoidLandmarks& marks) {
+  std::vector<const MeshIn<frame::Bone>*> all;
+  for (const MeshIn<frame::Bone>& piece : pieces) all.push_back(&piece);
+  OuterBone bone(all);
+  return {std::move(pieces), std::move(bone), marks};
+}
+
+std::optional<LinePlacement> place_line(const LyingBone& scaphoid,
                                         const cases::CaseData& data,
                                         Approach approach,
                                         const Vec3& entry,
                                         const Vec3& direction) {
-  const cases::ScaphoidLandmarks& landmarks = data.scaphoid;
+  const cases::ScaphoidLandmarks& landmarks = scaphoid.marks;
   const cases::AxisSegment& axis = landmarks.central_axis;
   const Vec3 along = axis.distal - axis.proximal;
   const double sign =
       approach == Approach::FromProximal ? 1.0 : -1.0;  // the way that the wire goes
   const Vec3 axis_direction = normalized_or(along, {0, 0, 1}) * sign;
   constexpr double kInsideMm = 1.0;  // the entry itself may lie a hair outside
-  const BoneSolid& solid = scaphoid.solid();
+  const BoneSolid& solid = scaphoid.bone.solid();
   const auto chord = solid.chord_through(entry + direction * kInsideMm, direction);
   if (!chord) return std::nullopt;
   LinePlacement line;
@@ -134,7 +142,7 @@ std::optional<LinePlacement> place_line(const OuterBone& scaphoid,
   return line;
 }
 
-ScrewPlacement place_screw(const OuterBone& scaphoid,
+ScrewPlacement place_screw(const LyingBone& scaphoid,
                            const cases::CaseData& data,
                            const LinePlacement& line,
                            Approach approach,
@@ -145,14 +153,14 @@ ScrewPlacement place_screw(const OuterBone& scaphoid,
   ScrewPlacement placement;
   placement.tail_cover_mm = lain.depth_mm - length_mm - line.chord.enter_mm;
   placement.tip_cover_mm = line.chord.leave_mm - lain.depth_mm;
-  const DeepestPlace worst = farthest_outside(scaphoid, screw);
+  const DeepestPlace worst = farthest_outside(scaphoid.bone, screw);
   placement.penetration_mm = worst.outside_mm;
   if (worst.outside_mm > 0) {
     placement.penetration_at = place_in_words(
         data, line.chord, approach, lain.depth_mm - length_mm * (1.0 - worst.along), worst.point);
   }
-  placement.beside_mm = least_bone_beside(scaphoid, screw, kEndsMm);
-  placement.in_smaller_part_mm = length_in_smaller_part(data, screw);
+  placement.beside_mm = least_bone_beside(scaphoid.bone, screw, kEndsMm);
+  placement.in_smaller_part_mm = length_in_smaller_part(scaphoid.pieces, screw);
   return placement;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cases/case_data.hpp"
 #include "procedure/situation.hpp"
@@ -51,15 +52,26 @@ struct ScrewPlacement {
   double in_smaller_part_mm = 0.0;  ///< of its length, in the fragment that holds less of it
 };
 
+/// A bone as its pieces lie, frame Bone of one of them, and what is measured against.
+struct LyingBone {
+  std::vector<MeshIn<frame::Bone>> pieces;
+  OuterBone bone;
+  cases::ScaphoidLandmarks marks;
+};
+
+/// @param marks  of the pieces.
+[[nodiscard]] LyingBone lying_bone(std::vector<MeshIn<frame::Bone>> pieces,
+                                   const cases::ScaphoidLandmarks& marks);
+
 /// Nothing when the line misses the scaphoid.
-[[nodiscard]] std::optional<LinePlacement> place_line(const OuterBone& scaphoid,
+[[nodiscard]] std::optional<LinePlacement> place_line(const LyingBone& scaphoid,
                                                       const cases::CaseData& data,
                                                       Approach approach,
                                                       const Vec3& entry,
                                                       const Vec3& direction);
 
 /// @param lain  the screw's line.
-[[nodiscard]] ScrewPlacement place_screw(const OuterBone& scaphoid,
+[[nodiscard]] ScrewPlacement place_screw(const LyingBone& scaphoid,
                                          const cases::CaseData& data,
                                          const LinePlacement& line,
                                          Approach approach,

@@ -59,7 +59,7 @@ Measure penetration(const Facts& facts) {
 
 Measure usable_length(const Facts& facts) {
   Measure measure{"usable_length_percent", std::nullopt, kNoLine};
-  const auto& longest = facts.data.scaphoid.longest_line;
+  const auto& longest = facts.marks.longest_line;
   const double longest_mm = distance(longest.proximal, longest.distal);
   if (!facts.line || !(longest_mm > 0.0)) return measure;
   measure.value = 100.0 * facts.line->length_mm() / longest_mm;

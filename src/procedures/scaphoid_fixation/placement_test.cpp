@@ -59,12 +59,10 @@ const cases::CaseData& prism_case() {
   return data;
 }
 
-const OuterBone& bone() {
-  static const OuterBone solid([] {
-    static const std::array fragments{&cases::scaphoid_parts(prism_case()).front()->surface};
-    return std::span<const MeshIn<frame::Bone>* const>(fragments);
-  }());
-  return solid;
+const LyingBone& bone() {
+  static const LyingBone made =
+      lying_bone({cases::scaphoid_parts(prism_case()).front()->surface}, prism_case().scaphoid);
+  return made;
 }
 
 /// A screw of 20 mm, 3.6 mm wide at its tail and 3.5 at its tip, from proximal.
@@ -106,8 +104,8 @@ TEST(Placement, AScrewBesideTheAxis) {
     const Placed at = place({aside * 0.6, aside * 0.8, kLengthMm}, {0, 0, -1}, 23.0);
     EXPECT_NEAR(at.line.at_waist.distance_mm, aside, kMm);
     EXPECT_NEAR(at.line.at_proximal.distance_mm, aside, kMm);
-    // Its side stands out by what its radius half a millimetre from the tail reaches beyond.
-    const double reach = aside + 1.8 - 0.05 * 0.5 / 20.0 - kRadiusMm;
+    // The rim of its tail, the widest place, stands out by what its radius reaches beyond.
+    const double reach = aside + 1.8 - kRadiusMm;
     EXPECT_NEAR(at.screw.penetration_mm, std::max(0.0, reach), kMm) << aside;
     EXPECT_NEAR(at.screw.beside_mm, kRadiusMm - aside - 1.79, kMm) << aside;
   }
@@ -119,6 +117,17 @@ TEST(Placement, AScrewThroughTheFarEnd) {
     EXPECT_NEAR(at.screw.tip_cover_mm, -beyond, kMm);
     EXPECT_NEAR(at.screw.penetration_mm, beyond, kMm);
     EXPECT_EQ(at.screw.penetration_at.substr(0, 6), "distal");
+  }
+}
+
+TEST(Placement, ATailUnderASlopeComesOutByItsRim) {
+  const double angle = radians_from_degrees(10.0);
+  const Vec3 direction{std::sin(angle), 0, -std::cos(angle)};
+  for (const double buried : {0.1, 0.2, 0.6}) {
+    const Placed at = place({-1.8, 0, kLengthMm}, direction, 20.0 + buried);
+    EXPECT_NEAR(at.screw.tail_cover_mm, buried, kMm) << "its middle is covered";
+    const double rim = 1.8 * std::sin(angle) - buried * std::cos(angle);
+    EXPECT_NEAR(at.screw.penetration_mm, std::max(0.0, rim), kMm) << buried;
   }
 }
 

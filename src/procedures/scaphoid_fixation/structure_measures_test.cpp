@@ -26,7 +26,7 @@ cases::CaseData wrist_with_structures() {
 std::vector<Measure> measures_of(const cases::CaseData& data,
                                  const procedure::OperationRecord& record) {
   static const Fixation fixation{&dorsal_scaphoid_fixation::declared(), Approach::FromProximal};
-  const Facts facts{data, record, fixation, {}, {}, {}, {}, {}, 0, {}};
+  const Facts facts{data, record, fixation, {}, {}, {}, {}, {}, {}, 0, {}};
   return structure_measures(facts);
 }
 
