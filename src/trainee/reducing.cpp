@@ -25,6 +25,8 @@ constexpr double kInMm = 4.0;          // that deep a joystick holds a fragment
 constexpr double kBesideAxisMm = 2.7;  // of it from the way of the screw and its wire
 constexpr double kPastMiddleMm = 3.6;  // a wire that misses the middle misses the screw
 constexpr double kBesideBonesMm = 3.0;
+/// Of its axis from a tendon, artery or nerve: its own radius, and room to lead it.
+constexpr double kBesideStructuresMm = 2.5;
 constexpr double kOffFaceMm = 3.0;  // it goes in no nearer to the fracture
 constexpr double kApartMm = 1.5;    // led off that far before it is led across
 constexpr double kTogetherMm = 0.2;
@@ -140,6 +142,16 @@ void Reducing::enter(Stage stage) {
   in_stage_ = 0;
 }
 
+/// Whether no tendon, artery or nerve lies about the wire's way in from outside.
+bool Reducing::is_beside_structures(const std::vector<LyingPoint>& structures, const Way& way) {
+  for (const LyingPoint& point : structures) {
+    const Vec3 w = point.at - way.entry;
+    const double out = std::clamp(-dot(w, way.inward), 0.0, kFarMm);
+    if (length(w + way.inward * out) < point.radius_mm + kBesideStructuresMm) return false;
+  }
+  return true;
+}
+
 /// Whether no other bone lies about the wire's way in from outside.
 bool Reducing::is_way_free(const Snapshot& now, const Way& way) const {
   for (std::size_t b = 0; b < case_.bones.size(); ++b) {
@@ -163,6 +175,7 @@ bool Reducing::is_way_free(const Snapshot& now, const Way& way) const {
 /// way; of those that are free the one that meets the bone most squarely.
 std::optional<Reducing::Way> Reducing::find_way(const Snapshot& now) const {
   constexpr std::size_t kTries = 400;
+  const std::vector<LyingPoint> structures = structures_now(case_, now);
   std::optional<Way> best;
   double best_worth = 0.75;  // less square than that it skates
   for (const bool of_first : {true, false}) {
@@ -191,7 +204,7 @@ std::optional<Reducing::Way> Reducing::find_way(const Snapshot& now) const {
           continue;
         }
         const Way way{body, in_patient(now, body, p), turned(now, body, inward)};
-        if (!is_way_free(now, way)) continue;
+        if (!is_beside_structures(structures, way) || !is_way_free(now, way)) continue;
         best = way;
         best_worth = square;
       }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "anatomy/central_axis.hpp"
 #include "anatomy/reduction.hpp"
@@ -17,6 +18,7 @@
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
 #include "trainee/hand_motion.hpp"
+#include "trainee/lying_structures.hpp"
 
 namespace carpus::trainee {
 
@@ -74,6 +76,8 @@ class Reducing {
   void plan_axis();
   [[nodiscard]] std::optional<Way> find_way(const simulation::Snapshot& now) const;
   [[nodiscard]] Face face_of(const simulation::Snapshot& now, bool of_first) const;
+  [[nodiscard]] static bool is_beside_structures(const std::vector<LyingPoint>& structures,
+                                                 const Way& way);
   [[nodiscard]] bool is_way_free(const simulation::Snapshot& now, const Way& way) const;
   void enter(Stage stage);
   void drive(const simulation::Snapshot& now, simulation::Input& input);
