@@ -25,20 +25,24 @@ using devices::LoopState;
 
 struct CalibrateArguments {
   std::string device;
+  bool evens_motors = false;
 };
 
-/// What the sensors say for a quarter of a second.
-std::vector<std::array<std::int32_t, devices::kLegs>> listen(devices::HostLoop& loop) {
+/// What the sensors say for this step, once the servos, where they turn, have come there.
+std::vector<std::array<std::int32_t, devices::kLegs>> listen(
+    devices::HostLoop& loop,
+    const devices::ArmCalibrator& calibrator) {
   std::vector<std::array<std::int32_t, devices::kLegs>> samples;
-  LoopState state;
-  std::uint64_t last = 0;
-  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(1000);
-  while (samples.size() < devices::kSamplesOfStep && std::chrono::steady_clock::now() < until) {
-    if (loop.look(state) && state.device.raw_samples != last) {
-      last = state.device.raw_samples;
-      samples.push_back(state.device.raw_counts);
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  loop.turn_servos(calibrator.pulse_us());
+  std::this_thread::sleep_for(std::chrono::milliseconds(calibrator.settle_ms()));
+  while (loop.next_raw()) {
+  }
+  const std::size_t wanted = calibrator.sample_count();
+  const auto until =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(1000 + 2 * wanted);
+  while (samples.size() < wanted && std::chrono::steady_clock::now() < until) {
+    while (const auto sample = loop.next_raw()) samples.push_back(*sample);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return samples;
 }
@@ -76,14 +80,17 @@ void run(const CalibrateArguments& arguments) {
   const firmware::Drive drive = state.able.stop ? firmware::Drive::Stop : firmware::Drive::Motor;
   std::printf("%s: drive %s, unit %u\n", id.c_str(), state.able.stop ? "A" : "B",
               state.device.unit);
-  devices::ArmCalibrator calibrator(drive, state.device.unit,
-                                    known(search, drive, state.device.unit));
+  devices::ArmCalibrator calibrator(
+      drive, state.device.unit, known(search, drive, state.device.unit), arguments.evens_motors);
   std::optional<devices::ArmCalibration> made;
   while (!made) {
     while (!calibrator.is_complete()) {
-      wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" +
-                     std::to_string(calibrator.step_count()) + "] " + calibrator.instruction());
-      if (const auto problem = calibrator.take(listen(loop))) {
+      if (!calibrator.is_by_itself()) {
+        loop.turn_servos(0);
+        wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" +
+                       std::to_string(calibrator.step_count()) + "] " + calibrator.instruction());
+      }
+      if (const auto problem = calibrator.take(listen(loop, calibrator))) {
         std::printf("  %s\n", problem->c_str());
       }
     }
@@ -94,6 +101,7 @@ void run(const CalibrateArguments& arguments) {
       std::printf("%s\n", result.error().c_str());
     }
   }
+  loop.turn_servos(0);
   devices::store(*made, search.calibrations);
   if (drive == firmware::Drive::Stop) {
     for (std::size_t leg = 0; leg < devices::kLegs; ++leg) {
@@ -116,6 +124,8 @@ void add_device_calibrate_command(CLI::App& device) {
   CLI::App* command = device.add_subcommand("calibrate", "Calibrate an arm, guided step by step");
   command->add_option("--device", arguments->device,
                       "Id as 'list' shows it; the only one if left out");
+  command->add_flag("--even-motors", arguments->evens_motors,
+                    "Drive B: also measure its motors' cogging, while a hand leads it about");
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -42,18 +42,4 @@ std::string health_in_words(const devices::HostLoop& loop, const devices::LoopSt
   return advice.empty() ? words : words + ". " + advice;
 }
 
-std::string abilities_in_words(const devices::Capabilities& able) {
-  std::string words;
-  const auto add = [&words](bool can, const char* word) {
-    if (can) words += (words.empty() ? "" : ", ") + std::string(word);
-  };
-  add(able.position, able.absolute ? "position" : "speed");
-  add(able.rotation, "rotation");
-  add(able.force, "force");
-  add(able.stop, "stop");
-  add(able.local_plane, "local planes");
-  add(able.vibration, "vibration");
-  return words;
-}
-
 }  // namespace carpus::cli

@@ -31,7 +31,4 @@ inline constexpr double kStartSeconds = 4.0;
 [[nodiscard]] std::string health_in_words(const devices::HostLoop& loop,
                                           const devices::LoopState& state);
 
-/// "force, local planes, position": what it is able to do.
-[[nodiscard]] std::string abilities_in_words(const devices::Capabilities& able);
-
 }  // namespace carpus::cli

@@ -39,7 +39,7 @@ nlohmann::ordered_json look_at(const std::vector<devices::FoundDevice>& found,
                                {"name", found[i].name},
                                {"health", devices::in_words(state.device.health)},
                                {"what_to_do", health_in_words(*loops[i], state)},
-                               {"can", abilities_in_words(state.able)},
+                               {"can", devices::in_words(state.able)},
                                {"peak_force_n", state.able.peak_force_n}};
     if (state.device.has_unit) row["unit"] = state.device.unit;
     rows.push_back(std::move(row));

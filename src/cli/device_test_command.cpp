@@ -116,7 +116,7 @@ nlohmann::ordered_json figures_of(const std::string& id,
   return {
       {"device", id},
       {"health", devices::in_words(state.device.health)},
-      {"can", abilities_in_words(state.able)},
+      {"can", devices::in_words(state.able)},
       {"class", timing.scheduling == devices::SchedulingClass::Fifo ? "SCHED_FIFO" : "SCHED_OTHER"},
       {"memory_locked", timing.memory_locked},
       {"fine_timer", timing.fine_timer},

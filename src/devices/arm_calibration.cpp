@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/arm_calibration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@ constexpr int kVersion = 1;
 constexpr double kMostCounts = 4 * 1023;
 constexpr std::array<std::string_view, 2> kDrives{"A", "B"};
 constexpr std::size_t kMostPoints = 64;
+constexpr double kMostCoggingNMm = 100;
 
 ordered_json json_of(const arm::LegCalibration& leg, const ServoFit& servo) {
   auto points = ordered_json::array();
@@ -112,6 +114,8 @@ void store(const ArmCalibration& calibration, const fs::path& folder) {
     json["legs"] = std::move(legs);
   } else {
     json["zero_in_turn_counts"] = calibration.zero_in_turn;
+    json["cogging_n_mm"] = calibration.cogging.amplitude_n_mm;
+    json["cogging_phase_rad"] = calibration.cogging.phase_rad;
   }
   std::error_code error;
   fs::create_directories(folder, error);
@@ -145,6 +149,12 @@ ArmCalibration parse_calibration(std::string_view text, std::string_view file) {
         fields.numbers("zero_in_turn_counts", kLegs, 0, kCountsOfTurn - 1);
     for (std::size_t i = 0; i < kLegs; ++i) {
       read.zero_in_turn[i] = static_cast<std::int32_t>(zeros[i]);
+    }
+    if (fields.has("cogging_n_mm")) {  // files of before have none
+      const std::vector<double> sizes = fields.numbers("cogging_n_mm", kLegs, 0, kMostCoggingNMm);
+      const std::vector<double> phases = fields.numbers("cogging_phase_rad", kLegs, -10, 10);
+      std::copy(sizes.begin(), sizes.end(), read.cogging.amplitude_n_mm.begin());
+      std::copy(phases.begin(), phases.end(), read.cogging.phase_rad.begin());
     }
   }
   fields.refuse_unknown_fields();

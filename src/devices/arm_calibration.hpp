@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "arm/cogging.hpp"
 #include "arm/leg_calibration.hpp"
 #include "firmware/core/wire.hpp"
 
@@ -18,13 +19,14 @@ namespace carpus::devices {
 
 inline constexpr std::size_t kLegs = 3;
 
-/// Drive A: how the horn of a leg's servo sits.
+/// Drive A: how the horn of a leg's servo sits. As it stands: a servo of 270 degrees in 2 ms, as
+/// the parts list asks for, put on with the slot 10 degrees below the horizontal.
 struct ServoFit {
-  double pulse_at_zero_us = 1500;  ///< puts the slot around the leg at angle 0
-  double pulse_per_half_turn_us = 2000;
+  double pulse_at_zero_us = 1426;  ///< puts the slot around the leg at angle 0
+  double pulse_per_half_turn_us = 1333;
   double gap_rad = 0.157;  ///< from the middle of the slot to its edge: 9 degrees
-  double least_pulse_us = 1000;
-  double most_pulse_us = 2000;
+  double least_pulse_us = 900;
+  double most_pulse_us = 2100;
 };
 
 struct ArmCalibration {
@@ -35,6 +37,7 @@ struct ArmCalibration {
   std::array<ServoFit, kLegs> servos;
   /// Drive B: the encoders' counts of one turn of the motor where the leg is at angle 0.
   std::array<std::int32_t, kLegs> zero_in_turn{};
+  arm::Cogging cogging;       ///< of its motors; none where that was not measured
   std::string made_at = "-";  ///< UTC
 };
 

@@ -19,20 +19,38 @@ namespace carpus::devices {
 inline constexpr std::array<double, 6> kGaugeDeg{-40, -20, 0, 20, 40, 60};
 /// Samples of one step, a quarter of a second.
 inline constexpr std::size_t kSamplesOfStep = 250;
+/// Of the step in which a hand leads drive B about: eight seconds.
+inline constexpr std::size_t kSamplesOfLead = 8000;
+/// Drive A's servos turn by themselves to these pulses, first while a finger lifts the legs to the
+/// upper edges of their slots, then while it presses them to the lower ones: left alone they would
+/// slide through. The first of each row only comes from afar.
+inline constexpr std::array<int, 6> kSweepUs{1150, 1350, 1425, 1500, 1575, 1650};
+inline constexpr std::array<int, 6> kSweepBackUs{1850, 1650, 1575, 1500, 1425, 1350};
+/// What the legs turn, and the slot to both sides: a servo must do so much in 0.9 to 2.1 ms.
+inline constexpr double kServoTravelDeg = 154;
 /// Counts between least and most of them: more is a hand that moves, or a loose wiper.
 inline constexpr int kMostSpreadStop = 24;
 inline constexpr int kMostSpreadMotor = 60;
 
 class ArmCalibrator {
  public:
-  /// @param known  what was known of this unit; its servos' fit is kept.
+  /// @param known  what was known of this unit. @param evens_motors  drive B: with the step in
+  /// which a hand leads it about, for its motors' cogging; else what was known of that stays.
   ArmCalibrator(firmware::Drive drive,
                 std::uint32_t unit,
-                std::optional<ArmCalibration> known = std::nullopt);
+                std::optional<ArmCalibration> known = std::nullopt,
+                bool evens_motors = false);
 
   [[nodiscard]] std::size_t step() const noexcept { return step_; }
   [[nodiscard]] std::size_t step_count() const noexcept;
   [[nodiscard]] bool is_complete() const noexcept { return step_ == step_count(); }
+  /// The arm does this step by itself: its servos turn to pulse_us(), and after settle_ms() there
+  /// is something to measure. 0: they do not.
+  [[nodiscard]] int pulse_us() const noexcept;
+  [[nodiscard]] bool is_by_itself() const noexcept;
+  [[nodiscard]] int settle_ms() const noexcept;
+  /// How many samples this step takes, one a millisecond.
+  [[nodiscard]] std::size_t sample_count() const noexcept;
   /// What the person is to do now.
   [[nodiscard]] std::string instruction() const;
   /// @param samples  of the three sensors while the person keeps still.
@@ -43,9 +61,16 @@ class ArmCalibrator {
   [[nodiscard]] Result<ArmCalibration> finish(std::string made_at);
 
  private:
+  [[nodiscard]] std::optional<std::string> take_lead(
+      const std::vector<std::array<std::int32_t, kLegs>>& samples);
+  [[nodiscard]] std::optional<std::string> fit_servo(std::size_t leg);
+
   ArmCalibration made_;
+  bool evens_motors_;
   std::size_t step_ = 0;
   std::array<std::vector<arm::CalibrationPoint>, kLegs> points_;
+  /// Counts at each pulse of both sweeps.
+  std::array<std::array<double, kSweepUs.size() + kSweepBackUs.size()>, kLegs> swept_{};
 };
 
 }  // namespace carpus::devices

@@ -24,6 +24,18 @@ class Sensors {
     for (int i = 0; i < 4; ++i) sum += arm::counts_of(pots_[leg].read(angle), 10);
     return sum;
   }
+  /// All three legs at an edge of their slots, servos of so many degrees in 0.9 to 2.1 ms.
+  [[nodiscard]] Samples push(const ArmCalibrator& calibrator, double travel_deg, double gap_deg) {
+    const double horn =
+        radians_from_degrees(10.17 + (calibrator.pulse_us() - 1500) * travel_deg / 1200);
+    const bool is_back = calibrator.step() >= 18 + kSweepUs.size();
+    const double angle = horn + radians_from_degrees(is_back ? gap_deg : -gap_deg);
+    Samples samples(kSamplesOfStep);
+    for (auto& sample : samples) {
+      for (std::size_t leg = 0; leg < kLegs; ++leg) sample[leg] = read(leg, angle);
+    }
+    return samples;
+  }
   [[nodiscard]] Samples hold(std::size_t leg, double angle, double tremor = 0) {
     Samples samples;
     for (std::size_t i = 0; i < kSamplesOfStep; ++i) {
@@ -42,10 +54,32 @@ class Sensors {
                                               arm::Potentiometer{{}, 3}};
 };
 
+/// The servos' part, to its end.
+void sweep(ArmCalibrator& calibrator,
+           Sensors& sensors,
+           double travel_deg = 162,
+           double gap_deg = 9) {
+  EXPECT_NE(calibrator.instruction().find("gently up"), std::string::npos);
+  while (!calibrator.is_complete()) {
+    const std::size_t at = (calibrator.step() - 18) % kSweepUs.size();
+    EXPECT_EQ(calibrator.is_by_itself(), at != 0) << "a person takes hold first";
+    ASSERT_GT(calibrator.pulse_us(), 0);
+    ASSERT_EQ(calibrator.take(sensors.push(calibrator, travel_deg, gap_deg)), std::nullopt);
+  }
+}
+
+void visit_notches(ArmCalibrator& calibrator, Sensors& sensors) {
+  for (std::size_t step = 0; step < 18; ++step) {
+    EXPECT_EQ(calibrator.pulse_us(), 0);
+    ASSERT_EQ(calibrator.take(sensors.hold(step / 6, radians_from_degrees(kGaugeDeg[step % 6]))),
+              std::nullopt);
+  }
+}
+
 TEST(ArmCalibrator, DriveAIsGuidedThroughAllNotchesToSixTenthsOfADegree) {
   Sensors sensors;
   ArmCalibrator calibrator(firmware::Drive::Stop, 5);
-  EXPECT_EQ(calibrator.step_count(), 18U);
+  EXPECT_EQ(calibrator.step_count(), 30U);
   for (std::size_t leg = 0; leg < kLegs; ++leg) {
     for (const double notch : kGaugeDeg) {
       const std::string asked = calibrator.instruction();
@@ -59,9 +93,10 @@ TEST(ArmCalibrator, DriveAIsGuidedThroughAllNotchesToSixTenthsOfADegree) {
       EXPECT_EQ(calibrator.take(sensors.hold(leg, angle)), std::nullopt);
     }
   }
+  sweep(calibrator, sensors);
   ASSERT_TRUE(calibrator.is_complete());
   const auto made = calibrator.finish("now");
-  ASSERT_TRUE(made.has_value());
+  ASSERT_TRUE(made.has_value()) << made.error();
   EXPECT_EQ(made->unit, 5U);
   double worst = 0;
   for (std::size_t leg = 0; leg < kLegs; ++leg) {
@@ -83,6 +118,7 @@ TEST(ArmCalibrator, NotchesMixedUpAreToldAndBeginAnew) {
     const double angle = radians_from_degrees(kGaugeDeg[notch]);
     ASSERT_EQ(calibrator.take(sensors.hold(step / 6, angle)), std::nullopt);
   }
+  sweep(calibrator, sensors);
   const auto made = calibrator.finish("now");
   ASSERT_FALSE(made.has_value());
   EXPECT_NE(made.error().find("Leg 1"), std::string::npos);
@@ -90,27 +126,62 @@ TEST(ArmCalibrator, NotchesMixedUpAreToldAndBeginAnew) {
   EXPECT_NE(calibrator.take({}), std::nullopt);
 }
 
+TEST(ArmCalibrator, MeasuresHowEachServoSits) {
+  Sensors sensors;
+  ArmCalibrator calibrator(firmware::Drive::Stop, 5);
+  visit_notches(calibrator, sensors);
+  sweep(calibrator, sensors, 170, 9.3);
+  const auto made = calibrator.finish("now");
+  ASSERT_TRUE(made.has_value()) << made.error();
+  for (const ServoFit& fit : made->servos) {
+    const double us_per_deg = 1200.0 / 170;
+    EXPECT_NEAR(fit.pulse_per_half_turn_us, 180 * us_per_deg, 40);
+    EXPECT_NEAR(fit.pulse_at_zero_us, 1500 - 10.17 * us_per_deg, 5);
+    EXPECT_NEAR(degrees_from_radians(fit.gap_rad), 9.3, 0.3);
+    EXPECT_GE(fit.least_pulse_us, 900);
+    EXPECT_LE(fit.most_pulse_us, 2100);
+  }
+}
+
+TEST(ArmCalibrator, AServoThatTurnsTooLittleOrNotAtAllIsTold) {
+  const auto told = [](double travel_deg, double gap_deg) {
+    Sensors sensors;
+    ArmCalibrator calibrator(firmware::Drive::Stop, 5);
+    visit_notches(calibrator, sensors);
+    sweep(calibrator, sensors, travel_deg, gap_deg);
+    const auto made = calibrator.finish("now");
+    EXPECT_FALSE(made.has_value());
+    EXPECT_EQ(calibrator.step(), 18U) << "the notches stay";
+    return made ? std::string() : made.error();
+  };
+  EXPECT_NE(told(108, 9).find("270 degrees"), std::string::npos);  // 90 degrees a millisecond
+  EXPECT_NE(told(0, 0).find("does not turn"), std::string::npos);
+  EXPECT_NE(told(162, 1).find("slot measured 1 deg"), std::string::npos);
+}
+
 TEST(ArmCalibrator, DriveBIsLaidInItsCradleOnce) {
-  ArmCalibrator calibrator(firmware::Drive::Motor, 6);
+  ArmCalibrator calibrator(firmware::Drive::Motor, 6, std::nullopt, true);
   const auto at_rest =
       static_cast<std::int32_t>(std::lround(cradle_angle_rad() / kRadPerMotorCount));
   Samples samples(kSamplesOfStep, {at_rest + 100, at_rest - 5, at_rest + 3 * kCountsOfTurn + 9});
   ASSERT_EQ(calibrator.take(samples), std::nullopt);
+  EXPECT_EQ(calibrator.sample_count(), kSamplesOfLead);
+  samples.resize(kSamplesOfLead, samples.front());
+  const auto problem = calibrator.take(samples);  // still in its cradle
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_NE(problem->find("moved too little"), std::string::npos);
+  Rng rng(4);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t leg = 0; leg < kLegs; ++leg) {
+      const double turn = 0.006283 * static_cast<double>(i) + 2.0 * static_cast<double>(leg);
+      const auto noise = static_cast<std::int32_t>(rng.below(2));
+      samples[i][leg] = static_cast<std::int32_t>(3000 * std::sin(turn)) + noise;
+    }
+  }
+  ASSERT_EQ(calibrator.take(samples), std::nullopt);
   const auto made = calibrator.finish("now");
   ASSERT_TRUE(made.has_value());
   EXPECT_EQ(made->zero_in_turn, (std::array<std::int32_t, 3>{100, kCountsOfTurn - 5, 9}));
-}
-
-TEST(ArmCalibrator, WhatWasKnownOfTheServosStays) {
-  ArmCalibration known = fake_calibration(firmware::Drive::Stop, 5);
-  known.servos[1].gap_rad = 0.2;
-  Sensors sensors;
-  ArmCalibrator calibrator(firmware::Drive::Stop, 5, known);
-  for (std::size_t step = 0; step < 18; ++step) {
-    ASSERT_EQ(calibrator.take(sensors.hold(step / 6, radians_from_degrees(kGaugeDeg[step % 6]))),
-              std::nullopt);
-  }
-  EXPECT_EQ(calibrator.finish("now")->servos[1].gap_rad, 0.2);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "arm/cogging.hpp"
 #include "core/units.hpp"
 
 namespace carpus::devices {
@@ -23,9 +24,44 @@ constexpr double kMostVelocityMmPerS = 5000;
 /// sensor.
 constexpr double kMostBeyondRad = 0.2;
 
+/// Of the encoders' rates, each millisecond: 5 ms.
+constexpr double kRateFilter = 0.2;
+/// From a report of drive B until the middle of the tick for which the answer to it acts: both
+/// frames' way, the host's wait, half a tick, the current's delay.
+constexpr double kAheadS = 0.0031;
+
 std::int16_t rounded16(double value, double most) noexcept {
   return static_cast<std::int16_t>(std::lround(std::clamp(value, -most, most)));
 }
+/// A leg that is told such numbers sees itself at angle 0 always, and turns its servo to where a
+/// stop on its side is, however the sensor stands: 350 us to either side, slowly, as if it pushed.
+constexpr std::int16_t kTurnUsPerHalfTurn = 24'000;
+constexpr std::uint16_t kTurnMiddleUs = 1500;
+constexpr int kTurnMostUs = 350;
+constexpr std::uint8_t kTurnConfigs = 9;  ///< three times each leg, as a frame may be lost
+
+firmware::LegConfig turning_config(std::uint8_t leg) noexcept {
+  firmware::LegConfig config;
+  config.leg = leg;
+  config.zero_counts = 2046;
+  config.gain = 1;
+  config.pulse_at_zero_us = kTurnMiddleUs;
+  config.pulse_per_turn_us = kTurnUsPerHalfTurn;
+  config.least_pulse_us = kTurnMiddleUs - kTurnMostUs;
+  config.most_pulse_us = kTurnMiddleUs + kTurnMostUs;
+  return config;
+}
+
+firmware::Stop turning_stop(int pulse_us) noexcept {
+  const int off = std::clamp(pulse_us - int{kTurnMiddleUs}, -kTurnMostUs, kTurnMostUs);
+  firmware::Stop stop;
+  for (firmware::LegStop& leg : stop.legs) {
+    leg.side = off < 0 ? firmware::LegStopSide::NotAbove : firmware::LegStopSide::NotBelow;
+    leg.angle = rounded16(off * 8192.0 / kTurnUsPerHalfTurn, 8191);
+  }
+  return stop;
+}
+
 std::uint16_t roundedu16(double value, double most) noexcept {
   return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, most)));
 }
@@ -97,6 +133,8 @@ void ArmDevice::open() {
   phase_ = Phase::Greeting;
   status_ = 0;
   has_place_ = is_impossible_ = false;
+  turn_configs_ = 0;
+  smooth_n_ = {};
   opened_ns_ = greeted_ns_ = placed_ns_ = answered_ns_ = 0;
   sent_ns_.fill(0);
 }
@@ -172,6 +210,8 @@ void ArmDevice::take(Nanoseconds now, const firmware::Identity& identity) noexce
   }
   phase_ = identity.version == firmware::kProtocolVersion ? Phase::Configuring : Phase::Greeting;
   next_leg_ = 0;
+  has_sent_ = has_config_ = {};
+  turn_configs_ = 0;
   status_ = 0;
   has_place_ = false;
 }
@@ -190,7 +230,13 @@ void ArmDevice::heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) n
     greeted_ns_ = 0;
     has_place_ = false;
   }
-  if (phase_ == Phase::Configuring && calibration_ != nullptr &&
+  for (std::size_t leg = 0; leg < kLegs; ++leg) {
+    if (has_sent_[leg] && config_sequences_[leg] == echo) has_config_[leg] = true;
+  }
+  // A device that was configured before may have had other numbers.
+  const bool is_told = identity_ && (identity_->drive != static_cast<std::uint8_t>(Drive::Stop) ||
+                                     (has_config_[0] && has_config_[1] && has_config_[2]));
+  if (is_told && phase_ == Phase::Configuring && calibration_ != nullptr &&
       (status & firmware::kStatusConfigured) != 0 && is_homed_by_us()) {
     phase_ = Phase::Working;
   }
@@ -223,8 +269,8 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
       Vec3{static_cast<double>(motion.force_mn[0]), static_cast<double>(motion.force_mn[1]),
            static_cast<double>(motion.force_mn[2])} *
       0.001;
-  // What carries the arm is not felt.
-  state_.force_n = squared_length(given) > 0 ? given - weight_n_ : Vec3{};
+  // What carries the arm, and evens its motors, is not felt.
+  state_.force_n = squared_length(given) > 0 ? given - weight_n_ - smooth_n_ : Vec3{};
   state_.hottest_c = motion.hottest_c;
   if (phase_ != Phase::Working || (motion.status & firmware::kStatusSensorFault) != 0) return;
   arm::LegAngles angles{};
@@ -255,9 +301,14 @@ void ArmDevice::place(Nanoseconds now, const arm::LegAngles& angles) noexcept {
   }
   const Vec3 position = *tip - arm_.centre;
   weight_n_ = weight_at(arm_, angles);
+  const arm::LegAngles before = angles_;
   angles_ = angles;
+  if (!has_place_) rates_ = {};
   if (has_place_ && now > placed_ns_) {
     const double seconds = static_cast<double>(now - placed_ns_) * 1e-9;
+    for (std::size_t i = 0; i < kLegs; ++i) {
+      rates_[i] += ((angles[i] - before[i]) / seconds - rates_[i]) * kRateFilter;
+    }
     const Vec3 velocity = (position - state_.position_mm) / seconds;
     const double share = std::min(1.0, seconds / kVelocityFilterS);
     state_.velocity_mm_s += (velocity - state_.velocity_mm_s) * share;
@@ -274,6 +325,8 @@ void ArmDevice::configure(Nanoseconds now) noexcept {
     (void)send(now, firmware::Release{});
   } else if (calibration_->drive == Drive::Stop) {
     if (send(now, config_of(*calibration_, next_leg_))) {
+      config_sequences_[next_leg_] = sequence_;
+      has_sent_[next_leg_] = true;
       next_leg_ = static_cast<std::uint8_t>((next_leg_ + 1) % kLegs);
     }
   } else if (state_.raw_samples == 0) {
@@ -286,6 +339,16 @@ void ArmDevice::configure(Nanoseconds now) noexcept {
       home.zero_counts[i] = std::clamp(home_[i], -1000000, 1000000);
     }
     (void)send(now, home);
+  }
+}
+
+void ArmDevice::turn_servos_now(Nanoseconds now) noexcept {
+  if (turn_configs_ == kTurnConfigs) {
+    (void)send(now, turning_stop(pulse_us_));
+  } else if ((status_ & firmware::kStatusDriving) != 0) {
+    (void)send(now, firmware::Release{});  // a leg that drives is not told anything new
+  } else if (send(now, turning_config(static_cast<std::uint8_t>(turn_configs_ % kLegs)))) {
+    ++turn_configs_;
   }
 }
 
@@ -326,6 +389,15 @@ firmware::Stop ArmDevice::stops_of(const haptics::HapticWish& wish) noexcept {
 void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept {
   if (!link_) return;
   if (phase_ == Phase::Greeting) return greet(now);
+  const bool is_stop = identity_->drive == static_cast<std::uint8_t>(Drive::Stop);
+  if (pulse_us_ != 0 && is_stop) return turn_servos_now(now);
+  if (turn_configs_ != 0) {  // as usual again: from the beginning
+    turn_configs_ = 0;
+    phase_ = Phase::Greeting;
+    greeted_ns_ = 0;
+    has_place_ = false;
+    return greet(now);
+  }
   if (phase_ == Phase::Configuring) return configure(now);
   const bool is_nothing = !(command.limit_n > 0) || !has_place_;
   haptics::HapticWish wish = wish_of(is_nothing ? DeviceCommand{} : command);
@@ -335,8 +407,9 @@ void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept 
   }
   // The arm's own weight is carried whatever is wished, or it would fall while an exercise pauses.
   if (has_place_) {
-    wish.besides_n += weight_n_;
-    wish.limit_n += length(weight_n_);
+    smooth_n_ = arm::against_cogging(arm_, calibration_->cogging, angles_, rates_, kAheadS);
+    wish.besides_n += weight_n_ + smooth_n_;
+    wish.limit_n += length(weight_n_) + length(smooth_n_);
   }
   if (wish.plane_count == 0) net_.close();
   const double share = net_.share(state_.force_n, state_.position_mm);

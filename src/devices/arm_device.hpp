@@ -35,6 +35,7 @@ class ArmDevice final : public Device {
   void close() noexcept override;
   void poll(Nanoseconds now, DeviceState& state) noexcept override;
   void command(Nanoseconds now, const DeviceCommand& command) noexcept override;
+  void turn_servos(int pulse_us) noexcept override { pulse_us_ = pulse_us; }
 
   /// Once it has said who it is.
   [[nodiscard]] const std::optional<firmware::Identity>& identity() const noexcept {
@@ -60,6 +61,7 @@ class ArmDevice final : public Device {
   void heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) noexcept;
   void place(Nanoseconds now, const arm::LegAngles& angles) noexcept;
   void configure(Nanoseconds now) noexcept;
+  void turn_servos_now(Nanoseconds now) noexcept;
   [[nodiscard]] bool is_homed_by_us() const noexcept;
   [[nodiscard]] Health health_at(Nanoseconds now) const noexcept;
   /// In the arm's own frame.
@@ -76,12 +78,14 @@ class ArmDevice final : public Device {
   firmware::HostDecoder decoder_;
   std::optional<firmware::Identity> identity_;
   Vec3 weight_n_;  ///< drive B: that carries the arm where it is
+  Vec3 smooth_n_;  ///< drive B: that takes off its motors' cogging, as last sent
   /// Drive B: counts at angle 0 of the unit that was homed last. They hold until that is reset, so
   /// that a line that is opened anew need not find the arm in its cradle.
   std::array<std::int32_t, kLegs> home_{};
   std::optional<std::uint32_t> homed_unit_;
   DeviceState state_;
   arm::LegAngles angles_{};
+  arm::LegAngles rates_{};
   haptics::LegStops stops_;
   haptics::PassivityNet net_;
   haptics::ForceLimiter limiter_{kMostForceN};
@@ -89,6 +93,11 @@ class ArmDevice final : public Device {
   std::uint8_t sequence_ = 0;
   std::uint8_t status_ = 0;
   std::uint8_t next_leg_ = 0;
+  std::array<std::uint8_t, kLegs> config_sequences_{};
+  std::array<bool, kLegs> has_sent_{};
+  std::array<bool, kLegs> has_config_{};  ///< drive A: the leg has answered to its calibration
+  std::uint8_t turn_configs_ = 0;         ///< how often the legs were told to obey pulses
+  int pulse_us_ = 0;
   bool has_place_ = false;
   bool is_impossible_ = false;  ///< what the sensors say is no place
   Nanoseconds opened_ns_ = 0;

@@ -44,26 +44,36 @@ std::string CalibrationDesk::instruction() const {
 
 void CalibrationDesk::take() {
   if (is_measuring_) return;
+  loop_.turn_servos(calibrator_.pulse_us());
+  settles_ = std::chrono::milliseconds(calibrator_.settle_ms());
   while (loop_.next_raw()) {
   }
   samples_.clear();
   is_measuring_ = true;
   began_ = std::chrono::steady_clock::now();
-  note_ = "Measuring, keep still.";
+  note_ = calibrator_.pulse_us() != 0                   ? "Its servos turn: follow it."
+          : calibrator_.sample_count() > kSamplesOfStep ? "Measuring, go on."
+                                                        : "Measuring, keep still.";
 }
 
 bool CalibrationDesk::look(const std::string& now_utc) {
   if (!is_measuring_) return false;
-  while (const auto sample = loop_.next_raw()) samples_.push_back(*sample);
-  const bool is_late = std::chrono::steady_clock::now() - began_ > kMostTime;
-  if (samples_.size() < kSamplesOfStep && !is_late) return false;
+  const auto measured = std::chrono::steady_clock::now() - began_ - settles_;
+  while (const auto sample = loop_.next_raw()) {
+    if (measured >= std::chrono::milliseconds(0)) samples_.push_back(*sample);
+  }
+  const std::size_t wanted = calibrator_.sample_count();
+  const bool is_late = measured > kMostTime + std::chrono::milliseconds(2 * wanted);
+  if (samples_.size() < wanted && !is_late) return false;
   is_measuring_ = false;
   if (const auto problem = calibrator_.take(samples_)) {
     note_ = *problem;
     return false;
   }
   note_ = "Measured.";
+  if (calibrator_.is_by_itself()) take();
   if (!calibrator_.is_complete()) return false;
+  loop_.turn_servos(0);
   const Result<ArmCalibration> made = calibrator_.finish(now_utc);
   if (!made) {
     note_ = made.error();

@@ -20,7 +20,12 @@ class CalibrationDesk {
   /// @throws InvalidInput where the device is none that is calibrated by us.
   CalibrationDesk(HostLoop& loop, const LoopState& state, std::filesystem::path folder);
 
-  /// Measures what is held now, over the next quarter of a second.
+  /// What it let turn stands still again.
+  ~CalibrationDesk() { loop_.turn_servos(0); }
+  CalibrationDesk(const CalibrationDesk&) = delete;
+  CalibrationDesk& operator=(const CalibrationDesk&) = delete;
+
+  /// Measures what is held now, over the next quarter of a second, or as long as the step takes.
   void take();
   /// To be called several times a second. @return true once all is stored: the desk is of no use
   /// any more, and the loop opens its device anew.
@@ -35,6 +40,7 @@ class CalibrationDesk {
   ArmCalibrator calibrator_;
   std::string note_;
   bool is_measuring_ = false;
+  std::chrono::milliseconds settles_{0};
   std::chrono::steady_clock::time_point began_;
   std::vector<std::array<std::int32_t, kLegs>> samples_;
 };

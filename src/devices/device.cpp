@@ -26,6 +26,20 @@ const char* in_words(Health health) noexcept {
   return "not known";
 }
 
+std::string in_words(const Capabilities& able) {
+  std::string words;
+  const auto add = [&words](bool can, const char* word) {
+    if (can) words += (words.empty() ? "" : ", ") + std::string(word);
+  };
+  add(able.position, able.absolute ? "position" : "speed");
+  add(able.rotation, "rotation");
+  add(able.force, "force");
+  add(able.stop, "stops");
+  add(able.local_plane, "local planes");
+  add(able.vibration, "vibration");
+  return words;
+}
+
 const char* what_to_do(Health health) noexcept {
   switch (health) {
     case Health::Uncalibrated:

@@ -122,8 +122,13 @@ class Device {
   /// Hands over what is wished; never waits, allocates or throws. Of what the device cannot do the
   /// driver does the nearest that is weaker.
   virtual void command(Nanoseconds now, const DeviceCommand& command) noexcept = 0;
+  /// While it is calibrated, nobody's hand on it: drive A's servos are to turn to this pulse,
+  /// whatever is commanded; 0: as usual. To be called each turn.
+  virtual void turn_servos(int /*pulse_us*/) noexcept {}
 };
 
+/// "position, force, local planes": what it is able to do.
+[[nodiscard]] std::string in_words(const Capabilities& able);
 /// "good", "unplugged" ...
 [[nodiscard]] const char* in_words(Health health) noexcept;
 /// What a person can do about it; empty where there is nothing to do.

@@ -75,6 +75,8 @@ class HostLoop {
   static constexpr double kTestWallMm = 5;
   static constexpr double kTestWallNPerMm = 1;
   static constexpr double kTestLimitN = 3;
+  /// While it is calibrated: see Device::turn_servos. 0: as usual. By any thread.
+  void turn_servos(int pulse_us) noexcept { pulse_us_.store(pulse_us, std::memory_order_relaxed); }
   /// Closes the device and opens it anew: what it reads from files has changed. By any thread.
   void reopen() noexcept { reopening_.store(true, std::memory_order_relaxed); }
   /// Why the device could not be opened at the last try; empty when it was.
@@ -113,6 +115,7 @@ class HostLoop {
   std::atomic<bool> stopping_{false};
   std::atomic<bool> reopening_{false};
   std::atomic<bool> testing_{false};
+  std::atomic<int> pulse_us_{0};
   bool has_wall_ = false;
   double wall_mm_ = 0;
   std::thread thread_;

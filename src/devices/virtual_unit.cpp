@@ -34,6 +34,7 @@ ArmCalibration VirtualUnit::calibration() const {
   calibration.unit = unit_;
   calibration.made_at = "simulated";
   const firmware::Home home = arm_->home();
+  calibration.cogging = arm_->cogging();
   for (std::size_t i = 0; i < kLegs; ++i) {
     if (calibration.drive == firmware::Drive::Stop) {
       calibration.legs[i] = arm_->leg_calibration(static_cast<int>(i));

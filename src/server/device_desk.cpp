@@ -24,19 +24,6 @@ constexpr double kMostMm = 9999;
 /// As many as a message holds.
 constexpr std::size_t kMostFound = 64;
 
-std::string abilities_of(const devices::Capabilities& able) {
-  std::string words;
-  const auto add = [&words](bool can, const char* word) {
-    if (can) words += (words.empty() ? "" : ", ") + std::string(word);
-  };
-  add(able.position, able.absolute ? "position" : "speed");
-  add(able.rotation, "rotation");
-  add(able.force, "force");
-  add(able.stop, "stops");
-  add(able.vibration, "vibration");
-  return words;
-}
-
 }  // namespace
 
 void DeviceDesk::find() {
@@ -193,7 +180,7 @@ protocol::HandDevice DeviceDesk::describe(const Held& held) const {
   } else if (!advice.empty()) {
     out.words += ". " + advice;
   }
-  out.can = abilities_of(state.able);
+  out.can = devices::in_words(state.able);
   out.rate_hz = std::clamp(timing.rate_hz, 0.0, 1e5);
   out.late_p99_us = std::clamp(timing.late_p99_us, 0.0, kMostUs);
   out.late_p999_us = std::clamp(timing.late_p999_us, 0.0, kMostUs);
