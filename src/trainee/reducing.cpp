@@ -104,6 +104,7 @@ void Reducing::plan_axis() {
   }
   const Pose<frame::Bone, frame::Bone> first_from_second{
       rotation, faces_->first_middle - rotation * faces_->second_middle};
+  first_from_second_ = first_from_second;
   const MeshIn<frame::Bone> second = first_from_second * case_.bones[second_].surface;
   const std::array<const MeshIn<frame::Bone>*, 2> parts{&case_.bones[first_].surface, &second};
   const auto& scanned = case_.scaphoid.central_axis;
@@ -150,6 +151,18 @@ bool Reducing::is_beside_structures(const std::vector<LyingPoint>& structures, c
     if (length(w + way.inward * out) < point.radius_mm + kBesideStructuresMm) return false;
   }
   return true;
+}
+
+/// Where the wire is once its fragment lies on the other.
+Reducing::Way Reducing::led(const Snapshot& now, const Way& way) const {
+  const auto& first = now.patient_from_bone[first_];
+  const auto& second = now.patient_from_bone[second_];
+  const auto from = now.patient_from_bone[way.body].inverse();
+  const auto to =
+      way.body == second_ ? first * first_from_second_ : second * first_from_second_.inverse();
+  const auto there = to * from;
+  return {way.body, (there * Point<frame::Patient>{way.entry}).v,
+          (there * Direction<frame::Patient>{way.inward}).v};
 }
 
 /// Whether no other bone lies about the wire's way in from outside.
@@ -204,7 +217,10 @@ std::optional<Reducing::Way> Reducing::find_way(const Snapshot& now) const {
           continue;
         }
         const Way way{body, in_patient(now, body, p), turned(now, body, inward)};
-        if (!is_beside_structures(structures, way) || !is_way_free(now, way)) continue;
+        if (!is_beside_structures(structures, way) ||
+            !is_beside_structures(structures, led(now, way)) || !is_way_free(now, way)) {
+          continue;
+        }
         best = way;
         best_worth = square;
       }

@@ -78,6 +78,7 @@ class Reducing {
   [[nodiscard]] Face face_of(const simulation::Snapshot& now, bool of_first) const;
   [[nodiscard]] static bool is_beside_structures(const std::vector<LyingPoint>& structures,
                                                  const Way& way);
+  [[nodiscard]] Way led(const simulation::Snapshot& now, const Way& way) const;
   [[nodiscard]] bool is_way_free(const simulation::Snapshot& now, const Way& way) const;
   void enter(Stage stage);
   void drive(const simulation::Snapshot& now, simulation::Input& input);
@@ -88,6 +89,7 @@ class Reducing {
   std::size_t first_ = 0;  ///< bodies of the two fragments
   std::size_t second_ = 0;
   std::optional<anatomy::Reduction> faces_;
+  Pose<frame::Bone, frame::Bone> first_from_second_;  ///< once they are together
   BoneLine first_axis_;   ///< of the bone put together again, frame Bone of the first fragment ...
   BoneLine second_axis_;  ///< ... and of the second
 
