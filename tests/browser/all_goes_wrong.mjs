@@ -140,6 +140,8 @@ async function wireOverTheRadius(page, station) {
 
 export async function allGoesWrong(browser, station) {
   const page = await newPage(browser);
+  // Few pixels: what is looked at here is said in words.
+  await page.setViewportSize({ width: 720, height: 480 });
   await harmUndoneAndTooLong(page, station);
   await wireOverTheRadius(page, station);
   await page.close();
