@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that can go wrong does, through the page, and the report says each of it: the wire in the
-// next bone and taken back, too long a screw, the drill beyond the far cortex, no picture, steps left out;
+// Everything that can go wrong does, through the page, and the report says each of it: the wire far
+// through the bone and taken back, too long a screw, the drill beyond the far cortex, no picture, steps left out;
 // then a wire that is left over the radius while the wrist is straightened.
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
@@ -51,16 +51,18 @@ function expectSaid({ items }, ids) {
 async function harmUndoneAndTooLong(page, station) {
   const operator = new Operator(page);
   const axis = readAxis(station.caseFolder);
-  const began = await check(page, "a wire driven into the next bone and taken back", async () => {
+  const began = await check(page, "a wire driven far through the bone and taken back", async () => {
     await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
     await operator.placeWire(axis);
-    await operator.driveWireTo(axis.lengthMm + 9);
+    await operator.driveWireTo(axis.lengthMm + 3);
     await page.keyboard.press("z");
     await operator.until((s) => s.undos === 1, "the step taken back");
     await operator.settle();
   });
   if (!began) return;
   const went = await check(page, "over-drilled, and too long a screw put in", async () => {
+    // As strong as the hand begins: the far cortex was passed with little.
+    await page.locator("#push").fill("40");
     await operator.placeWire(axis);
     await operator.driveWireTo(axis.lengthMm + 2);
     await operator.take("cannulated_drill");
@@ -87,7 +89,6 @@ async function harmUndoneAndTooLong(page, station) {
       "penetration_mm",
       "screw_length_minus_ideal_mm",
       "follower_beyond_far_cortex_mm",
-      "wrong_bones_entered",
       "views_with_wire",
       "views_with_screw",
       "steps_left_out",
@@ -99,8 +100,6 @@ async function harmUndoneAndTooLong(page, station) {
     expect(report.unmet.length >= 3, `unmet: ${report.unmet.join("; ")}`);
     const stands = await page.locator(".lengths").innerText();
     expect(/Stands out/.test(stands), `where it stands out is not said: '${stands}'`);
-    const log = await page.locator(".events").innerText();
-    expect(/trapezium/i.test(log), "the bone that was harmed is not named");
   });
 }
 
