@@ -37,6 +37,7 @@ std::string in_words(const Capabilities& able) {
   add(able.stop, "stops");
   add(able.local_plane, "local planes");
   add(able.vibration, "vibration");
+  add(able.torque, "torque");
   return words;
 }
 

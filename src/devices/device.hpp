@@ -52,7 +52,8 @@ struct Capabilities {
   bool stop = false;         ///< a wall that stands still, and no force
   bool local_plane = false;  ///< renders planes by itself, faster than the host
   bool vibration = false;
-  double rate_hz = 0;  ///< of what it says
+  bool torque = false;  ///< about the shaft of what is held
+  double rate_hz = 0;   ///< of what it says
   double peak_force_n = 0;
   double lasting_force_n = 0;
   double most_stiffness_n_per_mm = 0;
@@ -101,6 +102,7 @@ struct DeviceCommand {
   double limit_n = 0;  ///< of all together
   double vibration_n = 0;
   double vibration_hz = 0;
+  double torque_n_mm = 0;  ///< against the hand's turning of the shaft
 };
 static_assert(std::is_trivially_copyable_v<DeviceCommand>);
 

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define CARPUS_DEVICE_ABI 1
+#define CARPUS_DEVICE_ABI 2
 
 enum {
   CARPUS_CAN_POSITION = 1,
@@ -26,7 +26,8 @@ enum {
   CARPUS_CAN_FORCE = 8,
   CARPUS_CAN_STOP = 16,
   CARPUS_CAN_LOCAL_PLANE = 32,
-  CARPUS_CAN_VIBRATION = 64
+  CARPUS_CAN_VIBRATION = 64,
+  CARPUS_CAN_TORQUE = 128 /* about the handle's shaft */
 };
 
 enum {
@@ -75,6 +76,7 @@ typedef struct {
   double limit_n;
   double vibration_n;
   double vibration_hz;
+  double torque_n_mm; /* against the hand that turns the handle's shaft */
 } carpus_device_command;
 
 typedef struct {

@@ -39,6 +39,7 @@ Capabilities capabilities_of(const carpus_device_capabilities& said) noexcept {
   able.stop = (said.can & CARPUS_CAN_STOP) != 0;
   able.local_plane = (said.can & CARPUS_CAN_LOCAL_PLANE) != 0;
   able.vibration = (said.can & CARPUS_CAN_VIBRATION) != 0;
+  able.torque = (said.can & CARPUS_CAN_TORQUE) != 0;
   able.rate_hz = positive(said.rate_hz);
   able.peak_force_n = positive(said.peak_force_n);
   able.lasting_force_n = positive(said.lasting_force_n);
@@ -140,6 +141,7 @@ void PluginDevice::command(Nanoseconds now, const DeviceCommand& command) noexce
   told.limit_n = command.limit_n;
   told.vibration_n = command.vibration_n;
   told.vibration_hz = command.vibration_hz;
+  told.torque_n_mm = command.torque_n_mm;
   table_->command(device_, now, &told);
 }
 

@@ -19,13 +19,15 @@ inline constexpr double kMostStiffnessNPerMm = 10.0;
 inline constexpr double kMostDampingNSPerMm = 0.02;
 inline constexpr double kMostVibrationN = 1.0;
 inline constexpr double kMostVibrationHz = 500.0;
+inline constexpr double kMostTorqueNMm = 300.0;
 inline constexpr double kMostOffsetMm = 500.0;
 
 /// @param faults  is raised where something was no number.
 [[nodiscard]] inline DeviceCommand trusted(DeviceCommand command,
                                            const Capabilities& able,
                                            std::uint64_t& faults) noexcept {
-  const double scalars = command.limit_n + command.vibration_n + command.vibration_hz;
+  const double scalars =
+      command.limit_n + command.vibration_n + command.vibration_hz + command.torque_n_mm;
   bool is_sound = is_finite(command.force_n) && std::isfinite(scalars);
   command.plane_count =
       std::min<std::uint8_t>(command.plane_count, static_cast<std::uint8_t>(kMostPlanes));
@@ -52,11 +54,16 @@ inline constexpr double kMostOffsetMm = 500.0;
   if (size > command.limit_n) command.force_n *= command.limit_n / size;
   command.vibration_n = std::clamp(command.vibration_n, 0.0, kMostVibrationN);
   command.vibration_hz = std::clamp(command.vibration_hz, 0.0, kMostVibrationHz);
+  command.torque_n_mm = able.torque ? std::clamp(command.torque_n_mm, 0.0, kMostTorqueNMm) : 0.0;
   return command;
 }
 
+/// Of a slide [N s/mm]: below the friction that a press allows, a hand that hardly moves is hardly
+/// held, so that rounding of a velocity is no force.
+inline constexpr double kSlideDampingNSPerMm = 0.02;
+
 /// What planes and force come to for a device that takes forces alone: spring and damper into each
-/// plane, never a pull, limited last.
+/// plane, never a pull; friction against the slide, which takes work and gives none; limited last.
 [[nodiscard]] inline Vec3 force_of(const DeviceCommand& command,
                                    const Vec3& position_mm,
                                    const Vec3& velocity_mm_s) noexcept {
@@ -67,7 +74,13 @@ inline constexpr double kMostOffsetMm = 500.0;
     if (!(depth > 0)) continue;
     const double press = plane.stiffness_n_per_mm * depth -
                          plane.damping_n_s_per_mm * dot(plane.normal, velocity_mm_s);
-    if (press > 0) force += plane.normal * press;
+    if (!(press > 0)) continue;
+    force += plane.normal * press;
+    const Vec3 slide = velocity_mm_s - plane.normal * dot(plane.normal, velocity_mm_s);
+    const double speed = length(slide);
+    if (!(speed > 0)) continue;
+    const double rub = std::min(plane.friction * press, kSlideDampingNSPerMm * speed);
+    force -= slide * (rub / speed);
   }
   const double size = length(force);
   if (!(size > 0)) return {};

@@ -175,6 +175,7 @@ void write(FieldWriter& out, const FindDevices& /*in*/) { out.name("type", "find
 void read(FieldReader& in, UseDevice& out) {
   out.hand = in.integer("hand", 0, 1);
   out.device = in.string("device", 256);
+  if (in.has("aim")) out.aim = static_cast<DeviceAim>(in.choice("aim", kDeviceAimNames));
   out.right = in.vec3("right", 2.0, 0.5);
   out.up = in.vec3("up", 2.0, 0.5);
 }
@@ -183,6 +184,11 @@ void write(FieldWriter& out, const UseDevice& in) {
   out.name("type", "use_device");
   out.value("hand", in.hand);
   out.text("device", in.device, 256);
+  if (in.aim) {
+    out.name("aim", name_of(*in.aim));
+  } else {
+    out.null("aim");
+  }
   out.vec3("right", in.right);
   out.vec3("up", in.up);
 }

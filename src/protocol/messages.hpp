@@ -150,6 +150,8 @@ struct UseDevice {
   std::int64_t hand = 0;
   /// id; empty: the page
   std::string device;
+  /// none: as before, at first what the device does best
+  std::optional<DeviceAim> aim;
   Vec3 right;
   Vec3 up;
   bool operator==(const UseDevice&) const = default;

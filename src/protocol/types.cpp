@@ -373,6 +373,10 @@ void read(FieldReader& in, HandDevice& out) {
   out.real_time = in.boolean("real_time");
   out.force_n = in.number("force_n", 0.0, 1000.0);
   out.most_force_n = in.number("most_force_n", 0.0, 1000.0);
+  out.force = in.vec3("force", 1000.0, 0.0);
+  out.aim = static_cast<DeviceAim>(in.choice("aim", kDeviceAimNames));
+  out.has_portal = in.boolean("has_portal");
+  out.has_rotation = in.boolean("has_rotation");
   out.position_mm = in.vec3("position_mm", 10000.0, 0.0);
   out.is_testing = in.boolean("is_testing");
   out.may_calibrate = in.boolean("may_calibrate");
@@ -394,6 +398,10 @@ void write(FieldWriter& out, const HandDevice& in) {
   out.value("real_time", in.real_time);
   out.value("force_n", in.force_n);
   out.value("most_force_n", in.most_force_n);
+  out.vec3("force", in.force);
+  out.name("aim", name_of(in.aim));
+  out.value("has_portal", in.has_portal);
+  out.value("has_rotation", in.has_rotation);
   out.vec3("position_mm", in.position_mm);
   out.value("is_testing", in.is_testing);
   out.value("may_calibrate", in.may_calibrate);
@@ -409,6 +417,8 @@ void read(FieldReader& in, HandState& out) {
   out.contact_normal = in.vec3("contact_normal", 2.0, 0.0);
   out.force_n = in.vec3("force_n", 1000.0, 0.0);
   out.resistance_n = in.number("resistance_n", 0.0, 1000.0);
+  out.thrust_n = in.number("thrust_n", 0.0, 1000.0);
+  out.torque_n_mm = in.number("torque_n_mm", 0.0, 10000.0);
 }
 
 void write(FieldWriter& out, const HandState& in) {
@@ -419,6 +429,8 @@ void write(FieldWriter& out, const HandState& in) {
   out.vec3("contact_normal", in.contact_normal);
   out.vec3("force_n", in.force_n);
   out.value("resistance_n", in.resistance_n);
+  out.value("thrust_n", in.thrust_n);
+  out.value("torque_n_mm", in.torque_n_mm);
 }
 
 void read(FieldReader& in, Item& out) {

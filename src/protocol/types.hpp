@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 11;
+inline constexpr std::int64_t kProtocolVersion = 12;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -156,6 +156,14 @@ enum class CalibrationStep : std::uint8_t { Begin, Take, Cancel };
 inline constexpr std::array<std::string_view, 3> kCalibrationStepNames{"begin", "take", "cancel"};
 [[nodiscard]] constexpr std::string_view name_of(CalibrationStep value) noexcept {
   return kCalibrationStepNames[static_cast<std::size_t>(value)];
+}
+
+/// What the shaft of a device's hand follows: the page's wheel and keys, the portal through which
+/// the tool went in, the device's own rotation.
+enum class DeviceAim : std::uint8_t { Page, Portal, Own };
+inline constexpr std::array<std::string_view, 3> kDeviceAimNames{"page", "portal", "own"};
+[[nodiscard]] constexpr std::string_view name_of(DeviceAim value) noexcept {
+  return kDeviceAimNames[static_cast<std::size_t>(value)];
 }
 
 /// Of the body.
@@ -500,6 +508,13 @@ struct HandDevice {
   double force_n = 0.0;
   /// 0: it gives none [N] 0 to 1000
   double most_force_n = 0.0;
+  /// the same with its direction, in the device's frame: right, away, up
+  Vec3 force;
+  DeviceAim aim = DeviceAim::Page;
+  /// its shaft can follow a portal
+  bool has_portal = false;
+  /// its shaft can follow its own rotation
+  bool has_rotation = false;
   /// in its own frame
   Vec3 position_mm;
   /// the test wall stands
@@ -527,6 +542,11 @@ struct HandState {
   Vec3 force_n;
   /// of bone along the shaft [N] 0 to 1000
   double resistance_n = 0.0;
+  /// with which it pushes along the shaft: as the page says, or as a device is pressed [N] 0 to
+  /// 1000
+  double thrust_n = 0.0;
+  /// that turning a screw takes [N mm] 0 to 10000
+  double torque_n_mm = 0.0;
   bool operator==(const HandState&) const = default;
 };
 

@@ -18,6 +18,9 @@ static_assert(static_cast<int>(protocol::DeviceHealth::Gone) ==
 static_assert(static_cast<int>(protocol::DeviceHealth::HoldingBack) ==
               static_cast<int>(devices::Health::HoldingBack));
 
+static_assert(static_cast<int>(protocol::DeviceAim::Own) == static_cast<int>(Aim::Own));
+static_assert(static_cast<int>(protocol::DeviceAim::Portal) == static_cast<int>(Aim::Portal));
+
 constexpr std::array<const char*, simulation::kHands> kHandNames{"first", "second"};
 constexpr double kMostUs = 1e9;
 constexpr double kMostMm = 9999;
@@ -64,12 +67,21 @@ void DeviceDesk::use(const protocol::UseDevice& wish) {
           std::move(device), &hands_.exchange(static_cast<std::size_t>(wish.hand)));
     }
   }
+  if (wish.aim) held.wished_aim = static_cast<Aim>(*wish.aim);
+  held.view.aim = aim_of(held);
   held.view.right_in_patient = wish.right;
   held.view.up_in_patient = wish.up;
   held.view.is_used = held.loop != nullptr;
   ++held.view.revision;
   hands_.set_view(static_cast<std::size_t>(wish.hand), held.view);
   told_at_ = {};
+}
+
+/// What was chosen, as far as the device is able to.
+Aim DeviceDesk::aim_of(const Held& held) noexcept {
+  const devices::Capabilities& able = held.state.able;
+  const Aim best = best_aim(able);
+  return held.wished_aim && can_aim(*held.wished_aim, able) ? *held.wished_aim : best;
 }
 
 DeviceDesk::Held& DeviceDesk::held(std::int64_t hand, bool time_passes) {
@@ -121,6 +133,12 @@ std::optional<std::string> DeviceDesk::look() {
     Held& held = held_[i];
     if (!held.loop) continue;
     (void)held.loop->look(held.state);
+    // What a device is able to do is known when it has said who it is.
+    if (const Aim aim = aim_of(held); aim != held.view.aim) {
+      held.view.aim = aim;
+      hands_.set_view(i, held.view);
+      told_at_ = {};
+    }
     const bool is_well = devices::is_usable(held.state.device.health);
     if (is_well) {
       held.has_worked = true;
@@ -187,8 +205,15 @@ protocol::HandDevice DeviceDesk::describe(const Held& held) const {
   out.missed = static_cast<std::int64_t>(std::min<std::uint64_t>(timing.missed, 1U << 30U));
   out.round_trip_us = std::clamp(timing.round_trip_p50_us, 0.0, kMostUs);
   out.real_time = timing.scheduling == devices::SchedulingClass::Fifo;
-  const double given = length(state.device.force_n);
-  out.force_n = std::clamp(given > 0 ? given : length(state.asked_force_n), 0.0, 1000.0);
+  const Vec3 given =
+      squared_length(state.device.force_n) > 0 ? state.device.force_n : state.asked_force_n;
+  out.force_n = std::clamp(length(given), 0.0, 1000.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out.force[axis] = std::clamp(given[axis], -999.0, 999.0);
+  }
+  out.aim = static_cast<protocol::DeviceAim>(held.view.aim);
+  out.has_portal = can_aim(Aim::Portal, state.able);
+  out.has_rotation = can_aim(Aim::Own, state.able);
   out.most_force_n = std::clamp(state.able.peak_force_n, 0.0, 1000.0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     out.position_mm[axis] = std::clamp(state.device.position_mm[axis], -kMostMm, kMostMm);

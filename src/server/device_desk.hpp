@@ -53,6 +53,7 @@ class DeviceDesk {
     std::unique_ptr<devices::HostLoop> loop;
     devices::LoopState state;
     DeviceView view;
+    std::optional<Aim> wished_aim;  ///< none: what it does best
     bool has_worked = false;
     bool is_lost = false;
     bool is_testing = false;
@@ -64,6 +65,7 @@ class DeviceDesk {
   static constexpr std::chrono::seconds kTellFor{10};
 
   [[nodiscard]] Held& held(std::int64_t hand, bool time_passes);
+  [[nodiscard]] static Aim aim_of(const Held& held) noexcept;
   [[nodiscard]] protocol::HandDevice describe(const Held& held) const;
 
   std::optional<devices::DeviceSearch> search_;

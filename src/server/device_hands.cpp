@@ -3,10 +3,11 @@
 #include "server/device_hands.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/units.hpp"
 #include "devices/precise_clock.hpp"
-#include "haptics/virtual_coupling.hpp"
+#include "instruments/instrument.hpp"
 
 namespace carpus::server {
 namespace {
@@ -22,11 +23,16 @@ constexpr Nanoseconds kEngageAnewNs = 100 * devices::kNsPerMs;
 constexpr Nanoseconds kOldNs = 100 * devices::kNsPerMs;
 /// No hand moves farther in a tick: what does is a device that lost its place.
 constexpr double kMostMoveMm = 2.0;
-/// A drill in bone is felt as so much, at its own rate [E].
-constexpr double kDrillVibrationN = 0.25;
-constexpr double kDrillVibrationHz = 90;
-/// Bone that resists so much shakes the drill as much as it does.
-constexpr double kFullResistanceN = 20;
+/// As the world takes it.
+constexpr double kMostThrustN = 60;
+/// What the tool is held back by is more than this, or it is rounding [mm].
+constexpr double kHeldMm = 0.002;
+
+// The drives are in the order of what turns a tool.
+static_assert(static_cast<int>(instruments::Drive::Powered) ==
+              static_cast<int>(haptics::TurnedBy::Motor));
+static_assert(static_cast<int>(instruments::Drive::ByHand) ==
+              static_cast<int>(haptics::TurnedBy::Hand));
 
 struct Axes {
   Vec3 right;
@@ -89,7 +95,11 @@ void DeviceHands::guide(Hand& hand,
                         std::size_t index) noexcept {
   const devices::DeviceState& device = hand.state.device;
   const std::uint8_t item = last.hands[index].item;
-  if (item != hand.item) hand.is_engaged = false;
+  if (item != hand.item) {
+    hand.is_engaged = false;
+    hand.aim.forget();
+    hand.feel.rest();
+  }
   hand.item = item;
   const bool is_heard = devices::is_usable(device.health) &&
                         (!hand.state.able.absolute || now - device.heard_ns < kOldNs);
@@ -119,11 +129,70 @@ void DeviceHands::guide(Hand& hand,
   hand.tip_in_patient = wish;
   input.tip_in_patient = wish;
   input.guidance = simulation::Guidance::Direct;
-  if (hand.view.follows_turn && hand.state.able.rotation && hand.state.able.absolute) {
-    input.shaft_in_patient = to_patient(axes, device.rotation.column(2));
-  }
-  hand.shaft_in_patient = input.shaft_in_patient;
+  AimMoment aim;
+  aim.tip = wish;
+  aim.page_shaft = input.shaft_in_patient;
+  aim.own_shaft = to_patient(axes, device.rotation.column(2));
+  aim.own_spin_rad_s = to_patient(axes, device.spin_rad_s);
+  aim.is_at_bone =
+      item < simulation::kMaxItems && (last.hands[index].ahead.body != simulation::kNoBody ||
+                                       last.items[item].body != simulation::kNoBody);
+  input.shaft_in_patient = hand.aim.shaft(hand.view.aim, hand.state.able, aim);
   hand.driver = input.driver;
+  press(hand, input, last);
+}
+
+/// What a hand presses along the shaft, where the device can answer it.
+void DeviceHands::press(const Hand& hand, HandInput& input, const Snapshot& last) noexcept {
+  const devices::Capabilities& able = hand.state.able;
+  if (!able.force || !able.absolute || hand.item >= simulation::kMaxItems) return;
+  const simulation::ItemView& item = last.items[hand.item];
+  haptics::FeltMoment moment;
+  moment.tip = item.tip_in_patient;
+  moment.wish = hand.tip_in_patient;
+  moment.shaft = item.shaft_in_patient;
+  const haptics::FeelTable& table = haptics::feel_table();
+  double stiffness = table.bone.feel.stiffness_n_per_mm;
+  if (able.most_stiffness_n_per_mm > 0)
+    stiffness = std::min(stiffness, able.most_stiffness_n_per_mm);
+  const double pressed = std::min(haptics::press_n(moment, stiffness), able.peak_force_n);
+  input.thrust_n = std::min(haptics::thrust_of_press_n(table.drilling, pressed, able.peak_force_n),
+                            kMostThrustN);
+}
+
+haptics::FeltMoment DeviceHands::moment_of(Hand& hand,
+                                           const Snapshot& snapshot,
+                                           std::size_t index) noexcept {
+  const simulation::HandView& felt = snapshot.hands[index];
+  const simulation::ItemView& item = snapshot.items[felt.item];
+  haptics::FeltMoment moment;
+  moment.tip = item.tip_in_patient;
+  moment.wish = hand.tip_in_patient;
+  moment.shaft = item.shaft_in_patient;
+  moment.is_in_bone = item.body != simulation::kNoBody;
+  moment.is_held_back =
+      squared_length(felt.force_in_patient) > 0 || felt.contact_depth_mm > kHeldMm;
+  moment.most_n_per_mm = hand.state.able.most_stiffness_n_per_mm;
+  moment.near = {felt.ahead.body != simulation::kNoBody, felt.ahead.gap_mm,
+                 felt.ahead.normal_in_patient,
+                 felt.ahead.facing_mm < haptics::feel_table().joint_gap_mm};
+  const auto catalogue = instruments::catalogue();
+  if (item.instrument >= catalogue.size()) return moment;
+  const instruments::Instrument& kind = catalogue[item.instrument];
+  moment.is_pointed = kind.work == instruments::Work::Drill;
+  moment.turned_by = static_cast<haptics::TurnedBy>(kind.drive);
+  // A device that can turn back needs no ticks.
+  if (hand.state.able.torque && kind.drive == instruments::Drive::ByHand)
+    moment.turned_by = haptics::TurnedBy::Nothing;
+  moment.is_turning = hand.driver != simulation::Driver::Off;
+  moment.resistance_n = felt.resistance_n;
+  const double fed_mm = std::abs(item.depth_mm - hand.depth_mm);
+  if (kind.feed.fastest_mm_per_s > 0)
+    moment.feed_share = fed_mm / (kind.feed.fastest_mm_per_s * kTickSeconds);
+  hand.depth_mm = item.depth_mm;
+  if (const auto& thread = kind.shape.thread()) moment.turns = item.depth_mm / thread->pitch_mm;
+  moment.torque_n_mm = felt.torque_n_mm;
+  return moment;
 }
 
 void DeviceHands::after_at(Nanoseconds now, const Snapshot& snapshot) noexcept {
@@ -132,29 +201,24 @@ void DeviceHands::after_at(Nanoseconds now, const Snapshot& snapshot) noexcept {
     if (!hand.view.is_used || !hand.is_engaged) continue;
     devices::TimedCommand wish;
     wish.at_ns = now;
-    const simulation::HandView& felt = snapshot.hands[i];
-    const devices::Capabilities& able = hand.state.able;
-    wish.command.limit_n = able.peak_force_n;
-    const double force = length(felt.force_in_patient);
-    if (felt.item < simulation::kMaxItems && force > 0) {
+    devices::DeviceCommand& command = wish.command;
+    command.limit_n = hand.state.able.peak_force_n;
+    if (snapshot.hands[i].item < simulation::kMaxItems) {
       const Axes axes = axes_of(hand.view);
-      const simulation::ItemView& item = snapshot.items[felt.item];
-      const Vec3 out = felt.force_in_patient / force;
-      devices::LocalPlane& plane = wish.command.planes[0];
-      plane.normal = to_device(axes, out);
-      // Where the tip may be, as the device would say it.
-      const Vec3 proxy =
-          hand.device_anchor_mm + to_device(axes, item.tip_in_patient - hand.tip_anchor_mm);
-      plane.offset_mm = dot(plane.normal, proxy);
-      plane.stiffness_n_per_mm = haptics::kContactStiffnessNPerMm;
-      plane.damping_n_s_per_mm = haptics::kContactDampingNSPerMm;
-      plane.friction = 0.1;
-      wish.command.plane_count = 1;
-      if (hand.driver != simulation::Driver::Off && felt.resistance_n > 0) {
-        const double share = std::min(1.0, felt.resistance_n / kFullResistanceN);
-        wish.command.vibration_n = kDrillVibrationN * share;
-        wish.command.vibration_hz = kDrillVibrationHz;
-      }
+      const haptics::Felt felt = hand.feel.feel(moment_of(hand, snapshot, i));
+      // Where a plane of the patient lies, as the device would say it.
+      const auto place = [&](const haptics::SurfacePlane& plane) {
+        const Vec3 normal = to_device(axes, plane.normal);
+        const double away = plane.offset_mm - dot(plane.normal, hand.tip_anchor_mm);
+        const double stiffness = plane.feel.stiffness_n_per_mm;
+        return devices::LocalPlane{normal, dot(normal, hand.device_anchor_mm) + away, stiffness,
+                                   stiffness * plane.feel.damping_s, plane.feel.friction};
+      };
+      for (std::size_t k = 0; k < felt.plane_count; ++k) command.planes[k] = place(felt.planes[k]);
+      command.plane_count = static_cast<std::uint8_t>(felt.plane_count);
+      command.vibration_n = felt.vibration_n;
+      command.vibration_hz = felt.vibration_hz;
+      command.torque_n_mm = snapshot.hands[i].torque_n_mm;
     }
     hand.exchange.wishes.publish(wish);
   }

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Devices as hands: where a device moves, the instrument's tip is wished, on the same input that a
-// page's hand has; what the tip meets goes back as planes in the device's frame. What the page says
-// of that hand's shaft, push and driver stays. In the simulation's thread.
+// page's hand has; what the tip meets, or is about to, goes back as planes in the device's frame,
+// with what the tool does (haptics/operation_feel). A device that gives forces is pushed with:
+// thrust is what its hand presses. The driver is the page's. In the simulation's thread.
 #pragma once
 
 #include <array>
 
 #include "devices/host_loop.hpp"
+#include "haptics/operation_feel.hpp"
+#include "server/device_aim.hpp"
 #include "server/tick_guest.hpp"
 
 namespace carpus::server {
@@ -18,7 +21,7 @@ struct DeviceView {
   Vec3 right_in_patient{1, 0, 0};
   Vec3 up_in_patient{0, 0, 1};
   bool is_used = false;        ///< the hand is a device's
-  bool follows_turn = false;   ///< the shaft too
+  Aim aim = Aim::Page;         ///< what the shaft follows
   std::uint32_t revision = 0;  ///< raised with each change: the tip stays, whatever else turns
 };
 
@@ -54,8 +57,10 @@ class DeviceHands final : public TickGuest {
     Vec3 device_anchor_mm;
     Vec3 tip_anchor_mm;
     Vec3 tip_in_patient;  ///< wished in the last tick
-    Vec3 shaft_in_patient{0, 0, 1};
+    DeviceAim aim;
     simulation::Driver driver = simulation::Driver::Off;
+    double depth_mm = 0;  ///< of what it holds, at the last tick
+    haptics::OperationFeel feel{haptics::feel_table()};
     devices::Nanoseconds ticked_ns = 0;
   };
 
@@ -67,6 +72,12 @@ class DeviceHands final : public TickGuest {
   static void engage(Hand& hand,
                      const simulation::HandInput& input,
                      const simulation::Snapshot& last) noexcept;
+  static void press(const Hand& hand,
+                    simulation::HandInput& input,
+                    const simulation::Snapshot& last) noexcept;
+  [[nodiscard]] static haptics::FeltMoment moment_of(Hand& hand,
+                                                     const simulation::Snapshot& snapshot,
+                                                     std::size_t index) noexcept;
 
   std::array<Hand, simulation::kHands> hands_;
 };

@@ -6,6 +6,9 @@
 
 #include <cmath>
 
+#include "devices/trusted_command.hpp"
+#include "instruments/instrument.hpp"
+
 namespace carpus::server {
 namespace {
 
@@ -129,6 +132,41 @@ TEST(DeviceHands, WhatTheTipMeetsIsAPlaneInTheDevicesFrame) {
   desk.hands.after_at(desk.now, desk.now_state);
   ASSERT_TRUE(desk.hands.exchange(0).wishes.take(wish));
   EXPECT_EQ(wish.command.plane_count, 0);
+}
+
+TEST(DeviceHands, ASurfaceIsToldBeforeItIsTouched) {
+  Desk desk;
+  desk.tick();
+  desk.now_state.hands[0].ahead = {3, 1.5, {0, 0, 1}, 2.0};
+  desk.now_state.items[0].instrument = *instruments::instrument_of("guide_wire");
+  desk.hands.after_at(desk.now, desk.now_state);
+  devices::TimedCommand wish;
+  ASSERT_TRUE(desk.hands.exchange(0).wishes.take(wish));
+  ASSERT_EQ(wish.command.plane_count, 1);
+  EXPECT_NEAR(wish.command.planes[0].offset_mm, -1.5, 1e-9);
+  EXPECT_EQ(devices::force_of(wish.command, {}, {}), Vec3{});
+}
+
+TEST(DeviceHands, ADeviceThatGivesForcesIsPushedWithAndAnyOtherIsNot) {
+  Desk desk;
+  desk.tick();
+  desk.device.device.position_mm = {0, 0, -1};
+  desk.tick();
+  desk.now_state.items[0].tip_in_patient = {10, 20, 30};
+  desk.now_state.items[0].shaft_in_patient = {0, 0, 1};
+  desk.device.able.most_stiffness_n_per_mm = 2;
+  desk.hands.exchange(0).states.publish(desk.device);
+  Input input;
+  input.hands[0].thrust_n = 20;
+  desk.hands.before_at(desk.now, input, desk.now_state);
+  // 1 mm deep at 2 N/mm on a device of 8 N: 6.4 N are the hardest bone's 45.
+  EXPECT_NEAR(input.hands[0].thrust_n, 2 * 45 / 6.4, 1e-9);
+  desk.device.able.force = false;
+  desk.device.able.stop = true;
+  desk.hands.exchange(0).states.publish(desk.device);
+  input.hands[0].thrust_n = 20;
+  desk.hands.before_at(desk.now, input, desk.now_state);
+  EXPECT_EQ(input.hands[0].thrust_n, 20);
 }
 
 TEST(DeviceHands, AHandOfThePageIsLeftAlone) {

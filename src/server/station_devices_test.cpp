@@ -102,6 +102,12 @@ TEST_F(StationDevicesTest, AnArmIsChosenOperatesIsUnpluggedAndComesBack) {
   const Json well = wait_for_health("good")["hands"][0];
   EXPECT_THAT(well["can"].get<std::string>(), HasSubstr("force"));
   EXPECT_EQ(well["most_force_n"], 8);
+  EXPECT_EQ(well["aim"], "portal");  // it has no rotation of its own
+  EXPECT_EQ(well["has_portal"], true);
+  EXPECT_EQ(well["has_rotation"], false);
+  page_->send(R"({"type":"use_device","hand":0,"device":")" + well["id"].get<std::string>() +
+              R"(","aim":"page","right":[1,0,0],"up":[0,0,1]})");
+  wait_for("devices", [](const Json& m) { return m["hands"][0]["aim"] == "page"; });
   page_->send(R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
               R"("input_device":"arm","seed":7})");
   const auto snapshot = [this](const std::function<bool(const Json&)>& fits) {

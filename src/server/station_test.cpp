@@ -34,8 +34,8 @@ using testing::PageClient;
 using testing::request;
 using Json = nlohmann::json;
 
-constexpr const char* kHello = R"({"type":"hello","protocol":11,"page":"first"})";
-constexpr const char* kSecondHello = R"({"type":"hello","protocol":11,"page":"second"})";
+constexpr const char* kHello = R"({"type":"hello","protocol":12,"page":"first"})";
+constexpr const char* kSecondHello = R"({"type":"hello","protocol":12,"page":"second"})";
 constexpr const char* kStart = R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
                                R"("input_device":"mouse","seed":7})";
 constexpr const char* kHand =

@@ -30,6 +30,8 @@ protocol::HandState message_of(const simulation::HandView& hand, const BodyNames
   message.contact_normal = hand.contact_normal_in_patient;
   message.force_n = hand.force_in_patient;
   message.resistance_n = std::max(0.0, hand.resistance_n);
+  message.thrust_n = std::max(0.0, hand.thrust_n);
+  message.torque_n_mm = std::clamp(hand.torque_n_mm, 0.0, 10000.0);
   return message;
 }
 

@@ -49,6 +49,17 @@ struct ItemView {
   bool operator==(const ItemView&) const = default;
 };
 
+/// Bone before the foremost point of a free instrument: for devices that render it by themselves,
+/// so that it is there before it is touched. Follows from the state, is none of it.
+struct SurfaceAhead {
+  std::uint8_t body = kNoBody;  ///< kNoBody: none near, or a hole is
+  double gap_mm = 0.0;
+  Vec3 normal_in_patient{};   ///< unit, out of the bone
+  double facing_mm = kFarMm;  ///< from the surface to another bone that faces it
+  static constexpr double kFarMm = 100.0;
+  bool operator==(const SurfaceAhead&) const = default;
+};
+
 /// What a hand feels.
 struct HandView {
   std::uint8_t item = kNoItem;
@@ -58,6 +69,9 @@ struct HandView {
   Vec3 contact_normal_in_patient{};
   Vec3 force_in_patient{};    ///< on the hand [N]
   double resistance_n = 0.0;  ///< of bone along the shaft [N]
+  double thrust_n = 0.0;      ///< with which it pushes along the shaft [N]
+  double torque_n_mm = 0.0;   ///< that turning a screw takes
+  SurfaceAhead ahead;
   bool operator==(const HandView&) const = default;
 };
 

@@ -165,8 +165,10 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   move_wrist(model, input.wrist);
   for (std::size_t h = 0; h < kHands; ++h) {
     detail::HandState& hand = spent.hands[h];
-    snapshot.hands[h].resistance_n = 0.0;
+    snapshot.hands[h].resistance_n = snapshot.hands[h].torque_n_mm = 0.0;
+    snapshot.hands[h].ahead = {};
     hand.wish = checked(h, input.hands[h]);
+    snapshot.hands[h].thrust_n = hand.wish.thrust_n;
     Item* item = in_hand(h);
     if (!hand.has_wish) {
       // It comes in from behind the hand, so that it starts in no bone.

@@ -193,7 +193,9 @@ void World::State::rest_or_engage(const Model& model, std::uint8_t hand) noexcep
   const instruments::Instrument& kind = kind_of(model, item);
   // The foremost ball decides what is touched: a cone's tip is the tip itself.
   const double tip_radius = kind.shape.least_radius_mm();
-  Touched surface = surface_at(item.tip + item.shaft * kind.shape.front_z_mm());
+  const Vec3 front = item.tip + item.shaft * kind.shape.front_z_mm();
+  Touched surface = surface_at(front);
+  snapshot.hands[hand].ahead = surface_ahead(front, tip_radius, surface);
   surface.distance_mm -= tip_radius;
   const bool is_touching = surface.body != kNoBody && surface.distance_mm <= kTouchingMm;
   const std::uint8_t body = is_touching ? surface.body : kNoBody;

@@ -157,6 +157,7 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
     if (kind.work == Work::Thread) {
       seat(model, index);
       compress(model, index, item.travel_mm - travel_before);
+      view.torque_n_mm = torque_n_mm(model, item, held.wish.driver);
     }
     if (kind.work == Work::Ream && item.depth_mm() > now.reamed_mm) {
       now.reamed_mm = item.depth_mm();

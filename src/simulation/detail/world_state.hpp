@@ -154,6 +154,10 @@ struct World::State {
     Vec3 normal_in_patient;
   };
   [[nodiscard]] Touched surface_at(const Vec3& point_in_patient) const noexcept;
+  // surface_ahead.cpp
+  [[nodiscard]] SurfaceAhead surface_ahead(const Vec3& front,
+                                           double radius_mm,
+                                           const Touched& surface) const noexcept;
 
   // line_motion.cpp
   void engage(const Model& model, std::uint8_t hand, const Touched& surface) noexcept;
@@ -181,6 +185,10 @@ struct World::State {
                                  double closing_mm) noexcept;
 
   void seat(const Model& model, std::uint8_t index) noexcept;
+  // turning.cpp
+  [[nodiscard]] double torque_n_mm(const Model& model,
+                                   const detail::Item& screw,
+                                   Driver driver) const noexcept;
   [[nodiscard]] double holding_share_of(const Model& model,
                                         const detail::Item& item) const noexcept;
   [[nodiscard]] double density_hu(const Model& model, const Vec3& point_in_patient) const noexcept;

@@ -2,7 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { HandDevice, Vec3 } from "../protocol";
-import { figures, forceText, heldText, isWell, lostText, timeText } from "./device_model";
+import {
+  aimsOf,
+  figures,
+  forceArrow,
+  forceText,
+  heldText,
+  isPushedWith,
+  isWell,
+  lostText,
+  timeText,
+} from "./device_model";
 import { DeviceView } from "./device_view_model";
 
 const PAGE: HandDevice = {
@@ -19,6 +29,10 @@ const PAGE: HandDevice = {
   real_time: false,
   force_n: 0,
   most_force_n: 0,
+  force: [0, 0, 0],
+  aim: "page",
+  has_portal: false,
+  has_rotation: false,
   position_mm: [0, 0, 0],
   is_testing: false,
   may_calibrate: false,
@@ -53,6 +67,23 @@ describe("what is said of a device", () => {
     expect(forceText(PAGE)).toBe("gives no force");
   });
 
+  it("names what its direction can follow, what it does best first", () => {
+    expect(aimsOf(PAGE).map(([aim]) => aim)).toEqual(["page"]);
+    expect(aimsOf({ ...ARM, has_portal: true }).map(([, text]) => text)).toEqual([
+      "points from the portal",
+      "page's wheel",
+    ]);
+    expect(aimsOf({ ...ARM, has_portal: true, has_rotation: true })[0]?.[0]).toBe("own");
+  });
+
+  it("points its force as on the screen, never longer than the dial", () => {
+    expect(forceArrow({ ...ARM, force: [0, 0, 4] })).toEqual({ x: 0, y: 0.5, depth: 0 });
+    expect(forceArrow({ ...ARM, force: [0, -2, 0] }).depth).toBe(0.25);
+    const long = forceArrow({ ...ARM, force: [30, 0, 40] });
+    expect([long.x, long.y]).toEqual([0.6, 0.8]);
+    expect(forceArrow(PAGE)).toEqual({ x: 0, y: 0, depth: 0 });
+  });
+
   it("says in the bar what is held and how it is, without the advice", () => {
     expect(heldText([PAGE, PAGE], "mouse and keys")).toBe("mouse and keys");
     const gone: HandDevice = { ...ARM, health: "gone", words: "unplugged. Plug it in." };
@@ -62,6 +93,8 @@ describe("what is said of a device", () => {
     expect(figures(gone)).toEqual([]);
     expect(isWell(gone)).toBe(false);
     expect(isWell({ ...ARM, health: "holding_back" })).toBe(true);
+    expect(isPushedWith({ ...ARM, can: "position, force" })).toBe(true);
+    expect(isPushedWith({ ...ARM, can: "position, stops" })).toBe(false);
   });
 });
 

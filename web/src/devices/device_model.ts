@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is said of a device in words. Pure.
-import type { HandDevice } from "../protocol";
+import type { DeviceAim, HandDevice } from "../protocol";
 
 /** Its microseconds as people read them. */
 export function timeText(us: number): string {
@@ -26,6 +26,36 @@ export function figures(device: HandDevice): readonly (readonly [name: string, v
   ];
 }
 
+const AIMS: Readonly<Record<DeviceAim, string>> = {
+  portal: "points from the portal",
+  own: "own rotation",
+  page: "page's wheel",
+};
+
+/** What the direction of what it holds can follow, what it does best first. */
+export function aimsOf(device: HandDevice): readonly (readonly [aim: DeviceAim, text: string])[] {
+  const can: DeviceAim[] = [];
+  if (device.has_rotation) can.push("own");
+  if (device.has_portal) can.push("portal");
+  return [...can, "page" as const].map((aim) => [aim, AIMS[aim]]);
+}
+
+/** An arrow as on the screen, whose right and up the device's are: from the middle, at most 1 long. */
+export interface ForceArrow {
+  readonly x: number;
+  readonly y: number;
+  /** 0 to 1: of it that points away from or to whoever sits there */
+  readonly depth: number;
+}
+
+export function forceArrow({ force, most_force_n }: HandDevice): ForceArrow {
+  const most = most_force_n > 0 ? most_force_n : 1;
+  const [right, away, up] = force;
+  const size = Math.hypot(right, away, up);
+  const scale = size > most ? 1 / size : 1 / most;
+  return { x: right * scale, y: up * scale, depth: Math.abs(away) * scale };
+}
+
 export function forceText(device: HandDevice): string {
   return device.most_force_n > 0
     ? `${device.force_n.toFixed(1)} N of ${device.most_force_n.toFixed(1)} N`
@@ -45,6 +75,11 @@ export function lostText(hands: readonly HandDevice[]): string {
     hands.filter((one) => one.id !== "" && !isWell(one)),
     "",
   );
+}
+
+/** Whether what its hand presses is what it pushes with. */
+export function isPushedWith(device: HandDevice): boolean {
+  return isWell(device) && device.can.split(", ").includes("force");
 }
 
 /** Whether it can be felt now. */

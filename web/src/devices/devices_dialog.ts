@@ -5,14 +5,17 @@
 // while it is open.
 import { button, make, setText } from "../dom";
 import type { HandIndex } from "../operation";
-import type { DevicesMessage, FoundDevice, HandDevice } from "../protocol";
-import { figures, forceText, isWell } from "./device_model";
+import type { DeviceAim, DevicesMessage, FoundDevice, HandDevice } from "../protocol";
+import { aimsOf, figures, forceText, isWell } from "./device_model";
+import { ForceDial } from "./force_dial";
 import "./devices.css";
 
 export interface DeviceHandlers {
   find(): void;
   /** @param id  empty: the page itself */
   use(hand: HandIndex, id: string): void;
+  /** What the shaft of the device that this hand holds follows. */
+  aim(hand: HandIndex, id: string, aim: DeviceAim): void;
   wall(hand: HandIndex, on: boolean): void;
   calibrate(hand: HandIndex, step: "begin" | "take" | "cancel"): void;
 }
@@ -27,7 +30,12 @@ class HandCard {
   private readonly figures = make("dl.device-figures");
   private readonly meter = make("meter", { min: "0", max: "8", value: "0" });
   private readonly force = make("span");
+  private readonly dial = new ForceDial();
   private readonly forceRow: HTMLElement;
+  private readonly aim: HTMLSelectElement;
+  private readonly aimRow: HTMLElement;
+  private aims = "";
+  private id = "";
   private readonly wall: HTMLButtonElement;
   private readonly begin: HTMLButtonElement;
   private readonly guide = make("p.device-guide", { role: "status" });
@@ -41,6 +49,16 @@ class HandCard {
     this.choice.addEventListener("change", () => {
       handlers.use(hand, this.choice.value);
     });
+    this.aim = make("select", { id: `${id}-aim` });
+    this.aim.addEventListener("change", () => {
+      handlers.aim(hand, this.id, this.aim.value as DeviceAim);
+    });
+    this.aimRow = make(
+      "p.device-aim",
+      {},
+      make("label", { for: `${id}-aim` }, "Direction"),
+      this.aim,
+    );
     this.wall = button("Feel a test wall", "", () => {
       handlers.wall(hand, !this.isTesting);
     });
@@ -69,13 +87,14 @@ class HandCard {
       ),
     );
     this.meter.setAttribute("aria-label", `Force on the ${HANDS[hand].toLowerCase()}`);
-    this.forceRow = make("p.device-force", {}, this.meter, this.force);
+    this.forceRow = make("p.device-force", {}, this.dial.element, this.meter, this.force);
     this.element = make(
       "section.device",
       { "aria-label": HANDS[hand] },
       make("label", { for: id }, HANDS[hand]),
       this.choice,
       this.words,
+      this.aimRow,
       this.forceRow,
       this.figures,
       make("p.device-trials", {}, this.wall, this.begin, this.steps),
@@ -93,6 +112,9 @@ class HandCard {
     this.meter.max = device.most_force_n > 0 ? device.most_force_n : 1;
     this.meter.value = device.force_n;
     setText(this.force, forceText(device));
+    this.dial.show(device);
+    this.id = device.id;
+    this.showAims(device);
     this.showFigures(device);
     this.isTesting = device.is_testing;
     this.wall.hidden = !held || device.most_force_n === 0;
@@ -115,6 +137,18 @@ class HandCard {
       this.choice.replaceChildren(...all.map((one) => make("option", { value: one.id }, one.name)));
     }
     if (document.activeElement !== this.choice || this.choice.value !== id) this.choice.value = id;
+  }
+
+  private showAims(device: HandDevice): void {
+    const all = aimsOf(device);
+    this.aimRow.hidden = device.id === "" || all.length < 2;
+    const aims = JSON.stringify(all);
+    if (aims !== this.aims) {
+      this.aims = aims;
+      this.aim.replaceChildren(...all.map(([aim, text]) => make("option", { value: aim }, text)));
+    }
+    if (document.activeElement !== this.aim || this.aim.value !== device.aim)
+      this.aim.value = device.aim;
   }
 
   private showFigures(device: HandDevice): void {
@@ -171,7 +205,7 @@ export class DevicesDialog {
         make(
           "p.secondary",
           {},
-          "A device moves the tip along the screen's right and up. Push, driver and direction stay with mouse and keys.",
+          "A device moves the tip along the screen's right and up. One that gives forces is pushed with; the driver stays with Space.",
         ),
         make("div.device-cards", {}, this.cards[0].element, this.cards[1].element),
         this.none,

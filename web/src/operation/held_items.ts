@@ -35,14 +35,20 @@ export function whyItKeepsStill(
     : `It is held by ${where}: hold {KeyR} to bring it out, then place it anew.`;
 }
 
-/** Said while the driver runs and nothing moves. */
-export function whyStuck(s: SnapshotMessage, hand: HandIndex, thrustN: number): string | undefined {
+/** Said while the driver runs and nothing moves. @param isPressed  a device is pushed with, not keys */
+export function whyStuck(
+  s: SnapshotMessage,
+  hand: HandIndex,
+  thrustN: number,
+  isPressed: boolean,
+): string | undefined {
   const item = heldItem(s, hand);
   if (item === undefined)
     return "This hand is empty: {KeyC} opens the tray, {KeyH} moves the other hand.";
   const { resistance_n, touching } = s.hands[hand];
   if (item.body !== "" && resistance_n > 0 && resistance_n >= thrustN) {
-    return `The bone resists ${Math.round(resistance_n)} N, you push ${thrustN} N: push more, {BracketRight}.`;
+    const more = isPressed ? "press more." : "push more, {BracketRight}.";
+    return `The bone resists ${Math.round(resistance_n)} N, you push ${Math.round(thrustN)} N: ${more}`;
   }
   if (item.body === "" && !touching) {
     return "The tip touches no bone: {KeyA} brings it nearer, or drag it onto the bone.";

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 11;
+export const PROTOCOL_VERSION = 12;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -55,6 +55,9 @@ export type DeviceHealth = "closed" | "starting" | "uncalibrated" | "good" | "ho
 
 /** Of a guided calibration: begin, measure what is held now, give up. */
 export type CalibrationStep = "begin" | "take" | "cancel";
+
+/** What the shaft of a device's hand follows: the page's wheel and keys, the portal through which the tool went in, the device's own rotation. */
+export type DeviceAim = "page" | "portal" | "own";
 
 /** Of the body. */
 export type Side = "left" | "right";
@@ -359,6 +362,13 @@ export interface HandDevice {
   readonly force_n: number;
   /** 0: it gives none [N] 0 to 1000 */
   readonly most_force_n: number;
+  /** the same with its direction, in the device's frame: right, away, up */
+  readonly force: Vec3;
+  readonly aim: DeviceAim;
+  /** its shaft can follow a portal */
+  readonly has_portal: boolean;
+  /** its shaft can follow its own rotation */
+  readonly has_rotation: boolean;
   /** in its own frame */
   readonly position_mm: Vec3;
   /** the test wall stands */
@@ -385,6 +395,10 @@ export interface HandState {
   readonly force_n: Vec3;
   /** of bone along the shaft [N] 0 to 1000 */
   readonly resistance_n: number;
+  /** with which it pushes along the shaft: as the page says, or as a device is pressed [N] 0 to 1000 */
+  readonly thrust_n: number;
+  /** that turning a screw takes [N mm] 0 to 10000 */
+  readonly torque_n_mm: number;
 }
 
 /** An instrument that is out of the tray. */
@@ -727,6 +741,8 @@ export interface UseDeviceMessage {
   readonly hand: number;
   /** id; empty: the page */
   readonly device: string;
+  /** none: as before, at first what the device does best */
+  readonly aim: DeviceAim | null;
   readonly right: Vec3;
   readonly up: Vec3;
 }

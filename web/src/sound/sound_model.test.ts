@@ -10,6 +10,7 @@ const rest: Heard = {
   driver: "off",
   drive: "powered",
   resistanceN: 0,
+  torqueNMm: 0,
   depthMm: 0,
   pitchMm: 0,
   live: false,
@@ -49,6 +50,8 @@ describe("SoundModel", () => {
     for (let i = 0; i <= 300; ++i)
       clicks += model.hear({ ...rest, ...screw, nowMs: 16 * i, depthMm: 0.01 * i }).clicks;
     expect(clicks).toBe(6);
+    expect(model.hear({ ...rest, torqueNMm: 80 }).tightness).toBe(0.5);
+    expect(model.hear({ ...rest, torqueNMm: 900 }).tightness).toBe(1);
     expect(model.hear({ ...rest, ...screw, nowMs: 5000, depthMm: 0 }).clicks).toBe(0);
   });
 

@@ -13,6 +13,8 @@ export interface Heard {
   readonly drive: Drive;
   /** Of bone along the shaft [N]. */
   readonly resistanceN: number;
+  /** That turning a screw takes [N mm]. */
+  readonly torqueNMm: number;
   /** How deep it is in bone [mm]. */
   readonly depthMm: number;
   /** Of a thread [mm]; 0 for none. */
@@ -28,6 +30,8 @@ export interface Sounds {
   /** 0 to 1: how hard it works. */
   readonly load: number;
   readonly clicks: number;
+  /** 0 to 1: how tight the screw is that clicks. */
+  readonly tightness: number;
   readonly beeps: boolean;
   /** A single picture was taken since. */
   readonly shot: boolean;
@@ -38,6 +42,8 @@ const FREE_HZ = 330;
 const LOADED_SHARE = 0.42;
 /** At this resistance it labours as much as it can [N]. */
 const FULL_LOAD_N = 45;
+/** At this torque a screw is as tight as it gets [N mm]. */
+const FULL_TORQUE_N_MM = 160;
 /** How slowly the motor gives in, and comes up again [ms]. */
 const SLOWS_MS = 90;
 const LEAPS_MS = 35;
@@ -73,6 +79,7 @@ export class SoundModel {
       motorHz: isRunning ? FREE_HZ * way * (1 - LOADED_SHARE * this.load + races) : 0,
       load: this.load,
       clicks: this.clicksOf(now, last),
+      tightness: Math.min(1, now.torqueNMm / FULL_TORQUE_N_MM),
       beeps: now.live,
       shot: shots === 1 && !now.live,
     };

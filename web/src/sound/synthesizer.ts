@@ -44,7 +44,7 @@ export class Synthesizer {
       samples[i] = (2 * Math.random() - 1) * Math.exp(-i / (0.004 * context.sampleRate));
   }
 
-  play({ beeps, clicks, load, motorHz, shot }: Sounds): void {
+  play({ beeps, clicks, load, motorHz, shot, tightness }: Sounds): void {
     const now = this.context.currentTime;
     const runs = motorHz > 0;
     if (runs) {
@@ -54,7 +54,7 @@ export class Synthesizer {
     }
     const gain = runs ? MOTOR_GAIN * (0.8 + 0.4 * load) : 0;
     this.motorGain.gain.setTargetAtTime(gain, now, SMOOTH_S);
-    for (let i = 0; i < clicks; ++i) this.click(now + 0.03 * i);
+    for (let i = 0; i < clicks; ++i) this.click(now + 0.03 * i, tightness);
     if (shot) this.beep(now, SHOT_S);
     if (beeps && now >= this.nextBeepS) {
       this.beep(now, BEEP_S);
@@ -79,11 +79,13 @@ export class Synthesizer {
     source.stop(atS + lengthS);
   }
 
-  private click(atS: number): void {
+  /** The tighter, the louder and the lower. */
+  private click(atS: number, tightness: number): void {
     const source = this.context.createBufferSource();
     source.buffer = this.noise;
     const gain = this.context.createGain();
-    gain.gain.value = CLICK_GAIN;
+    source.playbackRate.value = 1.3 - 0.6 * tightness;
+    gain.gain.value = CLICK_GAIN * (0.6 + 0.8 * tightness);
     source.connect(gain).connect(this.context.destination);
     source.start(atS);
   }

@@ -14,6 +14,8 @@ const HAND: HandState = {
   contact_normal: [0, 0, 1],
   force_n: [0, 0, 2],
   resistance_n: 2,
+  thrust_n: 20,
+  torque_n_mm: 0,
 };
 const ITEM: Item = {
   item: 0,

@@ -53,6 +53,7 @@ export class BottomBar {
   private readonly depth = make("span.depth");
   private readonly resistance = make("span");
   private readonly force = make("span");
+  private readonly torque = make("span");
   private readonly gauge = make("span");
   private readonly holding = make("span");
   private readonly sparkline = new Sparkline();
@@ -98,6 +99,7 @@ export class BottomBar {
         this.depth,
         this.resistance,
         this.force,
+        this.torque,
         this.sparkline.canvas,
         this.gauge,
         this.holding,
@@ -129,10 +131,14 @@ export class BottomBar {
   show(s: SnapshotMessage, active: HandIndex, driver: Driver, thrustN: number): void {
     for (const hand of [0, 1] as const) this.showHand(s, hand, hand === active);
     const item = heldItem(s, active);
-    setText(this.driver, item === undefined ? "" : `${DRIVING[driver]}push ${thrustN} N`);
+    setText(
+      this.driver,
+      item === undefined ? "" : `${DRIVING[driver]}push ${thrustN.toFixed(0)} N`,
+    );
     this.driver.classList.toggle("running", driver !== "off");
     setText(this.depth, item === undefined ? "" : this.depthText(item, s, active));
-    const { resistance_n } = s.hands[active];
+    const { resistance_n, torque_n_mm } = s.hands[active];
+    setText(this.torque, torque_n_mm > 0 ? `torque ${torque_n_mm.toFixed(0)} N mm` : "");
     setText(this.resistance, resistance_n > 0 ? `bone resists ${resistance_n.toFixed(0)} N` : "");
     setText(this.force, item === undefined ? "" : `force ${forceN(s, active).toFixed(1)} N`);
     const { gauge_reading_mm } = s;

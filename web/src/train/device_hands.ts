@@ -4,7 +4,7 @@
 // Tells the host which device a hand holds, and how its right and up lie while the view turns.
 import { DeviceView } from "../devices";
 import type { HandIndex } from "../operation";
-import type { HandDevice, PageMessage } from "../protocol";
+import type { DeviceAim, HandDevice, PageMessage } from "../protocol";
 import type { Theatre } from "../theatre";
 
 export class DeviceHands {
@@ -15,11 +15,11 @@ export class DeviceHands {
     private readonly tell: (message: PageMessage) => void,
   ) {}
 
-  /** @param device  id; empty: the page itself */
-  use(hand: HandIndex, device: string): void {
+  /** @param device  id; empty: the page itself. @param aim  none: as before */
+  use(hand: HandIndex, device: string, aim?: DeviceAim): void {
     const { right, up } = this.theatre.screenAxes();
     this.views[hand].tell({ right, up });
-    this.tell({ type: "use_device", hand, device, right, up });
+    this.tell({ type: "use_device", hand, device, aim: aim ?? null, right, up });
   }
 
   /** Several times a second. @param hands  as the host told them last */

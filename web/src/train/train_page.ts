@@ -201,6 +201,9 @@ export class TrainPage {
         use: (hand, id) => {
           this.deviceHands.use(hand, id);
         },
+        aim: (hand, id, aim) => {
+          this.deviceHands.use(hand, id, aim);
+        },
         wall: (hand, on) => {
           this.connection.tell({ type: "test_wall", hand, on });
         },

@@ -20,6 +20,7 @@ export function whatIsHeard(
     driver: s.paused || s.finished ? "off" : hand.driver,
     drive: kind?.drive ?? "none",
     resistanceN: s.hands[hand.active].resistance_n,
+    torqueNMm: s.hands[hand.active].torque_n_mm,
     depthMm: item?.depth_mm ?? 0,
     pitchMm: kind?.parts.find((part) => part.is_threaded)?.pitch_mm ?? 0,
     live: s.c_arm.live,

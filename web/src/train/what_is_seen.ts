@@ -3,6 +3,7 @@
 //
 // What the host has told: what is done, its last snapshot, what can be asked for; and all that shows it:
 // the theatre at once, readings ten times a second.
+import { isPushedWith } from "../devices";
 import { OfferedActions, whyStuck } from "../operation";
 import type {
   ActionsMessage,
@@ -119,7 +120,10 @@ export class WhatIsSeen {
     const { arm, bottom, drive, frozen, notice, pausedSign, top, wrist } = this.panels;
     top.showTiming(s);
     pausedSign.hidden = !s.paused || !operates || !frozen.hidden;
-    bottom.show(s, hand.active, hand.driver, hand.thrust);
+    const device = this.panels.devices.hands[hand.active];
+    const isPressed = device !== undefined && isPushedWith(device);
+    const thrustN = isPressed ? s.hands[hand.active].thrust_n : hand.thrust;
+    bottom.show(s, hand.active, hand.driver, thrustN);
     bottom.showWays(ways);
     drive.show(hand.driver, hand.thrust, hand.coarse);
     wrist.show(s.wrist);
@@ -127,7 +131,9 @@ export class WhatIsSeen {
     arm.takeWrist(s.wrist);
     arm.showCount(s.shots, s.dose_cgy_cm2);
     const stuck =
-      hand.driver === "forward" && !s.paused ? whyStuck(s, hand.active, hand.thrust) : undefined;
+      hand.driver === "forward" && !s.paused
+        ? whyStuck(s, hand.active, thrustN, isPressed)
+        : undefined;
     if (stuck !== undefined) notice.say(stuck);
   }
 
