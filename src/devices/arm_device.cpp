@@ -134,7 +134,7 @@ void ArmDevice::open() {
   status_ = 0;
   has_place_ = is_impossible_ = false;
   turn_configs_ = 0;
-  smooth_n_ = {};
+  unfelt_n_ = {};
   opened_ns_ = greeted_ns_ = placed_ns_ = answered_ns_ = 0;
   sent_ns_.fill(0);
 }
@@ -269,8 +269,9 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
       Vec3{static_cast<double>(motion.force_mn[0]), static_cast<double>(motion.force_mn[1]),
            static_cast<double>(motion.force_mn[2])} *
       0.001;
-  // What carries the arm, and evens its motors, is not felt.
-  state_.force_n = squared_length(given) > 0 ? given - weight_n_ - smooth_n_ : Vec3{};
+  // What carries the arm, and evens its motors, is not felt: that of the command which this answers
+  // to, or a fast hand would seem to be given energy and the net would take the surface away.
+  state_.force_n = squared_length(given) > 0 ? given - unfelt_n_[motion.echo] : Vec3{};
   state_.hottest_c = motion.hottest_c;
   if (phase_ != Phase::Working || (motion.status & firmware::kStatusSensorFault) != 0) return;
   arm::LegAngles angles{};
@@ -406,14 +407,17 @@ void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept 
     return;
   }
   // The arm's own weight is carried whatever is wished, or it would fall while an exercise pauses.
+  Vec3 unfelt_n;
   if (has_place_) {
-    smooth_n_ = arm::against_cogging(arm_, calibration_->cogging, angles_, rates_, kAheadS);
-    wish.besides_n += weight_n_ + smooth_n_;
-    wish.limit_n += length(weight_n_) + length(smooth_n_);
+    const Vec3 smooth_n =
+        arm::against_cogging(arm_, calibration_->cogging, angles_, rates_, kAheadS);
+    unfelt_n = weight_n_ + smooth_n;
+    wish.besides_n += unfelt_n;
+    wish.limit_n += length(weight_n_) + length(smooth_n);
   }
   if (wish.plane_count == 0) net_.close();
   const double share = net_.share(state_.force_n, state_.position_mm);
-  (void)send(now, haptics::contact_frame(wish, share, limiter_));
+  if (send(now, haptics::contact_frame(wish, share, limiter_))) unfelt_n_[sequence_] = unfelt_n;
 }
 
 Health ArmDevice::health_at(Nanoseconds now) const noexcept {

@@ -78,7 +78,9 @@ class ArmDevice final : public Device {
   firmware::HostDecoder decoder_;
   std::optional<firmware::Identity> identity_;
   Vec3 weight_n_;  ///< drive B: that carries the arm where it is
-  Vec3 smooth_n_;  ///< drive B: that takes off its motors' cogging, as last sent
+  /// Drive B: what each command asked for besides what is to be felt: the arm's weight carried, its
+  /// motors' cogging taken off.
+  std::array<Vec3, 256> unfelt_n_{};
   /// Drive B: counts at angle 0 of the unit that was homed last. They hold until that is reset, so
   /// that a line that is opened anew need not find the arm in its cradle.
   std::array<std::int32_t, kLegs> home_{};
