@@ -23,9 +23,10 @@ struct ScanFile {
   std::string_view name;
   const char* media_type;
 };
-constexpr std::array<ScanFile, 4> kFiles{
-    ScanFile{"case.json", "application/json"}, ScanFile{"ct.nii.gz", "application/gzip"},
-    ScanFile{"labels.nii.gz", "application/gzip"}, ScanFile{"bones.glb", "model/gltf-binary"}};
+constexpr std::array<ScanFile, 5> kFiles{
+    ScanFile{"case.json", "application/json"}, ScanFile{"trust.json", "application/json"},
+    ScanFile{"ct.nii.gz", "application/gzip"}, ScanFile{"labels.nii.gz", "application/gzip"},
+    ScanFile{"bones.glb", "model/gltf-binary"}};
 
 }  // namespace
 

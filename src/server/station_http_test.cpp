@@ -84,7 +84,8 @@ TEST_F(StationHttpTest, TellsWhichCasesCanBeChosenWithTheirPictures) {
 TEST_F(StationHttpTest, ShowsTheScansOfItsCasesAndNothingElseOfTheirFolders) {
   const std::filesystem::path folder = folder_ / "wrist";
   std::filesystem::create_directories(folder / "bones");
-  for (const char* file : {"case.json", "ct.nii.gz", "bones/radius.ply", "lesson.json"}) {
+  for (const char* file :
+       {"case.json", "trust.json", "ct.nii.gz", "bones/radius.ply", "lesson.json"}) {
     std::ofstream(folder / file) << file;
   }
   std::filesystem::create_symlink("/dev/zero", folder / "labels.nii.gz");
@@ -96,6 +97,7 @@ TEST_F(StationHttpTest, ShowsTheScansOfItsCasesAndNothingElseOfTheirFolders) {
     return http.answer({"GET", "/api/cases/" + path, {Role::Trainee, "ada"}});
   };
   EXPECT_EQ(*answer("plain/scan/case.json").body, "case.json");
+  EXPECT_EQ(*answer("plain/scan/trust.json").body, "trust.json");
   EXPECT_EQ(*answer("plain/scan/ct.nii.gz").body, "ct.nii.gz");
   EXPECT_EQ(answer("plain/scan/ct.nii.gz").content_type, "application/gzip");
   for (const char* path :

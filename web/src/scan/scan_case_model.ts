@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a case's case.json says of its scan and bones (docs/case_format.md); nothing but what is shown here.
+// What a case's case.json and trust.json say of its scan and bones (docs/case_format.md); nothing but what is
+// shown here.
 import type { Vec3 } from "../protocol";
 
 export interface ScannedBone {
@@ -43,14 +44,12 @@ function bone(value: unknown): ScannedBone {
   if (!isFields(value) || typeof value["name"] !== "string" || typeof value["label"] !== "number") {
     throw new Error("case.json: a bone has no name or label");
   }
-  const confidence = value["confidence"];
-  const why = value["why"];
   return {
     name: value["name"],
     label: value["label"],
-    confidence: typeof confidence === "number" ? Math.min(1, Math.max(0, confidence)) : undefined,
-    flagged: value["flagged"] === true,
-    why: typeof why === "string" ? why : "",
+    confidence: undefined,
+    flagged: false,
+    why: "",
   };
 }
 
@@ -70,6 +69,31 @@ export function parseScannedCase(text: string): ScannedCase {
     wristFromPatient: [vector(rows[0]), vector(rows[1]), vector(rows[2])],
     bones: bones.map(bone),
   };
+}
+
+/**
+ * The same with what trust.json says of each bone.
+ * @throws Error  where that is no such file
+ */
+export function withTrust(scanned: ScannedCase, text: string): ScannedCase {
+  const json: unknown = JSON.parse(text);
+  if (!isFields(json) || json["format"] !== "carpus bone trust") {
+    throw new Error("trust.json is none; reconstruct the case anew");
+  }
+  const lines: unknown[] = Array.isArray(json["bones"]) ? (json["bones"] as unknown[]) : [];
+  const trusted = scanned.bones.map((bone): ScannedBone => {
+    const line = lines.find((each) => isFields(each) && each["name"] === bone.name);
+    if (!isFields(line)) return bone;
+    const confidence = line["confidence"];
+    const why = line["why"];
+    return {
+      ...bone,
+      confidence: typeof confidence === "number" ? Math.min(1, Math.max(0, confidence)) : undefined,
+      flagged: line["flagged"] === true,
+      why: typeof why === "string" ? why : "",
+    };
+  });
+  return { ...scanned, bones: trusted };
 }
 
 /** Labels and names as a case has them (src/anatomy/bone_id.hpp). */

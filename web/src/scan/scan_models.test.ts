@@ -6,7 +6,7 @@ import { placeOfLabel } from "./label_place_model";
 import { measureText } from "./measure_model";
 import { applied, inverted, parseNifti, voxelIndexAt, type Volume } from "./nifti_model";
 import { cross, dot, PLANE_IDS, planesOf } from "./planes_model";
-import { boneTitle, labelColors, parseScannedCase } from "./scan_case_model";
+import { boneTitle, labelColors, parseScannedCase, withTrust } from "./scan_case_model";
 import { drawGrey, drawLabels, pixelOf, placeAt, type SliceView } from "./slice_model";
 import { draggedWindow, windowText } from "./window_model";
 
@@ -195,11 +195,21 @@ describe("what the case tells", () => {
     wrist_from_patient: { rotation },
     bones: [
       { name: "radius", label: 1 },
-      { name: "pisiform", label: 6, confidence: 0.31, flagged: true, why: "Volume is low." },
+      { name: "pisiform", label: 6 },
     ],
   };
+  const trust = {
+    format: "carpus bone trust",
+    schema_version: 1,
+    bones: [{ name: "pisiform", confidence: 0.31, flagged: true, why: "Volume is low." }],
+  };
   it("is taken with what is known of how sure it is", () => {
-    const parsed = parseScannedCase(JSON.stringify(json));
+    const told = parseScannedCase(JSON.stringify(json));
+    expect(told.bones[1]?.confidence).toBeUndefined();
+    expect(() => withTrust(told, "{}")).toThrow("reconstruct");
+    const parsed = withTrust(told, JSON.stringify(trust));
+    expect(parsed.bones[1]?.confidence).toBe(0.31);
+    expect(parsed.bones[1]?.flagged).toBe(true);
     expect(parsed.bones[0]).toEqual({
       name: "radius",
       label: 1,

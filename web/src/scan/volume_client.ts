@@ -3,7 +3,7 @@
 //
 // The parts of a case's scan from the host, unpacked here.
 import { parseNifti, type Volume } from "./nifti_model";
-import { parseScannedCase, type ScannedCase } from "./scan_case_model";
+import { parseScannedCase, withTrust, type ScannedCase } from "./scan_case_model";
 
 /** A packed volume that unpacks to more is none of ours: 2^30 voxels of two bytes. */
 const MOST_BYTES = 2 ** 31 + 2 ** 20;
@@ -26,7 +26,10 @@ async function get(id: string, file: string, signal: AbortSignal): Promise<Respo
 }
 
 export async function fetchScannedCase(id: string, signal: AbortSignal): Promise<ScannedCase> {
-  return parseScannedCase(await (await get(id, "case.json", signal)).text());
+  const scanned = parseScannedCase(await (await get(id, "case.json", signal)).text());
+  // A case of an older program does not tell how sure its bones are.
+  const trust = await fetch(scanAddress(id, "trust.json"), { signal });
+  return trust.ok ? withTrust(scanned, await trust.text()) : scanned;
 }
 
 /** @param told  how much of the packed file has come, 0 to 1 */
