@@ -3,6 +3,7 @@
 #include "case_io/dicom_segmentation.hpp"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmfg/fgfracon.h>
 #include <dcmtk/dcmfg/fgpixmsr.h>
 #include <dcmtk/dcmfg/fgplanor.h>
@@ -184,7 +185,13 @@ void write_dicom_segmentation(const std::filesystem::path& file,
   if (object->getNumberOfFrames() == 0) {
     throw InvalidInput("DICOM segmentation: no label of a name occurs in the volume");
   }
-  if (object->saveFile(file.c_str()).bad()) throw_cannot_write(file);
+  DcmFileFormat content;
+  DcmDataset& dataset = *content.getDataset();
+  require(object->writeDataset(dataset), "the object");
+  // DCMTK says when it wrote, to the second.
+  require(dataset.putAndInsertString(DCM_ContentDate, kDate), "the date");
+  require(dataset.putAndInsertString(DCM_ContentTime, kTime), "the time");
+  if (content.saveFile(file.c_str(), EXS_LittleEndianExplicit).bad()) throw_cannot_write(file);
 }
 
 }  // namespace carpus::case_io
