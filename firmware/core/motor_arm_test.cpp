@@ -272,6 +272,37 @@ TEST(PlaneRenderer, GivesBackNoMoreThanWasPutInHoweverPlanesJump) {
   }
 }
 
+TEST(PlaneRenderer, APlaneThatTurnsAboutTheTipKeepsPressingIt) {
+  // The tip works 134 mm below the origin: five degrees are eleven millimetres of a plane's offset.
+  PlaneRenderer renderer(1.0F / kMotorStepHz);
+  const Vector<float> tip(1.0F, 0.5F, -134.0F);
+  const auto told = [&](double degrees) {
+    const double turn = degrees * 3.14159265358979 / 180;
+    const double n[3] = {0, std::sin(turn), std::cos(turn)};
+    const double depth = 0.4;
+    Contact contact;
+    contact.limit_mn = 8000;
+    contact.stiffness_n_per_m[0] = 2000;
+    for (int k = 0; k < 3; ++k) {
+      contact.normals[k] = static_cast<std::int16_t>(std::lround(n[k] * 16384));
+    }
+    contact.offsets_um[0] = static_cast<std::int32_t>(
+        std::lround(1000 * (n[0] * 1.0 + n[1] * 0.5 - n[2] * 134.0 + depth)));
+    return contact;
+  };
+  // Met from above: the account then has something to give.
+  renderer.take(told(0));
+  Vector<float> place = tip + Vector<float>(0.0F, 0.0F, 1.0F);
+  Vector<float> force;
+  for (; place.z > tip.z; place.z -= 0.01F) force = renderer.step(place, Vector<float>());
+  ASSERT_NEAR(force.z, 0.8F, 0.05F);
+  for (const double degrees : {5.0, -4.0, 8.0, 0.0}) {
+    renderer.take(told(degrees));
+    force = renderer.step(tip, Vector<float>());
+    EXPECT_NEAR(length(force), 0.8F, 0.1F) << degrees;
+  }
+}
+
 TEST(CoreScript, IsTheSameOnEveryProcessor) {
   // A changed digest is a changed behaviour of the firmware: look at it, then write it here.
   EXPECT_EQ(digest_of_core_script(), 0xccc67176U);

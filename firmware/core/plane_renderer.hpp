@@ -75,7 +75,8 @@ class PlaneRenderer {
 
  private:
   struct Side {
-    float offset = 0.0F;
+    Vector<float> normal;
+    float offset = 0.0F;  ///< along the normal
     Vector<float> anchor;
     bool has_offset = false;
     bool sticks = false;
@@ -100,7 +101,12 @@ class PlaneRenderer {
       // A plane that appears around the tip does not throw it out.
       side.offset = wished < height ? wished : height;
       side.has_offset = true;
+    } else {
+      // The origin is far from the tip: a normal that turns by a hair moves the offset by
+      // millimetres, and the plane at the tip not at all. What it was there is what it rises from.
+      side.offset += height - dot(side.normal, tip);
     }
+    side.normal = n;
     const float rise = wished - side.offset;
     const float most = kMostRiseMmPerS * step_s_;
     side.offset = rise > most && wished > height ? side.offset + most : wished;
