@@ -62,8 +62,9 @@ Json json_of(const StudiedScan& scan) {
 
 std::string segmentation_study_text(const SegmentationStudy& study) {
   std::string text = format(
-      "%zu simulated scans of %.2f mm voxels. Even seeds are for fitting the confidence, odd ones "
-      "for judging it.\n\n",
+      "%zu simulated scans of %.2f mm voxels. The confidence's weights were set by hand, on none "
+      "of "
+      "these; odd seeds stand apart for when they are fitted on even ones.\n\n",
       study.scans.size(), study.voxel_mm);
   text += format("%-14s %6s %8s %8s %6s %11s %14s %7s\n", "difficulty", "bones", "Dice", "worst",
                  "< 0.95", "of them told", "false alarms", "AUC");
