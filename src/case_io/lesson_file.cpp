@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "case_io/detail/regular_file.hpp"
 #include "core/error.hpp"
 #include "core/json_fields.hpp"
 
@@ -138,12 +138,7 @@ Lesson parse_lesson(const std::string& text, const std::string& file) {
 std::optional<Lesson> read_lesson(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kLessonFile;
   if (!std::filesystem::exists(file)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  std::string text(kLargestFile + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (in.fail() && !in.eof())) throw IoError(file.string() + ": cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return parse_lesson(text, file.string());
+  return parse_lesson(read_whole_file(file, kLargestFile), file.string());
 }
 
 }  // namespace carpus::case_io

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_io/trust_file.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/bone_id.hpp"
+#include "case_io/detail/regular_file.hpp"
 #include "core/error.hpp"
 #include "core/json_fields.hpp"
 
@@ -65,12 +65,7 @@ std::vector<TrustLine> parse_trust(const std::string& text, const std::string& f
 std::optional<std::vector<TrustLine>> read_trust(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kTrustFile;
   if (!std::filesystem::exists(file)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  std::string text(kLargestFile + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (in.fail() && !in.eof())) throw IoError(file.string() + ": cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return parse_trust(text, file.string());
+  return parse_trust(read_whole_file(file, kLargestFile), file.string());
 }
 
 }  // namespace carpus::case_io

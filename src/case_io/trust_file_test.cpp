@@ -3,7 +3,12 @@
 #include "case_io/trust_file.hpp"
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
 
+#include <filesystem>
+
+#include "case_io/lesson_file.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
@@ -33,6 +38,16 @@ TEST(TrustFile, RefusesWhatItDoesNotKnow) {
   EXPECT_THROW((void)parse_trust(changed("\"schema_version\": 1", "\"schema_version\": 2"), "t"),
                SchemaError);
   EXPECT_THROW((void)parse_trust("{", "trust.json"), InvalidInput);
+}
+
+TEST(TrustFile, OfACaseThatIsAPipeIsRefusedWithoutWaiting) {
+  std::string folder = testing::TempDir() + "/trust_XXXXXX";
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  ASSERT_EQ(::mkfifo((folder + "/trust.json").c_str(), 0600), 0);
+  EXPECT_THROW((void)read_trust(folder), IoError);
+  ASSERT_EQ(::mkfifo((folder + "/lesson.json").c_str(), 0600), 0);
+  EXPECT_THROW((void)read_lesson(folder), IoError);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

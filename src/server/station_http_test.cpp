@@ -89,6 +89,8 @@ TEST_F(StationHttpTest, ShowsTheScansOfItsCasesAndNothingElseOfTheirFolders) {
     std::ofstream(folder / file) << file;
   }
   std::filesystem::create_symlink("/dev/zero", folder / "labels.nii.gz");
+  std::ofstream(folder_ / "secret") << "of this machine";
+  std::filesystem::create_symlink(folder_ / "secret", folder / "bones.glb");
   CaseShelf cases = shelf();
   cases.cases[1].folder = folder;
   const auto truth = std::make_shared<TruthGate>();
