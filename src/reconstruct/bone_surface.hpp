@@ -16,7 +16,7 @@ namespace carpus::reconstruct {
 struct BoneSurfaceOptions {
   double field_sigma_mm = 0.3;     ///< smoothing of the scalar field, about one voxel
   int smoothing_pairs = 6;         ///< of Taubin's filter
-  double max_smoothing_mm = 0.15;  ///< no vertex is smoothed farther: half a voxel of a good scan
+  double max_smoothing_mm = 0.25;  ///< no vertex is smoothed farther: half a slice of 0.5 mm
   double facets_per_mm2 = 6.0;     ///< 0.6 mm edges: finer than the CT resolves
   std::size_t least_facets = 3000;
   std::size_t most_facets = 10000;

@@ -124,7 +124,7 @@ void expect_whole_case(const Reconstruction& r,
 void expect_structures(const Reconstruction& r, std::size_t fewest) {
   EXPECT_GE(r.data.structures.size(), fewest);
   EXPECT_LE(r.structures.deepest_in_bone_mm, 0.1);
-  EXPECT_LT(r.structures.worst_misfit_mm, 0.7);
+  EXPECT_LT(r.structures.worst_misfit_mm, 0.6);
   for (const cases::Structure& s : r.data.structures) {
     EXPECT_LE(cases::deepest_in_bone_mm(r.data, s), 0.1) << s.id;
     EXPECT_GT(cases::length_of(s), 10) << s.id;
