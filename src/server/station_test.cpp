@@ -134,6 +134,18 @@ class StationTest : public ::testing::Test {
     EXPECT_FALSE(found.is_null()) << "no such snapshot";
     return found;
   }
+  /// That a station which has said "paused" says the same tick for as long as it says so: counted
+  /// in what it sends, so that a slow machine has as long as it needs.
+  static void expect_time_stands(PageClient& page) {
+    constexpr int kSnapshots = 12;
+    const auto next = [&] { return wait_for_snapshot(page, [](const Json&) { return true; }); };
+    const Json first = next();
+    for (int i = 0; i < kSnapshots; ++i) {
+      const Json later = next();
+      EXPECT_TRUE(later["paused"].get<bool>());
+      EXPECT_EQ(later["tick"], first["tick"]);
+    }
+  }
 
   fs::path folder_;
   std::unique_ptr<records::AttemptKeeper> records_;
@@ -397,13 +409,10 @@ TEST_F(StationTest, LostPageGoesOnWhereItWasWithItsLogAndPictures) {
   ASSERT_TRUE(shown.has_value());
   EXPECT_EQ(shown->content, picture->content);
   // Time stands still until the page goes on.
-  const auto is_paused = [](const Json& s) { return bool(s["paused"]); };
-  (void)wait_for_snapshot(again, is_paused);
-  const Json before = wait_for_snapshot(again, is_paused);
-  std::this_thread::sleep_for(400ms);
+  (void)wait_for_snapshot(again, [](const Json& s) { return bool(s["paused"]); });
+  expect_time_stands(again);
   again.send(kGoOn);
   const Json after = wait_for_snapshot(again, [](const Json& s) { return !s["paused"]; });
-  EXPECT_LT(after["tick"].get<int>() - before["tick"].get<int>(), 300);
   (void)wait_for_snapshot(again, [&](const Json& s) { return s["tick"] > after["tick"]; });
   again.send(R"({"type":"act","id":"finish"})");
   EXPECT_EQ(Json::parse(again.wait_for_type("score"))["attempt_id"], 1);
@@ -716,17 +725,15 @@ TEST_F(StationTest, StartingAnewAndStoppingTheStationStoreWhatRan) {
 }
 
 TEST_F(StationTest, PauseStopsTimeAndResumes) {
+  const auto is_paused = [](const Json& s) { return bool(s["paused"]); };
   const auto page = operate(port());
   (void)wait_for_snapshot(*page, [](const Json& s) { return s["tick"] > 20; });
   page->send(R"({"type":"pause","on":true})");
-  (void)wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
-  std::this_thread::sleep_for(50ms);
-  const Json one = wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
-  (void)wait_for_snapshot(*page, [](const Json& s) { return bool(s["paused"]); });
-  std::this_thread::sleep_for(100ms);
+  (void)wait_for_snapshot(*page, is_paused);
+  expect_time_stands(*page);
   page->send(R"({"type":"pause","on":false})");
   const Json again = wait_for_snapshot(*page, [](const Json& s) { return !s["paused"]; });
-  EXPECT_LT(again["tick"].get<int>() - one["tick"].get<int>(), 60);
+  (void)wait_for_snapshot(*page, [&](const Json& s) { return s["tick"] > again["tick"]; });
 }
 
 TEST_F(StationTest, SilentPageStopsTimeUntilItIsHeardAgain) {
@@ -782,15 +789,11 @@ TEST_F(StationTest, TimeGoesOnWhileOthersAttackTheDoor) {
     });
   }
   const Json before = wait_for_snapshot(*page, [](const Json&) { return true; });
-  const auto begin = std::chrono::steady_clock::now();
   const Json after = wait_for_snapshot(
       *page, [&](const Json& s) { return s["tick"] > before["tick"].get<int>() + 1000; });
-  const auto took = std::chrono::steady_clock::now() - begin;
   goes_on = false;
   for (std::thread& attacker : attackers) attacker.join();
-  EXPECT_FALSE(after.is_null());
-  // Lateness up to 100 ms is made up for; a machine that is busy otherwise may take longer.
-  EXPECT_LT(took, 2s);
+  EXPECT_FALSE(after.is_null());  // how many ticks a second it keeps: tests/system/soak
 }
 
 TEST_F(StationTest, WhatIsSaidWhileAnExerciseIsSetUpIsDoneInItsOrder) {
