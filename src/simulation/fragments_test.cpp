@@ -96,6 +96,7 @@ class Joystick {
     const auto& axis = broken_wrist().scaphoid.central_axis;
     const auto& pose = world_.now().patient_from_bone[proximal()];
     const Vec3 entry = (pose * Point<frame::Bone>{axis.proximal}).v;
+    as_scanned_ = pose;
     inward_ = (pose * Direction<frame::Bone>{normalized_or(axis.distal - axis.proximal, {})}).v;
     hand().shaft_in_patient = -inward_;
     for (double away = 25.0; away > -0.4; away -= 0.05) {
@@ -128,11 +129,14 @@ class Joystick {
   [[nodiscard]] Pose<frame::Patient, frame::Bone> pose() const {
     return world_.now().patient_from_bone[proximal()];
   }
+  /// Before the wire that went in pushed it.
+  [[nodiscard]] const Pose<frame::Patient, frame::Bone>& as_scanned() const { return as_scanned_; }
 
  private:
   World world_;
   Input input_;
   Vec3 inward_;
+  Pose<frame::Patient, frame::Bone> as_scanned_;
 };
 
 double turned_by(const Pose<frame::Patient, frame::Bone>& a,
@@ -160,16 +164,19 @@ TEST(Fragments, AJoystickTurnsTheFragmentAboutItsTip) {
 TEST(Fragments, AJoystickPullsTheFragmentAndNeverIntoTheOther) {
   Joystick joystick;
   const auto before = joystick.pose().translation;
-  const auto as_scanned = joystick.world().operation_record().fracture;
+  const auto at_first = joystick.world().operation_record();
   joystick.hand().tip_in_patient = joystick.item().tip_in_patient - joystick.inward() * 3.0;
   joystick.hold(2000);
   EXPECT_NEAR(dot(joystick.pose().translation - before, joystick.inward()), -2.0, 0.1)
       << "a millimetre of the way is slack";
   const auto record = joystick.world().operation_record();
   EXPECT_TRUE(record.fracture.is_apart);
-  EXPECT_NEAR(record.fracture.gap_mm, as_scanned.gap_mm + 2.0, 0.15);
+  EXPECT_NEAR(record.fracture.gap_mm, at_first.fracture.gap_mm + 2.0, 0.15);
   ASSERT_EQ(record.displacements.size(), broken_wrist().bones.size());
-  EXPECT_NEAR(length(record.displacements[Joystick::proximal()].translation), 2.0, 0.15);
+  const auto moved = [](const procedure::OperationRecord& told) {
+    return told.displacements[Joystick::proximal()].translation;
+  };
+  EXPECT_NEAR(distance(moved(record), moved(at_first)), 2.0, 0.15);
   joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 15.0;
   joystick.hold(4000);
   const double forward = dot(joystick.pose().translation - before, joystick.inward());
@@ -183,7 +190,7 @@ TEST(Fragments, AJoystickPullsTheFragmentAndNeverIntoTheOther) {
 
 TEST(Fragments, APushNeverTakesBackALedFragment) {
   Joystick joystick;
-  const auto before = joystick.pose().translation;
+  const auto before = joystick.as_scanned().translation;
   joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 3.6;
   joystick.hold(2000);
   const double led = dot(joystick.pose().translation - before, joystick.inward());

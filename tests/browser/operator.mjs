@@ -245,14 +245,14 @@ export class Operator {
     const { page } = this;
     let isLight = false;
     let last = -1;
-    for (let push = 0; push < 250; ++push) {
+    for (let push = 0; push < 400; ++push) {
       const { depth_mm: depth, body } = Operator.held(await this.snapshot());
       const isEngaged = body !== "";
       if (isEngaged && depth >= depthMm) return;
       if (!isLight && isEngaged && depth >= 0.5) {
         isLight = true;
         for (let i = 0; i < 5; ++i) await page.keyboard.press("BracketLeft");
-      } else if (isLight && depth - last < 0.05) {
+      } else if (isLight && depth - last < 0.1) {
         await page.keyboard.press("BracketRight");
       }
       last = depth;
@@ -347,10 +347,14 @@ export class Operator {
     );
   }
 
-  /** Drives what rides on the wire by short pushes until `holds` of it. */
+  /** Drives what rides on the wire by short pushes, with more where it stops, until `holds` of it. */
   async driveOn(holds, what, pushMs = 60) {
-    for (let push = 0; push < 250; ++push) {
-      if (holds(Operator.held(await this.snapshot()))) return;
+    let last = -1;
+    for (let push = 0; push < 400; ++push) {
+      const item = Operator.held(await this.snapshot());
+      if (holds(item)) return;
+      if (item.depth_mm - last < 0.05) await this.page.keyboard.press("BracketRight");
+      last = item.depth_mm;
       await this.push("Space", pushMs);
     }
     throw new Error(`in vain: ${what}`);

@@ -4,6 +4,7 @@
 // An instrument whose line is fixed in bone: a wire that drills its way, what reams or screws over
 // it. Bone is removed along the way; what is left decides how hard it goes.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "contact/track_pull.hpp"
@@ -20,16 +21,26 @@ using instruments::Work;
 
 namespace {
 
-constexpr double kLookAheadMm = 0.3;  // a trocar's edges cut this far before its middle
-constexpr double kDeepestMm = 90.0;   // no wire goes further
-constexpr double kScratchMm = 0.3;    // deeper, a bone counts as entered
-constexpr double kFarExitMm = 0.3;    // beyond the far surface, past what is doubtful
-constexpr double kNearBoneMm = 1.5;   // as far as a CT blurs a bone's density around it
+/// What is about to be cut is read so far before a tool's own hole: half the width over which a
+/// hole's edge is told (detail/tissue.cpp), the step that is cut at once, and the cut field's error
+/// at a round front.
+constexpr double kLookAheadMm = 0.3;
+constexpr double kDeepestMm = 90.0;  // no wire goes further
+constexpr double kScratchMm = 0.3;   // deeper, a bone counts as entered
+constexpr double kFarExitMm = 0.3;   // beyond the far surface, past what is doubtful
+constexpr double kNearBoneMm = 1.5;  // as far as a CT blurs a bone's density around it
 constexpr double kSoftTissueHu = 40.0;
 constexpr double kStiffLengthMm = 10.0;  // of a wire in bone, over which it gives way [E]
 constexpr double kCutStepMm = 0.05;      // removed at once by a wire: a fifth of a voxel
 constexpr double kWideCutStepMm = 0.25;  // by what is wide and slow: half a voxel
 constexpr double kCutReachMm = 0.3;      // farther from a tool's side no bone feels it
+
+/// Of the round front that a tool's hole ends in. A tapered tool makes a hole of its mean radius:
+/// widening the whole way behind the tip with each advance would cost a tick ten times as much for
+/// at most a tenth of a millimetre.
+double hole_radius_mm(const instruments::Instrument& kind) noexcept {
+  return 0.5 * (kind.cut_tip_radius_mm + kind.cut_tail_radius_mm);
+}
 
 /// The tip has come into this body.
 void note_crossing(Item& item, std::uint8_t body) noexcept {
@@ -58,6 +69,36 @@ double World::State::density_hu(const Model& model, const Vec3& point) const noe
     in_body = local;
   }
   return body == kNoBody ? kSoftTissueHu : tissue.density_hu(model.data.ct.view(), body, in_body);
+}
+
+/// Mean density before a tool's face [HU]: before its point, and where a wire has been along its
+/// middle, before rings that share the rest of its face.
+double World::State::density_ahead_hu(const Model& model, const Item& item) const noexcept {
+  constexpr int kRings = 2;
+  const instruments::Instrument& kind = kind_of(model, item);
+  const detail::BodyPose& pose = poses[item.body];
+  const auto density_at = [&](const Vec3& in_bone) {
+    return density_hu(model, (pose * Point<frame::Bone>{in_bone}).v);
+  };
+  const Vec3& along = item.direction_in_bone;
+  const Vec3 tip = item.origin_in_bone + along * item.travel_mm;
+  const double radius = hole_radius_mm(kind);
+  const double bore = kind.bore_radius_mm;
+  if (!(bore > 0.0) || !(radius > bore)) return density_at(tip + along * kLookAheadMm);
+  const Vec3 u = any_perpendicular(along);
+  const Vec3 v = cross(along, u);
+  const double reach = radius + kLookAheadMm;
+  double sum = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    const double squared =
+        bore * bore + (radius * radius - bore * bore) * (i + 0.5) / kRings;  // of equal areas
+    const double aside = std::sqrt(squared);
+    const Vec3 middle = tip + along * (std::sqrt(reach * reach - squared) - radius);
+    for (const Vec3& way : {u, v}) {
+      sum += density_at(middle + way * aside) + density_at(middle - way * aside);
+    }
+  }
+  return sum / (4 * kRings);
 }
 
 void World::State::engage(const Model& model, std::uint8_t hand, const Touched& surface) noexcept {
@@ -124,16 +165,12 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
   detail::HandState& held = spent.hands[hand];
   const instruments::Instrument& kind = kind_of(model, item);
   HandView& view = snapshot.hands[hand];
-  const detail::BodyPose& pose = poses[item.body];
   if (item.by_far_end) return draw_by_far_end(model, hand);
   if (kind.is_joystick && held.wish.driver == Driver::Off) lead_fragment(model, hand);
   if (kind.work != Work::None) {
     const double travel_before = item.travel_mm;
-    const Vec3 ahead =
-        item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
-    const double hu = density_hu(model, (pose * Point<frame::Bone>{ahead}).v);
-    const double resistance =
-        instruments::resistance_n(kind.feed, instruments::wire_resistance_n(hu));
+    const double resistance = instruments::resistance_n(
+        kind.feed, instruments::wire_resistance_n(density_ahead_hu(model, item)));
     const double thrust = held.wish.thrust_n;
     if (held.wish.driver == Driver::Forward) {
       if (kind.work != Work::Drill && item.depth_mm() <= 0.0 && !held.forward_is_held) {
@@ -166,20 +203,20 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
   carry_fixed_items();
 }
 
-/// Removes bone from where it was last cut to where the tip is now. A tapered tool makes a hole of
-/// its mean radius: widening the whole way behind the tip with each advance would cost a tick ten
-/// times as much for at most a tenth of a millimetre.
+/// Removes bone from where it was last cut to where the tip is now. The hole's round front ends at
+/// the tip, which so stands before bone that is whole.
 void World::State::cut(const Model& model, Item& item) noexcept {
   const instruments::Instrument& kind = kind_of(model, item);
   const double step = kind.work == Work::Drill ? kCutStepMm : kWideCutStepMm;
   if (!(item.travel_mm - item.cut_to_mm >= step) || !(kind.cut_tip_radius_mm > 0.0)) return;
-  const double radius = 0.5 * (kind.cut_tip_radius_mm + kind.cut_tail_radius_mm);
+  const double radius = hole_radius_mm(kind);
   if (item.hole == kNoHole && now.hole_count < kNoHole) item.hole = now.hole_count++;
   const detail::BodyPose& pose = poses[item.body];
+  const Vec3 behind = item.origin_in_bone - item.direction_in_bone * radius;
   const Point<frame::Patient> from =
-      pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.cut_to_mm};
+      pose * Point<frame::Bone>{behind + item.direction_in_bone * item.cut_to_mm};
   const Point<frame::Patient> to =
-      pose * Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * item.travel_mm};
+      pose * Point<frame::Bone>{behind + item.direction_in_bone * item.travel_mm};
   bool has_changed = false;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
     const Vec3 from_in_body = (inverses[b] * from).v;
@@ -221,9 +258,8 @@ void World::State::note_track(const Item& item,
 void World::State::steer(const Model& model, Item& item, double advanced_mm) noexcept {
   if (!(advanced_mm > 0.0)) return;
   const double radius = kind_of(model, item).cut_tip_radius_mm;
-  // Looked at before its own front, which has taken the bone around the tip on all sides.
-  const Vec3 ahead =
-      item.origin_in_bone + item.direction_in_bone * (item.travel_mm + radius + kLookAheadMm);
+  // Looked at before its own front, which has taken the bone behind the tip on all sides.
+  const Vec3 ahead = item.origin_in_bone + item.direction_in_bone * (item.travel_mm + kLookAheadMm);
   const contact::TrackPull pull = contact::track_pull(tissue.cuts().field(item.body), {ahead},
                                                       {-item.direction_in_bone}, radius);
   if (!(pull.strength > 0.0)) return;

@@ -192,6 +192,8 @@ struct World::State {
   [[nodiscard]] double holding_share_of(const Model& model,
                                         const detail::Item& item) const noexcept;
   [[nodiscard]] double density_hu(const Model& model, const Vec3& point_in_patient) const noexcept;
+  [[nodiscard]] double density_ahead_hu(const Model& model,
+                                        const detail::Item& item) const noexcept;
 
   // fragments.cpp
   void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
