@@ -1,0 +1,80 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an arthroscopy of a case goes by: portals, the points of its tour, cartilage to be seen, the
+// walls of the joint. Generated with the soft tissue (arthroscopy/make_map.hpp), never seen in a
+// CT. Frame Patient as scanned, which is frame Bone of the body that each goes with.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/grid.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "geometry/vec3.hpp"
+
+namespace carpus::cases {
+
+/// A way through skin and capsule into a joint.
+struct Portal {
+  std::string id;  ///< "3-4"
+  std::string name;
+  std::string landmarks;  ///< in words: how it is found
+  std::string joint;      ///< id of the space that it leads into
+  Vec3 skin;              ///< [mm]
+  Vec3 inwards;           ///< unit
+  double capsule_mm = 0;  ///< from the skin along `inwards`
+  double room_mm = 0;     ///< radius of what goes in there under traction, to its working depth
+  std::uint8_t body = 0;  ///< that takes it along, in CaseData::bones
+};
+
+/// A place of the diagnostic tour.
+struct TourPoint {
+  int number = 0;  ///< of the 24 of the whole tour
+  std::string id;
+  std::string name;
+  std::string found_by;  ///< what is seen there, one sentence
+  Vec3 at;               ///< on the surface that is looked at [mm]
+  std::uint8_t body = 0;
+  bool is_probed = false;  ///< seen is not enough: the probe is to touch it
+};
+
+/// A piece of a joint's cartilage.
+struct CartilageFacet {
+  Vec3 at;
+  Vec3 normal;  ///< unit, out of the bone
+  double area_mm2 = 0;
+  std::uint8_t body = 0;
+};
+
+/// Most portals and points of a tour that a case may hold: what the tick keeps room for.
+inline constexpr std::size_t kMaxPortals = 16;
+inline constexpr std::size_t kMaxTourPoints = 32;
+
+struct ArthroscopicMap {
+  std::vector<Portal> portals;
+  std::vector<TourPoint> points;
+  std::vector<CartilageFacet> cartilage;  ///< of the joint that the tour goes through
+  /// Signed distance to the wall of that joint's space, negative in it; goes with `space_body`.
+  Grid<float> space;
+  std::uint8_t space_body = 0;
+  TriangleMesh disc;  ///< stands before what lies behind it; goes with `space_body`
+  Vec3 distal;        ///< unit: up in a level picture
+  /// Why there is none, or what of it is missing, in words.
+  std::vector<std::string> problems;
+
+  [[nodiscard]] bool is_empty() const noexcept { return portals.empty(); }
+};
+
+/// The portal with this id; nullptr where the case has none.
+[[nodiscard]] inline const Portal* find_portal(const ArthroscopicMap& map,
+                                               const std::string& id) noexcept {
+  for (const Portal& portal : map.portals) {
+    if (portal.id == id) return &portal;
+  }
+  return nullptr;
+}
+
+}  // namespace carpus::cases
