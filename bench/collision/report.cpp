@@ -173,6 +173,7 @@ void write_json(const std::filesystem::path& file,
                              {"is_peer", row.is_peer},
                              {"facets", row.facets}};
     if (row.original_vertices != 0) r["vertices"] = row.original_vertices;
+    if (row.thesis_seconds != 0) r["thesis_seconds"] = row.thesis_seconds;
     if (row.ran) {
       const Timing& t = row.timing;
       r["seconds"] = t.mean;  // what a course of queries costs, of which a few need the most

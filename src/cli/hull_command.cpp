@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "case_io/surface_file.hpp"
-#include "cli/hull_picture.hpp"
 #include "core/error.hpp"
+#include "figures/hull_picture.hpp"
 #include "hull/brute_force_hull.hpp"
 #include "hull/chan_hull.hpp"
 #include "hull/fast_hull.hpp"
@@ -151,7 +151,8 @@ void run_in_space(const Arguments& a) {
       case_io::write_surface(file, result.polytope.surface());
     });
   }
-  if (!a.svg.empty()) records::write_file_atomically(a.svg, draw_hull(object, result.polytope));
+  if (!a.svg.empty())
+    records::write_file_atomically(a.svg, figures::draw_hull(object, result.polytope));
   const hull::PolytopeMeasures measures = hull::measures_of(result.polytope);
   report(a, {{"algorithm", a.algorithm},
              {"points", object.vertices.size()},
@@ -189,7 +190,7 @@ void run_in_plane(const Arguments& a) {
   require_hull(result.status, a.input, points.size());
   if (!a.out.empty()) write_corners(a.out, points, result.corners);
   if (!a.svg.empty())
-    records::write_file_atomically(a.svg, draw_planar_hull(points, result.corners));
+    records::write_file_atomically(a.svg, figures::draw_planar_hull(points, result.corners));
   report(a, {{"algorithm", a.algorithm},
              {"points", points.size()},
              {"corners", result.corners},

@@ -17,11 +17,11 @@
 #include "case_io/read_volume.hpp"
 #include "case_io/surface_file.hpp"
 #include "case_io/write_volume.hpp"
-#include "cli/segment_pictures.hpp"
 #include "cli/simulated_scan.hpp"
 #include "cli/stop_request.hpp"
 #include "core/error.hpp"
 #include "core/text_format.hpp"
+#include "figures/segment_pictures.hpp"
 #include "imaging/binary_mask.hpp"
 #include "imaging/bone_markers.hpp"
 #include "imaging/gaussian.hpp"
@@ -302,7 +302,7 @@ void run(const Arguments& a) {
                          task.offset.y + flooded.geometry().size[1] - 1,
                          task.offset.z + flooded.geometry().size[2] - 1}};
     const Grid<std::int16_t> grey = imaging::crop(ct.view(), part);
-    int z = most_telling_slice(flooded.view());
+    int z = figures::most_telling_slice(flooded.view());
     if (a.slice >= 0) {
       z = a.slice - task.offset.z;
       if (z < 0 || z >= flooded.geometry().size[2]) {
@@ -310,9 +310,10 @@ void run(const Arguments& a) {
                          std::to_string(part.high.z));
       }
     }
-    const SegmentSteps steps{grey.view(), gradient.view(), std::as_const(task.markers).view(),
-                             std::as_const(flooded).view(), task.outside};
-    write_segment_pictures(a.pictures, steps, z);
+    const figures::SegmentSteps steps{grey.view(), gradient.view(),
+                                      std::as_const(task.markers).view(),
+                                      std::as_const(flooded).view(), task.outside};
+    figures::write_segment_pictures(a.pictures, steps, z);
     std::printf("pictures: %s (slice %d)\n", a.pictures.string().c_str(), z + task.offset.z);
   }
   std::printf("labels: %s\n", a.out.string().c_str());

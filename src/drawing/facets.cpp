@@ -54,10 +54,11 @@ std::string draw_edges(const View& view, const Solid& solid, const Colour& colou
   return strokes(inner, {ink, 1, opacity}) + strokes(outline, {ink, 2});
 }
 
-std::string draw_surface(const View& view, const TriangleMesh& surface, const Colour& colour) {
+std::string draw_surface(const View& view, const TriangleMesh& surface, const SurfacePaint& paint) {
   const bool is_closed = check_surface(surface) == SurfaceStatus::Ok;
   std::vector<std::pair<double, std::string>> facets;
-  for (const Triangle& t : surface.facets) {
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const Triangle& t = surface.facets[f];
     const std::array corners{surface.vertices[t[0]], surface.vertices[t[1]],
                              surface.vertices[t[2]]};
     Vec3 normal = normalized_or(cross(corners[1] - corners[0], corners[2] - corners[0]), {0, 0, 1});
@@ -66,14 +67,20 @@ std::string draw_surface(const View& view, const TriangleMesh& surface, const Co
       normal = -normal;
     }
     const std::array on_page{view(corners[0]), view(corners[1]), view(corners[2])};
-    facets.emplace_back(view.nearness(corners[0] + corners[1] + corners[2]),
-                        filled(polygon_path(on_page), shaded(colour, view.brightness(normal))));
+    facets.emplace_back(
+        view.nearness(corners[0] + corners[1] + corners[2]),
+        filled(polygon_path(on_page), shaded(paint.colour(f), view.brightness(normal))));
   }
   std::stable_sort(facets.begin(), facets.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::string svg = format(kCrisp, 1.0);
+  std::string svg = "<g stroke=\"" + std::string(paint.edges) +
+                    format("\" stroke-width=\"%.3g\">\n", paint.edge_width) + format(kCrisp, 1.0);
   for (const auto& facet : facets) svg += facet.second;
-  return svg + "</g>\n";
+  return svg + "</g>\n</g>\n";
+}
+
+std::string draw_surface(const View& view, const TriangleMesh& surface, const Colour& colour) {
+  return draw_surface(view, surface, {[&](std::size_t) { return colour; }});
 }
 
 std::string draw_points(std::span<const Vec2> on_page, const Colour& colour) {

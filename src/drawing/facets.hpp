@@ -4,9 +4,12 @@
 // Surfaces on a page: facets that a lamp shades, edges whose outline is bolder.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drawing/view.hpp"
@@ -42,9 +45,19 @@ struct Solid {
                                      const Colour& colour,
                                      double opacity);
 
+/// How each facet of a surface is painted.
+struct SurfacePaint {
+  std::function<Colour(std::size_t facet)> colour;
+  std::string_view edges = "none";  ///< colour of the facets' edges
+  double edge_width = 0.5;
+};
+
 /// Any surface, from far to near: what is nearer is painted over what is farther, by the middles of
 /// the facets, which is right up to facets that are long beside what separates them. Facets that
 /// face away are left out where the surface is closed, and shaded from inside where it is not.
+[[nodiscard]] std::string draw_surface(const View& view,
+                                       const TriangleMesh& surface,
+                                       const SurfacePaint& paint);
 [[nodiscard]] std::string draw_surface(const View& view,
                                        const TriangleMesh& surface,
                                        const Colour& colour);

@@ -23,7 +23,7 @@ struct LabelSurface {
 /// surface in the same place.
 /// @return vertices in frame Patient [mm]; every mesh is a closed, oriented 2-manifold.
 /// @throws InvalidInput if the grid has an empty side.
-/// Source: [lorensen1987marching], with the table of detail/cube_table.hpp.
+/// Source: [lorensen1987marching], with the table of cube_table.hpp.
 [[nodiscard]] std::vector<LabelSurface> extract_label_surfaces(
     const GridView<const std::uint16_t>& labels);
 

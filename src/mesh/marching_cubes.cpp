@@ -15,7 +15,7 @@
 
 #include "core/check.hpp"
 #include "core/error.hpp"
-#include "mesh/detail/cube_table.hpp"
+#include "mesh/cube_table.hpp"
 
 namespace carpus::mesh {
 namespace {

@@ -30,7 +30,7 @@ struct MarchingCubesOptions {
 ///     oriented 2-manifold (check_surface is Ok), whatever the values; empty when nothing is
 ///     inside. Bodies that touch along an edge or corner of the grid stay apart.
 /// @throws InvalidInput if iso is not finite or the grid has an empty side.
-/// Source: [lorensen1987marching], with the table of detail/cube_table.hpp.
+/// Source: [lorensen1987marching], with the table of cube_table.hpp.
 [[nodiscard]] TriangleMesh extract_isosurface(const GridView<const float>& values,
                                               double iso,
                                               const MarchingCubesOptions& options = {});

@@ -10,6 +10,7 @@
 #include "survey/closest/depth.hpp"
 #include "survey/closest/epa.hpp"
 #include "survey/closest/gjk.hpp"
+#include "survey/features/i_collide.hpp"
 #include "survey/features/lin_canny.hpp"
 #include "survey/features/q_collide.hpp"
 #include "survey/features/swift.hpp"
@@ -70,6 +71,8 @@ std::span<const Method> all_methods() {
              "may not answer on overlap, where the walk goes round; gaps below 1e-9 mm count as "
              "contact",
              make_lin_canny},
+      Method{"i_collide", "cohen1995icollide", false, false,
+             "of lin_canny, where the boxes overlap", make_i_collide},
       Method{"v_clip", "mirtich1998vclip", true, false, kMayGoRound, make_v_clip},
       Method{"swift", "ehmann2000accelerated", true, false, kMayGoRound, make_swift},
       Method{"q_collide", "chung1996quick", false, false, kContactBelow, make_q_collide},

@@ -34,6 +34,7 @@
 #include "cli/soft_tissue_command.hpp"
 #include "cli/stock_command.hpp"
 #include "cli/study_command.hpp"
+#include "cli/thesis_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 
@@ -60,6 +61,7 @@ void add_commands(CLI::App& app) {
   add_score_command(app);
   add_attempts_command(app);
   add_study_command(app);
+  add_thesis_command(app);
   CLI::App* device =
       app.add_subcommand("device", "Force-feedback arms and other devices of a hand");
   device->require_subcommand(1);

@@ -184,7 +184,7 @@ TEST_P(FeatureMethods, AllocateNothingInQueries) {
 
 INSTANTIATE_TEST_SUITE_P(All,
                          FeatureMethods,
-                         testing::Values("lin_canny", "v_clip", "swift", "q_collide"),
+                         testing::Values("lin_canny", "i_collide", "v_clip", "swift", "q_collide"),
                          [](const auto& of) { return std::string(of.param); });
 
 }  // namespace

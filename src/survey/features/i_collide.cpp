@@ -3,6 +3,8 @@
 #include "survey/features/i_collide.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "convex/features/voronoi_features.hpp"
 #include "core/check.hpp"
@@ -10,6 +12,29 @@
 #include "survey/features/lin_canny.hpp"
 
 namespace carpus::survey {
+namespace {
+
+class SceneOfTwo final : public convex::PairQuery {
+ public:
+  explicit SceneOfTwo(const std::array<convex::ConvexBody, 2>& bodies) : scene_(bodies) {}
+  convex::Verdict meets(const convex::PairPose& first_from_second) noexcept override {
+    // Boxes would part bodies whose distance the walk could not square; no method answers there.
+    if (!std::isfinite(squared_length(first_from_second.translation))) {
+      return convex::Verdict::Unknown;
+    }
+    const std::array<BodyPose, 2> world_from_body{
+        BodyPose{Mat3::identity(), {}},
+        BodyPose{first_from_second.rotation, first_from_second.translation}};
+    (void)scene_.update(world_from_body);
+    return scene_.verdicts()[0];
+  }
+  void forget() noexcept override { scene_.forget(); }
+
+ private:
+  ICollide scene_;
+};
+
+}  // namespace
 
 ICollide::ICollide(std::span<const convex::ConvexBody> bodies)
     : boxes_(bodies.size()),
@@ -52,6 +77,11 @@ void ICollide::forget() noexcept {
   sweep_.forget();
   for (const auto& walk : walks_) walk->forget();
   std::fill(verdicts_.begin(), verdicts_.end(), convex::Verdict::Unknown);
+}
+
+std::unique_ptr<convex::PairQuery> make_i_collide(const convex::ConvexBody& first,
+                                                  const convex::ConvexBody& second) {
+  return std::make_unique<SceneOfTwo>(std::array<convex::ConvexBody, 2>{first, second});
 }
 
 }  // namespace carpus::survey

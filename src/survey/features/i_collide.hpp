@@ -52,4 +52,8 @@ class ICollide {
   SweepAndPrune sweep_;
 };
 
+/// A scene of two: the boxes first, the walk where they overlap.
+[[nodiscard]] std::unique_ptr<convex::PairQuery> make_i_collide(const convex::ConvexBody& first,
+                                                                const convex::ConvexBody& second);
+
 }  // namespace carpus::survey

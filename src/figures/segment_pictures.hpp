@@ -11,7 +11,7 @@
 #include "geometry/grid.hpp"
 #include "imaging/watershed.hpp"
 
-namespace carpus::cli {
+namespace carpus::figures {
 
 /// What a watershed began with and came to; all on one grid.
 struct SegmentSteps {
@@ -32,4 +32,4 @@ struct SegmentSteps {
 /// @throws IoError where one cannot be written.
 void write_segment_pictures(const std::filesystem::path& folder, const SegmentSteps& steps, int z);
 
-}  // namespace carpus::cli
+}  // namespace carpus::figures

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/segment_pictures.hpp"
+#include "figures/segment_pictures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "reconstruct/bone_surface.hpp"
 #include "records/atomic_file.hpp"
 
-namespace carpus::cli {
+namespace carpus::figures {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ void write_segment_pictures(const fs::path& folder, const SegmentSteps& steps, i
   records::write_file_atomically(folder / "4_bones.svg", draw_bones(steps.labels));
 }
 
-}  // namespace carpus::cli
+}  // namespace carpus::figures

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/hull_picture.hpp"
+#include "figures/hull_picture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "hull/fast_hull.hpp"
 
-namespace carpus::cli {
+namespace carpus::figures {
 namespace {
 
 std::vector<Vec3> cube() {
@@ -49,4 +49,4 @@ TEST(HullPicture, ShowsPointsInThePlaneWithinTheirHull) {
 }
 
 }  // namespace
-}  // namespace carpus::cli
+}  // namespace carpus::figures

@@ -12,7 +12,7 @@
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_mesh.hpp"
 
-namespace carpus::cli {
+namespace carpus::figures {
 
 /// SVG: the object shaded (or its points, where it has no facets), over it the hull translucent
 /// with the edges of its faces; seen without perspective, aslant from the front, right and above.
@@ -22,4 +22,4 @@ namespace carpus::cli {
 [[nodiscard]] std::string draw_planar_hull(std::span<const Vec2> points,
                                            std::span<const std::uint32_t> corners);
 
-}  // namespace carpus::cli
+}  // namespace carpus::figures

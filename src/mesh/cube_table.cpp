@@ -9,7 +9,7 @@
 //    might draw the same line, and an edge would have four triangles. Where no such triangulation
 //    exists, a vertex in the loop's middle is added.
 // Hence each edge has two triangles and each vertex one fan, whatever the values.
-#include "mesh/detail/cube_table.hpp"
+#include "mesh/cube_table.hpp"
 
 #include <cstddef>
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/hull_picture.hpp"
+#include "figures/hull_picture.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -9,7 +9,7 @@
 #include "drawing/svg.hpp"
 #include "hull/merged_faces.hpp"
 
-namespace carpus::cli {
+namespace carpus::figures {
 namespace {
 
 using drawing::Colour;
@@ -67,4 +67,4 @@ std::string draw_planar_hull(std::span<const Vec2> points, std::span<const std::
           drawing::strokes(drawing::polygon_path(outline), {drawing::hex(kHull), 2}));
 }
 
-}  // namespace carpus::cli
+}  // namespace carpus::figures
