@@ -34,7 +34,7 @@ phantom::PhantomOptions options_of(std::uint64_t seed, double voxel_mm, StudiedS
         format("%s %.2f", std::string(phantom::name_of(condition)).c_str(), severity));
   };
   add(phantom::Condition::OtherAnatomy, 0.2 + 0.2 * scan.difficulty);
-  const double least = std::max(0.0, 0.25 * scan.difficulty - 0.1);
+  const double least = std::clamp(0.25 * scan.difficulty - 0.1, 0.0, 0.6);
   for (int k = 0; k < scan.difficulty; ++k) {
     add(phantom::kAllConditions[rng.below(phantom::kAllConditions.size())],
         rng.uniform(least, least + 0.4));

@@ -17,7 +17,7 @@ namespace carpus::cli {
 
 /// A bone with less is one that went wrong.
 inline constexpr double kGoodDice = 0.95;
-inline constexpr int kDifficulties = 4;
+inline constexpr int kDifficulties = 5;
 
 /// One bone of a scan's truth.
 struct StudiedBone {
@@ -72,6 +72,12 @@ struct SegmentationStudy {
   double voxel_mm = 0;
   std::vector<StudiedScan> scans;
 };
+
+/// One scan as one line of JSON, with all that was measured, and back: a study that was stopped
+/// goes on from its lines. What was measured is judged anew.
+/// @throws InvalidInput naming `file`.
+[[nodiscard]] std::string row_of(const StudiedScan& scan, double voxel_mm);
+[[nodiscard]] SegmentationStudy study_of_rows(const std::string& text, const std::string& file);
 
 [[nodiscard]] std::string segmentation_study_text(const SegmentationStudy& study);
 /// docs/json.md.

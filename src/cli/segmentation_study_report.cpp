@@ -115,7 +115,7 @@ std::string segmentation_study_picture(const SegmentationStudy& study) {
   constexpr std::string_view kInk = "#1a1f26";
   constexpr std::string_view kRule = "#d5dade";
   constexpr std::array<std::string_view, kDifficulties> kColours{"#4b7a2a", "#0b6fb8", "#c28a00",
-                                                                 "#b5471b"};
+                                                                 "#b5471b", "#6b3fa0"};
   const auto x_of = [&](double dice) {
     return kLeft + kWidth * (std::max(dice, kLeastDice) - kLeastDice) / (1 - kLeastDice);
   };

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
+
 namespace carpus::cli {
 namespace {
 
@@ -50,6 +52,23 @@ TEST(SegmentationStudy, NamesTheSilentOnesAndDrawsEachBone) {
   EXPECT_EQ(json["scans"][1]["bones"][0]["flagged"], true);
   EXPECT_EQ(json["scans"][0]["bones"][0]["concerns"].size(), json["concerns"].size());
   EXPECT_NE(segmentation_study_picture(study).find("<svg"), std::string::npos);
+}
+
+TEST(SegmentationStudy, GoesOnFromItsRowsWhereverItWasStopped) {
+  SegmentationStudy study = small_study();
+  study.scans[0].conditions = {"metal 0.40"};
+  study.scans[0].bones[0].evidence.leak = 0.25;
+  const std::string rows = row_of(study.scans[0], 0.7) + row_of(study.scans[1], 0.7);
+  const SegmentationStudy again = study_of_rows(rows, "rows");
+  ASSERT_EQ(again.scans.size(), 2U);
+  EXPECT_EQ(again.voxel_mm, 0.7);
+  EXPECT_EQ(again.scans[0].conditions, study.scans[0].conditions);
+  EXPECT_EQ(again.scans[0].bones[0].evidence.leak, 0.25);
+  EXPECT_EQ(again.scans[1].difficulty, 1);
+  EXPECT_FALSE(again.scans[1].bones[0].is_found);
+  EXPECT_EQ(row_of(again.scans[0], 0.7) + row_of(again.scans[1], 0.7), rows);
+  EXPECT_EQ(study_of_rows(rows.substr(0, rows.size() - 9), "rows").scans.size(), 1U);
+  EXPECT_THROW((void)study_of_rows("half\n" + rows, "rows"), InvalidInput);
 }
 
 }  // namespace

@@ -3,13 +3,18 @@
 #include "cli/study_segmentation_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "cli/seed_option.hpp"
 #include "cli/segmentation_study.hpp"
+#include "core/error.hpp"
 #include "records/atomic_file.hpp"
 
 namespace carpus::cli {
@@ -19,30 +24,60 @@ struct StudySegmentationArguments {
   std::size_t seeds = 8;
   std::uint64_t first_seed = 1;
   double voxel_mm = 0.5;
+  std::string rows;
   std::string json;
   std::string picture;
 };
 
-void run(const StudySegmentationArguments& arguments) {
+void say(const StudiedScan& scan) {
+  double worst = 1;
+  for (const StudiedBone& bone : scan.bones) worst = std::min(worst, bone.dice);
+  std::string conditions;
+  for (const std::string& each : scan.conditions) {
+    conditions += (conditions.empty() ? "" : ", ") + each;
+  }
+  std::fprintf(stderr, "seed %llu: worst Dice %.3f, misfit %.1f (%s) %s\n",
+               static_cast<unsigned long long>(scan.seed), worst, scan.naming_cost,
+               conditions.c_str(), scan.refused.c_str());
+}
+
+/// What an earlier run left; a half line at its end is cut off.
+SegmentationStudy begun(const StudySegmentationArguments& arguments) {
   SegmentationStudy study;
+  if (arguments.rows.empty() || !std::filesystem::exists(arguments.rows)) return study;
+  std::ifstream file(arguments.rows);
+  std::ostringstream text;
+  text << file.rdbuf();
+  study = study_of_rows(text.str(), arguments.rows);
+  if (!study.scans.empty() && study.voxel_mm != arguments.voxel_mm) {
+    throw InvalidInput(arguments.rows + " holds scans of " + std::to_string(study.voxel_mm) +
+                       " mm voxels; give --voxel with that, or another file");
+  }
+  std::string whole;
+  for (const StudiedScan& scan : study.scans) whole += row_of(scan, study.voxel_mm);
+  if (whole != text.str()) records::write_file_atomically(arguments.rows, whole);
+  return study;
+}
+
+void run(const StudySegmentationArguments& arguments) {
+  SegmentationStudy study = begun(arguments);
   study.voxel_mm = arguments.voxel_mm;
   for (std::size_t i = 0; i < arguments.seeds; ++i) {
-    study.scans.push_back(study_scan(arguments.first_seed + i, arguments.voxel_mm));
-    const StudiedScan& scan = study.scans.back();
-    double worst = 1;
-    for (const StudiedBone& bone : scan.bones) worst = bone.dice < worst ? bone.dice : worst;
-    std::string conditions;
-    for (const std::string& each : scan.conditions)
-      conditions += (conditions.empty() ? "" : ", ") + each;
-    std::fprintf(stderr, "seed %llu: worst Dice %.3f, misfit %.1f (%s) %s\n",
-                 static_cast<unsigned long long>(scan.seed), worst, scan.naming_cost,
-                 conditions.c_str(), scan.refused.c_str());
-    // What there is of a long run is kept.
-    if (!arguments.json.empty()) {
-      records::write_file_atomically(arguments.json, segmentation_study_json(study));
+    const std::uint64_t seed = arguments.first_seed + i;
+    const auto has_seed = [&](const StudiedScan& scan) { return scan.seed == seed; };
+    if (std::any_of(study.scans.begin(), study.scans.end(), has_seed)) continue;
+    study.scans.push_back(study_scan(seed, arguments.voxel_mm));
+    say(study.scans.back());
+    if (!arguments.rows.empty()) {
+      std::ofstream file(arguments.rows, std::ios::app);
+      file << row_of(study.scans.back(), arguments.voxel_mm) << std::flush;
+      if (!file) throw IoError("cannot write " + arguments.rows);
     }
   }
   std::fputs(segmentation_study_text(study).c_str(), stdout);
+  if (!arguments.json.empty()) {
+    records::write_file_atomically(arguments.json, segmentation_study_json(study));
+  }
   if (!arguments.picture.empty()) {
     records::write_file_atomically(arguments.picture, segmentation_study_picture(study));
   }
@@ -61,6 +96,9 @@ void add_study_segmentation_command(CLI::App& study) {
   command->add_option("--voxel", arguments->voxel_mm, "Side of the voxels [mm]")
       ->check(CLI::Range(0.3, 1.0))
       ->capture_default_str();
+  command->add_option(
+      "--rows", arguments->rows,
+      "Append each scan to this file as it is done; what it holds is not made again");
   command->add_option("--json", arguments->json, "Write every figure to this file");
   command->add_option("--picture", arguments->picture, "Draw the figures into this file, as SVG");
   command->callback([arguments] { run(*arguments); });

@@ -23,6 +23,8 @@ using Labels = GridView<const std::uint16_t>;
 constexpr float kLeastStep = 0.12F;
 /// The edge is put at half of the cortex; this much lower and higher it should lie nearly there.
 constexpr float kShift = 0.1F;
+/// No bone but a fatty marrow is so thin.
+constexpr float kDarkHu = 80;
 /// Points of the border that a hull is made of.
 constexpr std::size_t kHullPoints = 4000;
 
@@ -31,6 +33,10 @@ struct Tally {
   double faces_mm2 = 0;
   double leak_mm2 = 0;
   double weak_mm2 = 0;
+  double bright_mm2 = 0;
+  double step_mm2 = 0;  ///< sum of steps times area
+  double outer_mm2 = 0;
+  std::size_t dark = 0;
   std::size_t unsteady = 0;
   bool touches_border = false;
   std::vector<Vec3> rim;
@@ -50,15 +56,21 @@ void count_face(const Labels& labels,
   tally.faces_mm2 += face_mm2;
   if (labels[j] != 0) {
     tally.leak_mm2 += face_mm2;
-  } else if (excess[i] - excess[j] < kLeastStep) {
-    tally.weak_mm2 += face_mm2;
+  } else {
+    const float step = excess[i] - excess[j];
+    tally.outer_mm2 += face_mm2;
+    tally.step_mm2 += static_cast<double>(std::clamp(step, 0.0F, 1.0F)) * face_mm2;
+    if (step < kLeastStep) tally.weak_mm2 += face_mm2;
+    if (excess[j] > 0) tally.bright_mm2 += face_mm2;
   }
   // An edge between 0.4 and 0.6 of the cortex moves when the threshold does.
   if (excess[i] < kShift) ++tally.unsteady;
   if (excess[j] > -kShift) ++tally.unsteady;
 }
 
-std::vector<Tally> tally_of(const Labels& labels, const GridView<const float>& excess) {
+std::vector<Tally> tally_of(const Labels& labels,
+                            const GridView<const float>& excess,
+                            const GridView<const float>& hu) {
   const GridGeometry& g = labels.geometry();
   std::vector<Tally> tallies(256);
   const std::array<VoxelIndex, 6> steps{
@@ -69,6 +81,7 @@ std::vector<Tally> tally_of(const Labels& labels, const GridView<const float>& e
     if (labels[i] == 0 || labels[i] > 255) continue;
     Tally& tally = tallies[labels[i]];
     ++tally.voxels;
+    if (hu[i] < kDarkHu) ++tally.dark;
     const VoxelIndex v = g.index_of(i);
     tally.low = {std::min(tally.low.x, v.x), std::min(tally.low.y, v.y),
                  std::min(tally.low.z, v.z)};
@@ -151,6 +164,20 @@ LabelName name_of_label(std::uint16_t label, const anatomy::BoneNaming& naming) 
   return found;
 }
 
+/// A wrist may be large or small as a whole; one bone of it may not.
+void compare_volumes(std::vector<BoneEvidence>& bones) {
+  std::vector<double> ratios;
+  for (const BoneEvidence& bone : bones) {
+    if (bone.volume_ratio != 1) ratios.push_back(bone.volume_ratio);
+  }
+  if (ratios.size() < 3) return;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  for (BoneEvidence& bone : bones) {
+    if (bone.volume_ratio != 1) bone.relative_volume = bone.volume_ratio / *middle;
+  }
+}
+
 double excess_over(double value, double limit) { return std::max(0.0, value - limit); }
 
 }  // namespace
@@ -159,7 +186,7 @@ std::vector<BoneEvidence> measure_evidence(const Labels& labels,
                                            const GridView<const float>& edge_excess,
                                            const GridView<const float>& smoothed_hu,
                                            const anatomy::BoneNaming& naming) {
-  const std::vector<Tally> tallies = tally_of(labels, edge_excess);
+  const std::vector<Tally> tallies = tally_of(labels, edge_excess, smoothed_hu);
   const double voxel_mm3 = labels.geometry().voxel_volume_mm3();
   const double noise_hu = noise_of(labels, smoothed_hu);
   const anatomy::ModelShapes& model = anatomy::generic_model_shapes(naming.side);
@@ -187,9 +214,36 @@ std::vector<BoneEvidence> measure_evidence(const Labels& labels,
     e.roughness =
         t.faces_mm2 / (std::cbrt(36 * std::numbers::pi) * std::pow(e.volume_mm3, 2.0 / 3));
     e.noise_hu = noise_hu;
+    e.sharpness = t.outer_mm2 > 0 ? t.step_mm2 / t.outer_mm2 : 0.0;
+    e.bright_rim = t.faces_mm2 > 0 ? t.bright_mm2 / t.faces_mm2 : 1.0;
+    e.rim_part = static_cast<double>(t.rim.size()) / static_cast<double>(t.voxels);
+    e.dark = static_cast<double>(t.dark) / static_cast<double>(t.voxels);
+    e.wrist_misfit = naming.cost;
     result.push_back(e);
   }
+  compare_volumes(result);
   return result;
+}
+
+std::span<const EvidenceField> evidence_fields() {
+  using E = BoneEvidence;
+  static constexpr std::array<EvidenceField, 16> kFields{{{"volume_mm3", &E::volume_mm3},
+                                                          {"misfit", &E::misfit},
+                                                          {"volume_ratio", &E::volume_ratio},
+                                                          {"solidity", &E::solidity},
+                                                          {"leak", &E::leak},
+                                                          {"weak_rim", &E::weak_rim},
+                                                          {"unsteady", &E::unsteady},
+                                                          {"detached", &E::detached},
+                                                          {"roughness", &E::roughness},
+                                                          {"noise_hu", &E::noise_hu},
+                                                          {"relative_volume", &E::relative_volume},
+                                                          {"sharpness", &E::sharpness},
+                                                          {"bright_rim", &E::bright_rim},
+                                                          {"rim_part", &E::rim_part},
+                                                          {"dark", &E::dark},
+                                                          {"wrist_misfit", &E::wrist_misfit}}};
+  return kFields;
 }
 
 const std::vector<std::string>& concern_names() {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "anatomy/bone_naming.hpp"
@@ -26,7 +28,20 @@ struct BoneEvidence {
   double detached = 0;      ///< part that hangs together with the rest nowhere
   double roughness = 0;     ///< border's area over that of a ball of the same volume
   double noise_hu = 0;      ///< of the scan, in the soft tissue around
+  double relative_volume = 1;  ///< volume_ratio over its median among this scan's carpal bones
+  double sharpness = 1;        ///< mean step in the CT across its border, in parts of the cortex
+  double bright_rim = 0;       ///< part of its border beyond which the CT is as dense as bone
+  double rim_part = 0;         ///< part of its voxels on the border: how coarse the scan is for it
+  double dark = 0;             ///< part of it no denser than soft tissue
+  double wrist_misfit = 0;     ///< of the scan's naming as a whole
 };
+
+/// What a row of a study keeps of the evidence, by name.
+struct EvidenceField {
+  std::string_view name;
+  double BoneEvidence::*value;
+};
+[[nodiscard]] std::span<const EvidenceField> evidence_fields();
 
 struct BoneTrust {
   double confidence = 0;  ///< 0 to 1: how sure it is that Dice is 0.95 or more
