@@ -24,6 +24,7 @@
 #include "core/error.hpp"
 #include "core/person_name.hpp"
 #include "core/version.hpp"
+#include "reconstruct/given_labels_file.hpp"
 #include "reconstruct/reconstruct_case.hpp"
 #include "reconstruct/reconstruction_report.hpp"
 #include "records/atomic_file.hpp"
@@ -38,6 +39,8 @@ struct Arguments {
   fs::path input;
   fs::path out;
   fs::path truth;
+  fs::path labels;
+  fs::path names;
   fs::path json;
   std::string series;
   std::string pseudonym = "wrist";
@@ -103,7 +106,20 @@ std::vector<case_io::TrustLine> trust_lines(const reconstruct::Reconstruction& r
   return lines;
 }
 
+reconstruct::Reconstruction make_case(const Arguments& a,
+                                      Grid<std::int16_t> ct,
+                                      reconstruct::ReconstructOptions& options) {
+  if (a.labels.empty()) return reconstruct::reconstruct_case(std::move(ct), options);
+  const Grid<std::uint8_t> labels =
+      reconstruct::read_given_labels(a.labels, a.names, ct.geometry(), warn);
+  options.provenance.conventions.push_back("bones as outlined and named in a given label volume");
+  return reconstruct::reconstruct_labelled(std::move(ct), labels, options);
+}
+
 void run(const Arguments& a) {
+  if (!a.names.empty() && a.labels.empty()) {
+    throw UsageError("--names says what the numbers of --labels are; give those too");
+  }
   check_target(a);
   const auto started = reconstruct::StageClock::Clock::now();
   show_progress("read", 0);
@@ -130,7 +146,7 @@ void run(const Arguments& a) {
   options.provenance.made_at = utc_now();
   options.provenance.conventions = conventions;
   options.progress = show_progress;
-  reconstruct::Reconstruction result = reconstruct::reconstruct_case(std::move(ct), options);
+  reconstruct::Reconstruction result = make_case(a, std::move(ct), options);
   for (const std::string& text : result.warnings) warn(text);
 
   std::vector<reconstruct::LabelDice> dice;
@@ -169,6 +185,11 @@ void add_reconstruct_command(CLI::App& app) {
   command->add_option("--out", a->out, "Folder for the case")->required();
   command->add_option("--truth", a->truth,
                       "Label volume to compare with; its numbers in labels.json beside it");
+  command->add_option("--labels", a->labels,
+                      "Bones as outlined elsewhere, instead of segmenting: a label volume or a "
+                      "DICOM segmentation (.dcm) on the scan's grid");
+  command->add_option("--names", a->names,
+                      "Which number of --labels is which bone: a JSON file, {\"radius\": 1, ...}");
   command->add_option("--json", a->json, "Write every figure to this file");
   command->add_option("--series", a->series, "SeriesInstanceUID, where a folder holds several");
   command->add_option("--pseudonym", a->pseudonym, "What the case is called; never a person's name")

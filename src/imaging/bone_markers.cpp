@@ -14,6 +14,7 @@
 #include "imaging/between_bones.hpp"
 #include "imaging/binary_mask.hpp"
 #include "imaging/distance_transform.hpp"
+#include "imaging/edge_excess.hpp"
 #include "imaging/gaussian.hpp"
 #include "imaging/peak_markers.hpp"
 #include "imaging/region_merging.hpp"
@@ -21,11 +22,6 @@
 namespace carpus::imaging {
 namespace {
 
-/// Muscle, tendon, cartilage and fluid lie in this range; fat and air below, bone above.
-constexpr float kSoftTissueLowHu = -50;
-constexpr float kSoftTissueHighHu = 150;
-/// Where no such tissue is seen (a bone in air), muscle's usual density.
-constexpr float kUsualSoftTissueHu = 45;
 /// Voxels that one task of a loop takes at least.
 constexpr std::size_t kGrain = 1U << 16U;
 
@@ -69,18 +65,6 @@ Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
     mask[i] = is_outside[components.labels[i]] != 0 ? 0 : 1;
   }
   return opened_by_one_voxel(mask.view());
-}
-
-float median_soft_tissue(const Grid<float>& smoothed, const Grid<std::uint8_t>& mask) {
-  std::vector<float> values;
-  for (std::size_t i = 0; i < mask.values().size(); ++i) {
-    const float v = smoothed[i];
-    if (mask[i] == 0 && v >= kSoftTissueLowHu && v <= kSoftTissueHighHu) values.push_back(v);
-  }
-  if (values.empty()) return kUsualSoftTissueHu;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Steps 3 and 4: the bodies within the mask, one label each. Returns how many.
@@ -139,7 +123,8 @@ BoneMarkers find_bone_markers(const GridView<const std::int16_t>& ct,
   const Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);
   progress("bone mask", 0.57);
   found.mask = enclosed_by_bone(found.smoothed_hu, cleft, options);
-  found.soft_tissue_hu = static_cast<double>(median_soft_tissue(found.smoothed_hu, found.mask));
+  found.soft_tissue_hu =
+      static_cast<double>(median_soft_tissue(found.smoothed_hu.view(), found.mask.view()));
   found.depth = distance_to_background(found.mask.view());
 
   progress("markers", 0.71);

@@ -7,39 +7,11 @@
 
 #include <utility>
 
-#include "core/parallel.hpp"
-#include "imaging/box_maximum.hpp"
+#include "imaging/edge_excess.hpp"
 #include "imaging/gaussian.hpp"
 #include "imaging/region_merging.hpp"
 
 namespace carpus::imaging {
-namespace {
-
-/// Values that one task of a loop over voxels takes at least.
-constexpr std::size_t kGrain = 1U << 16U;
-
-/// How far each voxel is above the half-maximum of the cortex near it, as a part of that cortex.
-Grid<float> measure_edge_excess(const Grid<float>& smoothed,
-                                const Grid<std::uint8_t>& mask,
-                                float soft_tissue,
-                                const BoneSegmentationOptions& options) {
-  Grid<float> inside(smoothed.geometry());
-  for (std::size_t i = 0; i < inside.values().size(); ++i) {
-    inside[i] = mask[i] != 0 ? smoothed[i] : soft_tissue;
-  }
-  Grid<float> excess = box_maximum(inside.view(), options.rim_reach_mm);
-  const auto fraction = static_cast<float>(options.rim_fraction);
-  parallel_for(excess.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const float range = excess[i] - soft_tissue;
-      excess[i] = range > 0 ? (smoothed[i] - soft_tissue) / range - fraction : -fraction;
-    }
-  });
-  return excess;
-}
-
-}  // namespace
-
 BoneSegmentation segment_bones(const GridView<const std::int16_t>& ct,
                                const BoneSegmentationOptions& options,
                                const Progress& progress) {
@@ -65,7 +37,7 @@ BoneSegmentation segment_bones(const GridView<const std::int16_t>& ct,
     if (label == found.outside()) label = 0;
   }
   progress("rim", 0.9);
-  result.edge_excess = measure_edge_excess(result.smoothed_hu, found.mask,
+  result.edge_excess = measure_edge_excess(result.smoothed_hu.view(), found.mask.view(),
                                            static_cast<float>(found.soft_tissue_hu), options);
   for (std::size_t i = 0; i < result.regions.values().size(); ++i) {
     if (static_cast<double>(found.depth[i]) <= options.rim_depth_mm && result.edge_excess[i] < 0) {

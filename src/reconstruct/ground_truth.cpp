@@ -82,16 +82,19 @@ GroundTruth read_ground_truth(const fs::path& file) {
   return truth;
 }
 
+void require_same_grid(const GridGeometry& ct,
+                       const GridGeometry& labels,
+                       const std::string& what) {
+  if (lie_on_one_grid(ct, labels)) return;
+  const auto text = [](const std::array<int, 3>& s) {
+    return std::to_string(s[0]) + " x " + std::to_string(s[1]) + " x " + std::to_string(s[2]);
+  };
+  throw InvalidInput(what + " (" + text(labels.size) + " voxels) does not lie on the CT's grid (" +
+                     text(ct.size) + " voxels): give the label volume that belongs to this scan");
+}
+
 void require_same_grid(const GridGeometry& ct, const GroundTruth& truth) {
-  if (!lie_on_one_grid(ct, truth.labels.geometry())) {
-    const auto& a = ct.size;
-    const auto& b = truth.labels.geometry().size;
-    const auto text = [](const std::array<int, 3>& s) {
-      return std::to_string(s[0]) + " x " + std::to_string(s[1]) + " x " + std::to_string(s[2]);
-    };
-    throw InvalidInput("the ground truth (" + text(b) + " voxels) does not lie on the CT's grid (" +
-                       text(a) + " voxels): give the label volume that belongs to this scan");
-  }
+  require_same_grid(ct, truth.labels.geometry(), "the ground truth");
 }
 
 std::vector<LabelDice> compare_labels(const GridView<const std::uint8_t>& found,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "anatomy/bone_id.hpp"
@@ -29,6 +30,8 @@ struct GroundTruth {
 
 /// @throws InvalidInput if the truth does not lie on the CT's grid: ask before the work.
 void require_same_grid(const GridGeometry& ct, const GroundTruth& truth);
+/// The same of any labels. @param what  "the labels"
+void require_same_grid(const GridGeometry& ct, const GridGeometry& labels, const std::string& what);
 
 /// Agreement of one label: 2 |A and B| / (|A| + |B|) [dice1945measures].
 struct LabelDice {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "core/text_format.hpp"
 #include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
+#include "reconstruct/given_labels.hpp"
 #include "reconstruct/named_segmentation.hpp"
 #include "reconstruct/skin_surface.hpp"
 
@@ -186,21 +188,16 @@ void generate_structures(Reconstruction& result) {
   }
 }
 
-}  // namespace
-
-Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions& options) {
-  Reconstruction result;
-  StageClock clock;
-  const auto stage = [&](std::string_view name, double fraction) {
-    clock.begin(name);
-    options.progress(name, fraction);
-  };
-  const NamedSegmentation named = segment_and_name(
-      ct, options.segmentation,
-      [&](std::string_view name, double fraction) { stage(name, kSegmentationShare * fraction); });
+/// Everything after the names.
+void build_case(Grid<std::int16_t> ct,
+                const NamedSegmentation& named,
+                const ReconstructOptions& options,
+                const std::function<void(std::string_view, double)>& stage,
+                Reconstruction& result) {
   const auto& [segmentation, naming] = named;
   refuse_what_cannot_be_operated(naming, segmentation.region_count);
-  result.warnings = warnings_of(naming);
+  const std::vector<std::string> warnings = warnings_of(naming);
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   result.naming_cost = naming.cost;
   result.other_side_cost = naming.other_side_cost;
   result.size = naming.scale;
@@ -229,6 +226,40 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   generate_structures(result);
   stage("hand motion", 0.98);
   data.hand_motion = cases::make_hand_motion(data);
+}
+
+}  // namespace
+
+Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions& options) {
+  Reconstruction result;
+  StageClock clock;
+  const auto stage = [&](std::string_view name, double fraction) {
+    clock.begin(name);
+    options.progress(name, fraction);
+  };
+  const NamedSegmentation named = segment_and_name(
+      ct, options.segmentation,
+      [&](std::string_view name, double fraction) { stage(name, kSegmentationShare * fraction); });
+  build_case(std::move(ct), named, options, stage, result);
+  clock.end();
+  result.stages = clock.stages();
+  options.progress("done", 1.0);
+  return result;
+}
+
+Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
+                                    const Grid<std::uint8_t>& labels,
+                                    const ReconstructOptions& options) {
+  Reconstruction result;
+  StageClock clock;
+  const auto stage = [&](std::string_view name, double fraction) {
+    clock.begin(name);
+    options.progress(name, fraction);
+  };
+  stage("names", 0.1);
+  const GivenSegmentation given = describe_labels(ct, labels, options.segmentation);
+  result.warnings = given.warnings;
+  build_case(std::move(ct), given.named, options, stage, result);
   clock.end();
   result.stages = clock.stages();
   options.progress("done", 1.0);

@@ -55,4 +55,10 @@ struct Reconstruction {
 [[nodiscard]] Reconstruction reconstruct_case(Grid<std::int16_t> ct,
                                               const ReconstructOptions& options);
 
+/// The same of bones that are outlined and named already (given_labels.hpp): nothing is segmented.
+/// @throws as reconstruct_case and describe_labels.
+[[nodiscard]] Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
+                                                  const Grid<std::uint8_t>& labels,
+                                                  const ReconstructOptions& options);
+
 }  // namespace carpus::reconstruct

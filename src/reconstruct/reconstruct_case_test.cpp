@@ -21,6 +21,7 @@
 #include "core/rng.hpp"
 #include "core/units.hpp"
 #include "imaging/gaussian.hpp"
+#include "reconstruct/given_labels.hpp"
 #include "reconstruct/ground_truth.hpp"
 
 namespace carpus::reconstruct {
@@ -144,6 +145,32 @@ void expect_structures(const Reconstruction& r, std::size_t fewest) {
   for (const std::string& problem : r.structures.problems) {
     EXPECT_THAT(problem, testing::HasSubstr("left out"));
   }
+}
+
+/// What a person outlined is taken as it is; a name that the place contradicts is told, and its
+/// bone flagged.
+TEST(ReconstructCase, TakesLabelsThatAreGivenAndDoubtsANameInTheWrongPlace) {
+  SimulatedWrist wrist = simulate(Side::Left, true);
+  const GivenSegmentation given = describe_labels(wrist.ct, wrist.truth.labels, {});
+  EXPECT_TRUE(given.warnings.empty()) << given.warnings.front();
+  EXPECT_EQ(given.named.naming.side, Side::Left);
+  EXPECT_TRUE(given.named.naming.missing.empty());
+  const Grid<std::uint8_t> kept =
+      on_whole_scan(bone_labels(given.named), given.named.segmentation.offset, wrist.ct.geometry());
+  EXPECT_TRUE(
+      std::equal(kept.values().begin(), kept.values().end(), wrist.truth.labels.values().begin()));
+  constexpr auto kCapitate = static_cast<std::uint8_t>(BoneId::Capitate);
+  constexpr auto kHamate = static_cast<std::uint8_t>(BoneId::Hamate);
+  for (std::uint8_t& label : wrist.truth.labels.values()) {
+    label = label == kCapitate ? kHamate : label == kHamate ? kCapitate : label;
+  }
+  const GivenSegmentation swapped = describe_labels(wrist.ct, wrist.truth.labels, {});
+  EXPECT_EQ(swapped.warnings.size(), 2U);
+  EXPECT_THAT(swapped.warnings.front(), testing::HasSubstr("check the name"));
+  Grid<std::uint8_t> shorter(wrist.ct.geometry());
+  EXPECT_THROW((void)describe_labels(wrist.ct, shorter, {}), InvalidInput);
+  shorter[0] = 40;
+  EXPECT_THROW((void)describe_labels(wrist.ct, shorter, {}), InvalidInput);
 }
 
 TEST(ReconstructCase, MakesACaseOfASimulatedBrokenLeftWrist) {

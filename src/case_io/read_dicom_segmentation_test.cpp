@@ -1,0 +1,141 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "case_io/read_dicom_segmentation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "case_io/dicom_segmentation.hpp"
+#include "core/error.hpp"
+#include "core/rng.hpp"
+
+namespace carpus::case_io {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// The axes of a scan held askew; 13 columns are filled up to 16 in the file.
+Grid<std::uint8_t> two_bones() {
+  GridGeometry g;
+  g.size = {13, 11, 6};
+  g.spacing = {0.3, 0.4, 0.625};
+  g.origin = {-12.5, 3.25, 140};
+  const double c = std::cos(0.2);
+  const double s = std::sin(0.2);
+  g.direction = Mat3::from_columns({c, s, 0}, {-s, c, 0}, {0, 0, 1});
+  Grid<std::uint8_t> labels(g);
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    if (v.x < 5 && v.y > 3 && v.z < 4) labels[i] = 3;
+    if (v.x > 7 && v.y + v.z > 6 && v.z > 1) labels[i] = 9;
+  }
+  return labels;
+}
+
+class ReadDicomSegmentation : public testing::Test {
+ protected:
+  ReadDicomSegmentation() {
+    std::string name = testing::TempDir() + "/seg_XXXXXX";
+    file_ = std::string(::mkdtemp(name.data())) + "/labels.dcm";
+    write_dicom_segmentation(file_, two_bones().view(), {{3, "scaphoid"}, {9, "capitate"}},
+                             {"demo wrist", true, "carpus 0.1.0"});
+  }
+  ~ReadDicomSegmentation() override {
+    std::error_code ignored;
+    fs::remove_all(fs::path(file_).parent_path(), ignored);
+  }
+  [[nodiscard]] std::string bytes() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void replace_bytes(const std::string& bytes) const {
+    std::ofstream(file_, std::ios::binary) << bytes;
+  }
+  /// Why the file is refused; "" where it is not.
+  [[nodiscard]] std::string refusal(const GridGeometry& onto) const {
+    try {
+      (void)read_dicom_segmentation(file_, onto);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string file_;
+};
+
+TEST_F(ReadDicomSegmentation, GivesBackWhatWasWrittenVoxelByVoxel) {
+  const Grid<std::uint8_t> labels = two_bones();
+  const ReadSegmentation read = read_dicom_segmentation(file_, labels.geometry());
+  EXPECT_EQ(read.names, (std::vector<std::string>{"scaphoid", "capitate"}));
+  EXPECT_EQ(read.disputed, 0U);
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    const int expected = labels[i] == 3 ? 1 : labels[i] == 9 ? 2 : 0;
+    ASSERT_EQ(read.labels[i], expected);
+  }
+}
+
+TEST_F(ReadDicomSegmentation, LiesRightOnAGridThatRunsTheOtherWay) {
+  const Grid<std::uint8_t> labels = two_bones();
+  GridGeometry turned = labels.geometry();
+  const auto last = [&](std::size_t axis) { return labels.geometry().size[axis] - 1.0; };
+  turned.origin = labels.geometry().patient_from_voxel({last(0), last(1), 0});
+  turned.direction = Mat3::from_columns(-1 * labels.geometry().direction.column(0),
+                                        -1 * labels.geometry().direction.column(1),
+                                        labels.geometry().direction.column(2));
+  const ReadSegmentation read = read_dicom_segmentation(file_, turned);
+  EXPECT_EQ((read.labels[VoxelIndex{12, 0, 0}]), 1);
+  EXPECT_EQ((read.labels[VoxelIndex{0, 0, 5}]), 2);
+}
+
+TEST_F(ReadDicomSegmentation, RefusesAnotherScansGrid) {
+  GridGeometry coarser = two_bones().geometry();
+  coarser.spacing.x = 0.6;
+  EXPECT_THAT(refusal(coarser), HasSubstr("grid"));
+  GridGeometry beside = two_bones().geometry();
+  beside.origin.y += 0.2;
+  EXPECT_THAT(refusal(beside), HasSubstr("grid"));
+  GridGeometry smaller = two_bones().geometry();
+  smaller.size[2] = 3;
+  EXPECT_THAT(refusal(smaller), HasSubstr("outside the scan"));
+}
+
+TEST_F(ReadDicomSegmentation, RefusesWhatIsNoneOrDamaged) {
+  const GridGeometry g = two_bones().geometry();
+  const std::string whole = bytes();
+  replace_bytes("");
+  EXPECT_NE(refusal(g), "");
+  replace_bytes(whole.substr(0, whole.size() - 40));
+  EXPECT_NE(refusal(g), "");
+  std::string other = whole;
+  const std::string binary = "BINARY";
+  other.replace(other.find(binary), binary.size(), "FRACTI");
+  replace_bytes(other);
+  EXPECT_THAT(refusal(g), HasSubstr("fractional"));
+  fs::remove(file_);
+  EXPECT_NE(refusal(g), "");
+}
+
+/// Whatever a few changed bytes make of it: voxels or a refusal, and this process goes on.
+TEST_F(ReadDicomSegmentation, OutlivesChangedBytes) {
+  const std::string whole = bytes();
+  Rng rng(5);
+  for (int round = 0; round < 60; ++round) {
+    std::string changed = whole;
+    for (int k = 0; k < 4; ++k) {
+      changed[132 + rng.below(changed.size() - 132)] = static_cast<char>(rng.below(256));
+    }
+    replace_bytes(changed);
+    (void)refusal(two_bones().geometry());
+  }
+}
+
+}  // namespace
+}  // namespace carpus::case_io

@@ -1,0 +1,56 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "imaging/edge_excess.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "imaging/box_maximum.hpp"
+
+namespace carpus::imaging {
+namespace {
+
+/// Muscle, tendon, cartilage and fluid lie in this range; fat and air below, bone above.
+constexpr float kSoftTissueLowHu = -50;
+constexpr float kSoftTissueHighHu = 150;
+/// Where no such tissue is seen (a bone in air), muscle's usual density.
+constexpr float kUsualSoftTissueHu = 45;
+/// Values that one task of a loop over voxels takes at least.
+constexpr std::size_t kGrain = 1U << 16U;
+
+}  // namespace
+
+float median_soft_tissue(const GridView<const float>& smoothed_hu,
+                         const GridView<const std::uint8_t>& mask) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    const float v = smoothed_hu[i];
+    if (mask[i] == 0 && v >= kSoftTissueLowHu && v <= kSoftTissueHighHu) values.push_back(v);
+  }
+  if (values.empty()) return kUsualSoftTissueHu;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Grid<float> measure_edge_excess(const GridView<const float>& smoothed_hu,
+                                const GridView<const std::uint8_t>& mask,
+                                float soft_tissue_hu,
+                                const BoneSegmentationOptions& options) {
+  Grid<float> inside(smoothed_hu.geometry());
+  for (std::size_t i = 0; i < inside.values().size(); ++i) {
+    inside[i] = mask[i] != 0 ? smoothed_hu[i] : soft_tissue_hu;
+  }
+  Grid<float> excess = box_maximum(inside.view(), options.rim_reach_mm);
+  const auto fraction = static_cast<float>(options.rim_fraction);
+  parallel_for(excess.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const float range = excess[i] - soft_tissue_hu;
+      excess[i] = range > 0 ? (smoothed_hu[i] - soft_tissue_hu) / range - fraction : -fraction;
+    }
+  });
+  return excess;
+}
+
+}  // namespace carpus::imaging
