@@ -184,6 +184,7 @@ struct Station {
   const server::Log& log_line;
   fs::path web;
   std::shared_ptr<server::AttemptOwners> owners = std::make_shared<server::AttemptOwners>();
+  std::shared_ptr<server::AttemptOwners> quiz_owners = std::make_shared<server::AttemptOwners>();
   std::shared_ptr<server::TruthGate> truth = std::make_shared<server::TruthGate>();
 };
 
@@ -207,10 +208,11 @@ std::string serve_one(Station& s, const server::CaseShelf& shelf, const cases::C
     stop();
     return true;
   };
-  server::Station station(data, procedures, s.records, s.log_line, {}, {choose, s.owners, s.truth});
+  server::Station station(data, procedures, s.records, s.log_line, {},
+                          {choose, s.owners, s.quiz_owners, s.truth});
   if (!s.arguments.no_devices) offer_devices(station, s.log_line);
   const server::StationHttp http(data, procedures, case_io::make_case_glb(data), s.records,
-                                 station.owners(), s.web, shelf, s.truth);
+                                 {station.owners(), station.quiz_owners()}, s.web, shelf, s.truth);
   server::NetworkServer network(
       s.options, [&http](const server::HttpRequest& request) { return http.answer(request); },
       station);

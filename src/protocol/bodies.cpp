@@ -66,6 +66,16 @@ void write(FieldWriter& out, const AttemptList& in) {
   out.value("total", in.total);
 }
 
+void read(FieldReader& in, QuizAnswerList& out) {
+  in.records("answers", 0, 200, out.answers);
+  out.older = in.boolean("older");
+}
+
+void write(FieldWriter& out, const QuizAnswerList& in) {
+  out.records("answers", in.answers);
+  out.value("older", in.older);
+}
+
 void read(FieldReader& in, PictureTruth& out) {
   in.records("bone", 0, 4, out.bone);
   in.records("screws", 0, 4, out.screws);
@@ -207,6 +217,23 @@ Result<AttemptList> parse_attempt_list(std::string_view text) {
 }
 
 std::string serialize(const AttemptList& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<QuizAnswerList> parse_quiz_answer_list(std::string_view text) {
+  JsonText json(text, 1048576);
+  FieldReader in(json);
+  QuizAnswerList out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const QuizAnswerList& body, int indent) {
   JsonWriter json;
   FieldWriter out = json.root();
   write(out, body);

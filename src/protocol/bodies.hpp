@@ -100,6 +100,21 @@ struct AttemptList {
 /// @param indent  spaces a level; negative writes one line.
 [[nodiscard]] std::string serialize(const AttemptList& body, int indent = -1);
 
+/// Most `answers` of one QuizAnswerList.
+inline constexpr std::size_t kMaxQuizAnswerListAnswers = 200;
+/// GET /api/quiz_answers?before=<id>. A page, newest first: those with numbers below `before`, the
+/// newest without it.
+struct QuizAnswerList {
+  std::vector<AnsweredQuestion> answers;
+  /// there are older ones than the last of these
+  bool older = false;
+  bool operator==(const QuizAnswerList&) const = default;
+};
+
+[[nodiscard]] Result<QuizAnswerList> parse_quiz_answer_list(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const QuizAnswerList& body, int indent = -1);
+
 /// Most `bone` of one PictureTruth.
 inline constexpr std::size_t kMaxPictureTruthBone = 4;
 /// Most `screws` of one PictureTruth.

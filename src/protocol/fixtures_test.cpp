@@ -57,6 +57,7 @@ const std::map<std::string, RoundTrip>& readers() {
       {"http/case_list", round_trip(&parse_case_list, kSerialize)},
       {"http/attempt", round_trip(&parse_attempt, kSerialize)},
       {"http/attempt_list", round_trip(&parse_attempt_list, kSerialize)},
+      {"http/quiz_answer_list", round_trip(&parse_quiz_answer_list, kSerialize)},
       {"http/picture_truth", round_trip(&parse_picture_truth, kSerialize)},
       {"http/view_debrief", round_trip(&parse_view_debrief, kSerialize)},
       {"stored/stored_score",

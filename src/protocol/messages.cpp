@@ -215,10 +215,14 @@ void write(FieldWriter& out, const Calibrate& in) {
   out.name("step", name_of(in.step));
 }
 
-void read(FieldReader& in, QuizBegin& out) { out.seed = in.integer("seed", 0, 4294967295); }
+void read(FieldReader& in, QuizBegin& out) {
+  out.trainee = in.string("trainee", 64);
+  out.seed = in.integer("seed", 0, 4294967295);
+}
 
 void write(FieldWriter& out, const QuizBegin& in) {
   out.name("type", "quiz_begin");
+  out.text("trainee", in.trainee, 64);
   out.value("seed", in.seed);
 }
 

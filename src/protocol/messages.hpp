@@ -174,8 +174,11 @@ struct Calibrate {
 };
 
 /// Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid
-/// of the case. It touches no exercise.
+/// of the case. It touches no exercise. Its answers are kept in the records, with the trainee's
+/// name.
 struct QuizBegin {
+  /// as typed; may be empty
+  std::string trainee;
   /// 0 to 4294967295
   std::int64_t seed = 0;
   bool operator==(const QuizBegin&) const = default;

@@ -100,6 +100,42 @@ void write(FieldWriter& out, const QuizTally& in) {
   out.value("views_taken", in.views_taken);
 }
 
+void read(FieldReader& in, AnsweredQuestion& out) {
+  out.id = in.integer("id", 0, 9007199254740991);
+  out.trainee = in.string("trainee", 64);
+  out.case_ = in.string("case", 128);
+  out.case_fingerprint = in.string("case_fingerprint", 16);
+  out.seed = in.integer("seed", 0, 4294967295);
+  out.number = in.integer("number", 1, 4294967295);
+  out.answered_at = in.string("answered_at", 32);
+  out.place = static_cast<ScrewPlace>(in.choice("place", kScrewPlaceNames));
+  out.depth_mm = in.number("depth_mm", -100.0, 100.0);
+  out.answered = static_cast<ScrewPlace>(in.choice("answered", kScrewPlaceNames));
+  out.next_view = in.string("next_view", 32);
+  out.is_place_right = in.boolean("is_place_right");
+  out.is_view_right = in.boolean("is_view_right");
+  out.is_false_safety = in.boolean("is_false_safety");
+  out.views_taken = in.integer("views_taken", 0, 4294967295);
+}
+
+void write(FieldWriter& out, const AnsweredQuestion& in) {
+  out.value("id", in.id);
+  out.text("trainee", in.trainee, 64);
+  out.text("case", in.case_, 128);
+  out.text("case_fingerprint", in.case_fingerprint, 16);
+  out.value("seed", in.seed);
+  out.value("number", in.number);
+  out.text("answered_at", in.answered_at, 32);
+  out.name("place", name_of(in.place));
+  out.value("depth_mm", in.depth_mm);
+  out.name("answered", name_of(in.answered));
+  out.text("next_view", in.next_view, 32);
+  out.value("is_place_right", in.is_place_right);
+  out.value("is_view_right", in.is_view_right);
+  out.value("is_false_safety", in.is_false_safety);
+  out.value("views_taken", in.views_taken);
+}
+
 void read(FieldReader& in, LoggedEvent& out) {
   out.tick = in.integer("tick", 0, 9007199254740991);
   out.kind = in.string("kind", 32);

@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 12;
+inline constexpr std::int64_t kProtocolVersion = 13;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -269,6 +269,37 @@ struct QuizTally {
   /// before the answers, the first of each question too 0 to 4294967295
   std::int64_t views_taken = 0;
   bool operator==(const QuizTally&) const = default;
+};
+
+/// A question of the view quiz that was answered, as the records keep it.
+struct AnsweredQuestion {
+  /// number in the records 0 to 9007199254740991
+  std::int64_t id = 0;
+  /// as typed; may be empty
+  std::string trainee;
+  /// its pseudonym
+  std::string case_;
+  /// identifies the case to the bit
+  std::string case_fingerprint;
+  /// of the quiz: the same seed asks the same questions of the same case 0 to 4294967295
+  std::int64_t seed = 0;
+  /// of the question in it 1 to 4294967295
+  std::int64_t number = 0;
+  /// UTC, ISO 8601
+  std::string answered_at;
+  /// where the screw was out
+  ScrewPlace place = ScrewPlace::Inside;
+  /// how far; negative: the least bone that covered it [mm] -100 to 100
+  double depth_mm = 0.0;
+  ScrewPlace answered = ScrewPlace::Inside;
+  std::string next_view;
+  bool is_place_right = false;
+  bool is_view_right = false;
+  /// called inside when the screw was out
+  bool is_false_safety = false;
+  /// before the answer, the first too 0 to 4294967295
+  std::int64_t views_taken = 0;
+  bool operator==(const AnsweredQuestion&) const = default;
 };
 
 /// Something worth a line in the log.

@@ -32,19 +32,32 @@ AttemptKeeper::~AttemptKeeper() {
   thread_.join();
 }
 
+bool AttemptKeeper::queue(Job job) {
+  const std::lock_guard lock(mutex_);
+  if (queue_.size() + waiting_ >= kMostWaiting) return false;
+  queue_.push_back(std::move(job));
+  changed_.notify_all();
+  return true;
+}
+
 void AttemptKeeper::save(Attempt attempt, Done done) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (queue_.size() + waiting_ < kMostWaiting) {
-      queue_.push_back({std::move(attempt), std::move(done)});
-      changed_.notify_all();
-      return;
-    }
+  if (queue([this, attempt = std::move(attempt), done]() mutable {
+        done(keep(std::move(attempt)));
+      })) {
+    return;
   }
   done({0,
         "records " + file().string() + ": " + std::to_string(kMostWaiting) +
             " attempts wait to be stored, this one was not taken; free some space",
         false});
+}
+
+void AttemptKeeper::save(QuizAnswer answer, Done done) {
+  if (queue(
+          [this, answer = std::move(answer), done]() mutable { done(keep(std::move(answer))); })) {
+    return;
+  }
+  done({0, "records " + file().string() + ": too much waits, the answer was not kept", false});
 }
 
 KeptAttempt AttemptKeeper::save(const Attempt& attempt) {
@@ -78,7 +91,7 @@ void AttemptKeeper::run() {
       Job job = std::move(queue_.front());
       queue_.pop_front();
       lock.unlock();
-      job.done(keep(std::move(job.attempt)));
+      job();
       lock.lock();
       continue;
     }
@@ -116,6 +129,20 @@ KeptAttempt AttemptKeeper::keep(Attempt attempt) {
   }
 }
 
+KeptAttempt AttemptKeeper::keep(QuizAnswer answer) {
+  try {
+    return {writing_.save(answer), {}, true};
+  } catch (const Error& error) {
+    answers_in_memory_.push_back(std::move(answer));
+    const std::lock_guard lock(mutex_);
+    ++waiting_;
+    return {0,
+            std::string(error.what()) +
+                ". The answer is kept in memory and stored when the records can be written again",
+            false};
+  }
+}
+
 void AttemptKeeper::try_what_waits() {
   while (!in_memory_.empty()) {
     try {
@@ -125,6 +152,14 @@ void AttemptKeeper::try_what_waits() {
       break;
     }
     in_memory_.erase(in_memory_.begin());
+  }
+  while (!answers_in_memory_.empty()) {
+    try {
+      (void)writing_.save(answers_in_memory_.front());
+    } catch (const Error&) {
+      break;
+    }
+    answers_in_memory_.erase(answers_in_memory_.begin());
   }
   take_back_rescued();
 }
@@ -143,7 +178,7 @@ void AttemptKeeper::take_back_rescued() {
     }
   }
   const std::lock_guard lock(mutex_);
-  waiting_ = in_memory_.size() + left;
+  waiting_ = in_memory_.size() + answers_in_memory_.size() + left;
 }
 
 void AttemptKeeper::say(const std::string& line) const {
@@ -165,6 +200,13 @@ AttemptPage AttemptKeeper::page(std::int64_t before,
 std::optional<Attempt> AttemptKeeper::find(std::int64_t id) const {
   const std::lock_guard lock(reading_mutex_);
   return reading_.find(id);
+}
+
+QuizAnswerPage AttemptKeeper::quiz_page(std::int64_t before,
+                                        std::size_t most,
+                                        const AttemptFilter& seen) const {
+  const std::lock_guard lock(reading_mutex_);
+  return reading_.quiz_page(before, most, seen);
 }
 
 bool AttemptKeeper::holds(const std::string& origin) const {

@@ -63,12 +63,15 @@ class AttemptKeeper {
   void save(Attempt attempt, Done done);
   /// The same, waited for: for a command that has nothing else to do.
   KeptAttempt save(const Attempt& attempt);
+  /// An answer of the view quiz. What the records refuse waits in memory and goes with the program:
+  /// an answer is not worth a file of its own.
+  void save(QuizAnswer answer, Done done);
 
   /// Waits until all that came was tried, tries what waits once more, and returns how many still
   /// do.
   std::size_t settle();
 
-  /// How many attempts are not in the records yet: in memory or in rescue files.
+  /// How many attempts and answers are not in the records yet: in memory or in rescue files.
   [[nodiscard]] std::size_t waiting() const;
 
   /// What is in the records; those that wait are not. @throws IoError
@@ -77,6 +80,9 @@ class AttemptKeeper {
                                  std::size_t most,
                                  const AttemptFilter& seen = {}) const;
   [[nodiscard]] std::optional<Attempt> find(std::int64_t id) const;
+  [[nodiscard]] QuizAnswerPage quiz_page(std::int64_t before,
+                                         std::size_t most,
+                                         const AttemptFilter& seen = {}) const;
   [[nodiscard]] bool holds(const std::string& origin) const;
 
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return writing_.file(); }
@@ -84,12 +90,12 @@ class AttemptKeeper {
   AttemptStore& store() noexcept { return writing_; }
 
  private:
-  struct Job {
-    Attempt attempt;
-    Done done;
-  };
+  using Job = std::function<void()>;
   void run();
+  /// @return whether there is room for it.
+  [[nodiscard]] bool queue(Job job);
   [[nodiscard]] KeptAttempt keep(Attempt attempt);
+  [[nodiscard]] KeptAttempt keep(QuizAnswer answer);
   void try_what_waits();
   void take_back_rescued();
   void say(const std::string& line) const;
@@ -100,6 +106,7 @@ class AttemptKeeper {
   Say say_;
   KeeperPatience patience_;
   std::vector<Attempt> in_memory_;  ///< the thread's: not even a rescue file could be written
+  std::vector<QuizAnswer> answers_in_memory_;  ///< the thread's too
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

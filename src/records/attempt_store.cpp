@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "records/detail/quiz_answer_table.hpp"
 #include "records/detail/schema.hpp"
 
 namespace carpus::records {
@@ -228,6 +229,24 @@ std::int64_t AttemptStore::save(const Attempt& attempt) {
     return id;
   } catch (const SQLite::Exception& error) {
     fail(file_, "the attempt was not stored", error);
+  }
+}
+
+std::int64_t AttemptStore::save(const QuizAnswer& answer) {
+  try {
+    return detail::insert(connection_->database, answer);
+  } catch (const SQLite::Exception& error) {
+    fail(file_, "the answer was not stored", error);
+  }
+}
+
+QuizAnswerPage AttemptStore::quiz_page(std::int64_t before,
+                                       std::size_t most,
+                                       const AttemptFilter& seen) const {
+  try {
+    return detail::read_page(connection_->database, before, most, seen);
+  } catch (const SQLite::Exception& error) {
+    fail(file_, "cannot read the answers of the view quiz", error);
   }
 }
 

@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Attempts in one SQLite file. One connection, for one thread at a time; several processes may
-// share the file.
+// Attempts and answers of the view quiz in one SQLite file. One connection, for one thread at a
+// time; several processes may share the file.
 #pragma once
 
 #include <chrono>
@@ -15,11 +15,12 @@
 
 #include "core/error.hpp"
 #include "records/attempt.hpp"
+#include "records/quiz_answer.hpp"
 
 namespace carpus::records {
 
 /// Schema of the records file that this program writes; it reads and updates older ones.
-inline constexpr int kRecordsSchemaVersion = 4;
+inline constexpr int kRecordsSchemaVersion = 5;
 
 /// Another program holds the file; later it may not.
 class RecordsBusy : public IoError {
@@ -34,7 +35,7 @@ struct AttemptPage {
   std::int64_t total = 0;  ///< attempts in the records
 };
 
-/// Whether an attempt is for whoever asks, by its number.
+/// Whether an attempt, or an answer, is for whoever asks, by its number.
 using AttemptFilter = std::function<bool(std::int64_t id)>;
 
 class AttemptStore {
@@ -57,6 +58,14 @@ class AttemptStore {
   /// origin, the number that it has.
   /// @throws IoError  nothing of it was stored; the message says what to do.
   std::int64_t save(const Attempt& attempt);
+
+  /// Stores an answer of the view quiz and returns its number. @throws as for an attempt.
+  std::int64_t save(const QuizAnswer& answer);
+
+  /// Answers of the view quiz, as `page` for attempts.
+  [[nodiscard]] QuizAnswerPage quiz_page(std::int64_t before,
+                                         std::size_t most,
+                                         const AttemptFilter& seen = {}) const;
 
   /// Newest first.
   [[nodiscard]] std::vector<AttemptSummary> list() const;

@@ -36,11 +36,12 @@ SQLite::Database open(const fs::path& file, int how) {
   }
 }
 
-/// The highest number that was ever given; 0 where not even that can be read.
-std::int64_t highest_id(SQLite::Database& database) {
+/// The highest number that was ever given in a table; 0 where not even that can be read.
+std::int64_t highest_id(SQLite::Database& database, const std::string& table) {
   std::int64_t highest = 0;
-  for (const char* question : {"SELECT seq FROM sqlite_sequence WHERE name = 'attempt'",
-                               "SELECT id FROM attempt ORDER BY id DESC LIMIT 1"}) {
+  for (const std::string& question :
+       {"SELECT seq FROM sqlite_sequence WHERE name = '" + table + "'",
+        "SELECT id FROM " + table + " ORDER BY id DESC LIMIT 1"}) {
     try {
       highest = std::max(highest, database.execAndGet(question).getInt64());
     } catch (const SQLite::Exception&) {
@@ -53,8 +54,9 @@ std::int64_t highest_id(SQLite::Database& database) {
 /// Copies rows from one file into another, whatever columns of today's the older has.
 class RowCopier {
  public:
-  RowCopier(SQLite::Database& from, SQLite::Database& to)
-      : row_(from, "SELECT * FROM attempt WHERE id = ?"), insert_(to, insertion(row_)) {}
+  RowCopier(SQLite::Database& from, SQLite::Database& to, const std::string& table)
+      : row_(from, "SELECT * FROM " + table + " WHERE id = ?"),
+        insert_(to, insertion(row_, table)) {}
 
   /// Nothing where there is no such row, false where it cannot be read.
   std::optional<bool> copy(std::int64_t id) {
@@ -72,14 +74,14 @@ class RowCopier {
   }
 
  private:
-  static std::string insertion(const SQLite::Statement& row) {
+  static std::string insertion(const SQLite::Statement& row, const std::string& table) {
     std::string names;
     std::string values;
     for (int i = 0; i < row.getColumnCount(); ++i) {
       names += (i == 0 ? "" : ", ") + std::string(row.getColumnName(i));
       values += i == 0 ? "?" : ", ?";
     }
-    return "INSERT INTO attempt (" + names + ") VALUES (" + values + ")";
+    return "INSERT INTO " + table + " (" + names + ") VALUES (" + values + ")";
   }
 
   void bind(int i) {
@@ -101,6 +103,18 @@ class RowCopier {
   SQLite::Statement insert_;
 };
 
+/// Answers of the quiz, where the file has them at all: it may be older than they are. None is
+/// named where it is lost; the attempts are what a repair is for.
+void copy_quiz_answers(SQLite::Database& from, SQLite::Database& to) {
+  try {
+    RowCopier rows(from, to, "quiz_answer");
+    const std::int64_t highest = highest_id(from, "quiz_answer");
+    for (std::int64_t id = 1; id <= highest; ++id) (void)rows.copy(id);
+  } catch (const SQLite::Exception&) {
+    return;
+  }
+}
+
 void remove_whole(const fs::path& file) {
   std::error_code ignored;
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
@@ -117,8 +131,8 @@ RecordsRepair save_what_can_be_read(const fs::path& file, const fs::path& saved)
   // Nobody else writes meanwhile: a station's attempts must not be left behind.
   database.exec("BEGIN EXCLUSIVE");
   copy.exec("BEGIN");
-  const std::int64_t highest = highest_id(database);
-  RowCopier rows(database, copy);
+  const std::int64_t highest = highest_id(database, "attempt");
+  RowCopier rows(database, copy, "attempt");
   for (std::int64_t id = 1; id <= highest; ++id) {
     const auto copied = rows.copy(id);
     if (copied && *copied) ++repair.saved;
@@ -128,6 +142,7 @@ RecordsRepair save_what_can_be_read(const fs::path& file, const fs::path& saved)
     throw IoError("records " + file.string() +
                   ": nothing of it can be read; restore it from a copy");
   }
+  copy_quiz_answers(database, copy);
   copy.exec("COMMIT");
   // A file by itself: it is about to get another name.
   copy.exec("PRAGMA journal_mode = DELETE");

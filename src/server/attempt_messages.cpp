@@ -34,6 +34,14 @@ protocol::AttemptSummary summary_message(const records::AttemptSummary& attempt)
   return message;
 }
 
+std::optional<protocol::ScrewPlace> screw_place_of(const std::string& name) {
+  using enum protocol::ScrewPlace;
+  for (const protocol::ScrewPlace place : {Inside, Distal, Proximal, Side}) {
+    if (name == name_of(place)) return place;
+  }
+  return std::nullopt;
+}
+
 /// Nothing where it cannot be read.
 template <typename Value>
 std::optional<Value> readable(Result<Value> parsed) {
@@ -64,6 +72,35 @@ protocol::AttemptList attempt_list(const records::AttemptPage& page) {
   list.total = page.total;
   for (const records::AttemptSummary& attempt : page.attempts) {
     list.attempts.push_back(summary_message(attempt));
+  }
+  return list;
+}
+
+protocol::QuizAnswerList quiz_answer_list(const records::QuizAnswerPage& page) {
+  protocol::QuizAnswerList list;
+  list.older = page.older;
+  for (const records::QuizAnswer& answer : page.answers) {
+    const auto place = screw_place_of(answer.place);
+    const auto answered = screw_place_of(answer.answered);
+    if (!place || !answered) continue;
+    protocol::AnsweredQuestion message;
+    message.id = answer.id;
+    message.trainee = answer.trainee;
+    message.case_ = answer.case_name;
+    message.case_fingerprint = answer.case_fingerprint;
+    message.seed = answer.seed;
+    message.number = answer.question;
+    message.answered_at = answer.answered_at;
+    message.place = *place;
+    message.depth_mm = answer.depth_mm;
+    message.answered = *answered;
+    message.next_view = answer.next_view;
+    message.is_place_right = place == answered;
+    message.is_view_right = answer.is_view_right;
+    message.is_false_safety =
+        *answered == protocol::ScrewPlace::Inside && *place != protocol::ScrewPlace::Inside;
+    message.views_taken = answer.views_taken;
+    list.answers.push_back(std::move(message));
   }
   return list;
 }

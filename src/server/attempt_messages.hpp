@@ -15,6 +15,9 @@ namespace carpus::server {
 
 [[nodiscard]] protocol::AttemptList attempt_list(const records::AttemptPage& page);
 
+/// Without those that name a place that this program does not know: a newer one wrote them.
+[[nodiscard]] protocol::QuizAnswerList quiz_answer_list(const records::QuizAnswerPage& page);
+
 /// Whether the truth of an attempt may be told: it was practice, or an assessed one that ended with
 /// something to assess.
 [[nodiscard]] bool is_truth_open(const records::Attempt& attempt);

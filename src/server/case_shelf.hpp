@@ -51,6 +51,8 @@ using ChooseCase = std::function<bool(const std::string& id)>;
 struct OverCases {
   ChooseCase choose;  ///< called in the network's thread; empty: this case is the only one
   std::shared_ptr<AttemptOwners> owners = std::make_shared<AttemptOwners>();
+  /// The same of answers of the view quiz, by their numbers.
+  std::shared_ptr<AttemptOwners> quiz_owners = std::make_shared<AttemptOwners>();
   /// Closed while an assessed operation runs.
   std::shared_ptr<TruthGate> truth = std::make_shared<TruthGate>();
 };

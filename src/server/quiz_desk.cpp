@@ -40,6 +40,8 @@ QuizReply QuizDesk::reply_to(const std::string& player, const QuizWish& wish) {
   if (!quiz_) quiz_ = std::make_unique<view_trainer::ViewQuiz>(data_);
   if (const auto* begin = std::get_if<protocol::QuizBegin>(&wish)) {
     player_ = player;
+    begun_ = *begin;
+    views_told_ = 0;
     quiz_->begin(static_cast<std::uint64_t>(begin->seed));
     ask_next(reply);
   } else if (player != player_) {
@@ -50,10 +52,26 @@ QuizReply QuizDesk::reply_to(const std::string& player, const QuizWish& wish) {
     add_picture(look->view, reply);
   } else if (const auto* answer = std::get_if<protocol::QuizAnswer>(&wish)) {
     auto truth = quiz_->answer(*answer);
+    if (truth) reply.answer = answered(*truth);
     reply.messages.push_back(truth ? protocol::HostMessage(std::move(truth.value()))
                                    : refusal(truth.error()));
   }
   return reply;
+}
+
+records::QuizAnswer QuizDesk::answered(const protocol::QuizTruth& truth) {
+  records::QuizAnswer answer;
+  answer.trainee = begun_.trainee;
+  answer.seed = begun_.seed;
+  answer.question = truth.number;
+  answer.place = name_of(truth.place);
+  answer.depth_mm = truth.depth_mm;
+  answer.answered = name_of(truth.answered);
+  answer.next_view = truth.next_view;
+  answer.is_view_right = truth.is_view_right;
+  answer.views_taken = truth.tally.views_taken - views_told_;
+  views_told_ = truth.tally.views_taken;
+  return answer;
 }
 
 void QuizDesk::ask_next(QuizReply& reply) {

@@ -7,12 +7,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "cases/case_data.hpp"
 #include "protocol/messages.hpp"
+#include "records/quiz_answer.hpp"
 #include "server/work_thread.hpp"
 
 namespace carpus::view_trainer {
@@ -28,6 +30,8 @@ using QuizWish =
 struct QuizReply {
   std::vector<protocol::HostMessage> messages;
   std::string frame;
+  /// For the records, where a question was answered; without case, time and number.
+  std::optional<records::QuizAnswer> answer;
 };
 
 class QuizDesk {
@@ -44,6 +48,7 @@ class QuizDesk {
   [[nodiscard]] bool ask(const std::string& player, QuizWish wish, Deliver deliver);
 
  private:
+  [[nodiscard]] records::QuizAnswer answered(const protocol::QuizTruth& truth);
   [[nodiscard]] QuizReply reply_to(const std::string& player, const QuizWish& wish);
   void ask_next(QuizReply& reply);
   void add_picture(const std::string& view, QuizReply& reply);
@@ -53,6 +58,8 @@ class QuizDesk {
   const cases::CaseData& data_;
   std::unique_ptr<view_trainer::ViewQuiz> quiz_;  ///< the thread's own, as is the next
   std::string player_;
+  protocol::QuizBegin begun_;
+  std::int64_t views_told_ = 0;  ///< views that earlier questions took
   std::unique_ptr<WorkThread> thread_;
 };
 

@@ -74,6 +74,11 @@ class Station : public PageHandler {
   /// From which browser the attempts were made.
   [[nodiscard]] const AttemptOwners& owners() const noexcept { return *over_cases_.owners; }
 
+  /// And the answers of the quiz.
+  [[nodiscard]] const AttemptOwners& quiz_owners() const noexcept {
+    return *over_cases_.quiz_owners;
+  }
+
   void on_open(const std::shared_ptr<PageConnection>& page) override;
   void on_text(const std::shared_ptr<PageConnection>& page, std::string_view text) override;
   void on_binary(const std::shared_ptr<PageConnection>& page) override;
@@ -137,6 +142,8 @@ class Station : public PageHandler {
   void on_message(const protocol::QuizLook& wish);
   void on_message(const protocol::QuizAnswer& wish);
   void ask_quiz(QuizWish wish);
+  /// In the desk's thread.
+  void store(records::QuizAnswer answer, const std::string& browser, NetworkServer* network);
   [[nodiscard]] static bool is_quiz(const protocol::PageMessage& message);
 
   void obey(const protocol::PageMessage& message);

@@ -20,6 +20,7 @@ namespace carpus::server {
 namespace {
 
 constexpr std::string_view kAttempts = "/api/attempts";
+constexpr std::string_view kQuizAnswers = "/api/quiz_answers";
 constexpr std::string_view kReplay = "/replay";
 constexpr std::string_view kCases = "/api/cases/";
 constexpr std::string_view kPreview = "/preview.png";
@@ -32,7 +33,7 @@ StationHttp::StationHttp(const cases::CaseData& data,
                          const procedure::ProcedureList& procedures,
                          std::string scene_glb,
                          const records::AttemptKeeper& records,
-                         const AttemptOwners& owners,
+                         RecordOwners owners,
                          const std::filesystem::path& web_root,
                          CaseShelf shelf,
                          std::shared_ptr<const TruthGate> truth)
@@ -63,6 +64,7 @@ HttpResponse StationHttp::answer(const HttpRequest& request) const {
 std::size_t StationHttp::lane_of(const HttpRequest& request) {
   const auto path = decode_path(request.target);
   if (path && path->starts_with(kCases) && is_scan_path(*path)) return 3;
+  if (path && *path == kQuizAnswers) return 1;
   if (!path || !path->starts_with(kAttempts)) return 0;
   const std::size_t replay = path->find(kReplay);
   if (replay == std::string::npos) return 1;
@@ -85,6 +87,7 @@ HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& r
     return response;
   }
   if (path == kAttempts) return answer_attempts(request);
+  if (path == kQuizAnswers) return answer_quiz_answers(request);
   if (path.starts_with(kAttempts) && path[kAttempts.size()] == '/') {
     return answer_attempt(path.substr(kAttempts.size() + 1), request);
   }
@@ -103,7 +106,7 @@ HttpResponse StationHttp::answer_preview(std::string_view rest) const {
 }
 
 bool StationHttp::may_see(const Guest& guest, std::int64_t attempt) const {
-  return guest.role == Role::Instructor || owners_.is_of(attempt, guest.browser);
+  return guest.role == Role::Instructor || owners_.attempts.is_of(attempt, guest.browser);
 }
 
 HttpResponse StationHttp::answer_attempts(const HttpRequest& request) const {
@@ -115,6 +118,19 @@ HttpResponse StationHttp::answer_attempts(const HttpRequest& request) const {
   }
   return make_json(
       serialize(attempt_list(records_.page(*before, protocol::kMaxAttemptListAttempts, seen))));
+}
+
+HttpResponse StationHttp::answer_quiz_answers(const HttpRequest& request) const {
+  const auto before = number_in_query(request.target, "before");
+  if (!before) return make_problem(400, "'before' is the number of an answer.");
+  records::AttemptFilter seen;
+  if (request.guest.role != Role::Instructor) {
+    seen = [&](std::int64_t answer) {
+      return owners_.quiz_answers.is_of(answer, request.guest.browser);
+    };
+  }
+  return make_json(serialize(
+      quiz_answer_list(records_.quiz_page(*before, protocol::kMaxQuizAnswerListAnswers, seen))));
 }
 
 HttpResponse StationHttp::answer_attempt(std::string_view rest, const HttpRequest& request) const {

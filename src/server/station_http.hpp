@@ -22,6 +22,12 @@ namespace carpus::server {
 
 class ReplayDesk;
 
+/// From which browsers attempts and answers of the quiz were made.
+struct RecordOwners {
+  const AttemptOwners& attempts;
+  const AttemptOwners& quiz_answers;
+};
+
 class StationHttp {
  public:
   /// Prepares what never changes. @param records  and owners must outlive it.
@@ -29,7 +35,7 @@ class StationHttp {
               const procedure::ProcedureList& procedures,
               std::string scene_glb,
               const records::AttemptKeeper& records,
-              const AttemptOwners& owners,
+              RecordOwners owners,
               const std::filesystem::path& web_root,
               CaseShelf shelf = {},
               std::shared_ptr<const TruthGate> truth = {});
@@ -47,6 +53,7 @@ class StationHttp {
   [[nodiscard]] HttpResponse answer_api(std::string_view path, const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_preview(std::string_view rest) const;
   [[nodiscard]] HttpResponse answer_attempts(const HttpRequest& request) const;
+  [[nodiscard]] HttpResponse answer_quiz_answers(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_attempt(std::string_view rest,
                                             const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_replay(std::int64_t id,
@@ -63,7 +70,7 @@ class StationHttp {
   std::string instruments_json_;
   std::shared_ptr<const std::string> scene_glb_;
   const records::AttemptKeeper& records_;
-  const AttemptOwners& owners_;
+  RecordOwners owners_;
   StaticFiles files_;
   std::unique_ptr<ReplayDesk> replays_;
 };

@@ -26,7 +26,7 @@ class StationHttpTest : public ::testing::Test {
   StationHttpTest()
       : folder_(new_folder()),
         records_(folder_ / "attempts.sqlite"),
-        http_(wrist_, procedures_, "glTF", records_, owners_, folder_, shelf()) {}
+        http_(wrist_, procedures_, "glTF", records_, {owners_, quiz_owners_}, folder_, shelf()) {}
   ~StationHttpTest() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] HttpResponse ask(const std::string& target, const Guest& guest) const {
@@ -60,6 +60,7 @@ class StationHttpTest : public ::testing::Test {
   std::filesystem::path folder_;
   records::AttemptKeeper records_;
   AttemptOwners owners_;
+  AttemptOwners quiz_owners_;
   StationHttp http_;
 };
 
@@ -94,7 +95,8 @@ TEST_F(StationHttpTest, ShowsTheScansOfItsCasesAndNothingElseOfTheirFolders) {
   CaseShelf cases = shelf();
   cases.cases[1].folder = folder;
   const auto truth = std::make_shared<TruthGate>();
-  const StationHttp http(wrist_, procedures_, "glTF", records_, owners_, folder_, cases, truth);
+  const StationHttp http(wrist_, procedures_, "glTF", records_, {owners_, quiz_owners_}, folder_,
+                         cases, truth);
   const auto answer = [&](const std::string& path) {
     return http.answer({"GET", "/api/cases/" + path, {Role::Trainee, "ada"}});
   };
@@ -146,6 +148,33 @@ TEST_F(StationHttpTest, TraineeSeesTheAttemptsOfTheirOwnBrowserAlone) {
   EXPECT_EQ(get("/api/attempts", {Role::Instructor, "x"})["attempts"].size(), 3U);
 }
 
+TEST_F(StationHttpTest, TraineeSeesTheQuizAnswersOfTheirOwnBrowserAlone) {
+  for (const char* answered : {"inside", "side", "distal"}) {
+    records::QuizAnswer answer;
+    answer.trainee = "Ada";
+    answer.question = 1;
+    answer.place = "distal";
+    answer.answered = answered;
+    records_.save(answer, [](const records::KeptAttempt&) {});
+  }
+  (void)records_.settle();
+  quiz_owners_.add(1, "ada");
+  quiz_owners_.add(3, "bela");
+  const Json own = get("/api/quiz_answers", {Role::Trainee, "ada"})["answers"];
+  ASSERT_EQ(own.size(), 1U);
+  EXPECT_EQ(own[0]["trainee"], "Ada");
+  EXPECT_EQ(own[0]["is_false_safety"], true);
+  EXPECT_EQ(own[0]["is_place_right"], false);
+  EXPECT_EQ(get("/api/quiz_answers", {Role::Trainee, ""})["answers"].size(), 0U);
+  const Json all = get("/api/quiz_answers", {Role::Instructor, "x"});
+  ASSERT_EQ(all["answers"].size(), 3U);
+  EXPECT_EQ(all["older"], false);
+  EXPECT_EQ(all["answers"][0]["is_place_right"], true);
+  EXPECT_EQ(all["answers"][1]["is_false_safety"], false);
+  EXPECT_EQ(get("/api/quiz_answers?before=2", {Role::Instructor, "x"})["answers"].size(), 1U);
+  EXPECT_EQ(ask("/api/quiz_answers?before=x", {Role::Instructor, "x"}).status, 400U);
+}
+
 TEST_F(StationHttpTest, RecordingWhoseTruthIsLockedIsKept) {
   procedure::ScoreReport score;
   simulation::Recording assessed;
@@ -172,6 +201,7 @@ TEST_F(StationHttpTest, WhatTakesLongIsKnownHoweverItIsWritten) {
       {"/api/cases/a/sc%61n/ct.nii.gz", 3},
       {"/api/attempts", 1},
       {"/api/attempts/1", 1},
+      {"/api/quiz_answers?before=3", 1},
       {"/api/%61ttempts?x", 1},
       {"/api/attempts/1/replay/states?from=0&to=1&every=1", 2},
       {"/api/attempts/1/replay/picture?at=3", 3}};

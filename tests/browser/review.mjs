@@ -101,7 +101,7 @@ export async function reviewClass(page, station) {
       await page.getByRole("heading", { name: "Bela" }).waitFor();
       const [download] = await Promise.all([
         page.waitForEvent("download"),
-        page.getByRole("button", { name: "CSV" }).click(),
+        page.getByRole("button", { name: "CSV", exact: true }).click(),
       ]);
       const lines = readFileSync(await download.path(), "utf8")
         .trim()

@@ -3,6 +3,8 @@
 //
 // Plays the view quiz as a person does: looks, answers by keys, reads the truth.
 
+import { readFileSync } from "node:fs";
+
 /** Of grey levels: a blank picture with noise stays under this. */
 const LEAST_DEVIATION = 12;
 
@@ -61,6 +63,9 @@ export class QuizPlayer {
   }
 }
 
+/** With letters that are keys of the quiz. */
+const PLAYER = "Quiz, Ida Ovsen";
+
 function expect(holds, what) {
   if (!holds) throw new Error(what);
 }
@@ -76,7 +81,11 @@ export async function playQuiz(page, station, check, expectAccessible) {
     "the view quiz is reached from the start dialog and shows a picture",
     async () => {
       await page.goto(station.url);
+      await page.evaluate(() => localStorage.removeItem("carpus.trainee"));
       await page.getByRole("link", { name: "View quiz" }).click();
+      await page.fill("#quiz-name", "");
+      await page.locator("#quiz-name").pressSequentially(PLAYER);
+      await page.keyboard.press("Enter");
       await player.asked(1);
       expect((await player.contrast()) > LEAST_DEVIATION, "it is blank");
       await expectAccessible(page, 8);
@@ -137,5 +146,21 @@ export async function playQuiz(page, station, check, expectAccessible) {
     await page.keyboard.press("n");
     await player.asked(2);
     expect(await page.locator(".quiz-truth").isHidden(), "the truth stays");
+  });
+  await check(page, "the answer is kept with the name, and leaves as a file", async () => {
+    await page.goto(`${station.url}/#/review`);
+    await page.locator(".review-filter select[name=trainee]").selectOption(PLAYER);
+    const row = page.locator(".review-quiz tbody tr").first();
+    await row.waitFor();
+    const told = await row.innerText();
+    expect(told.startsWith(`${PLAYER}\t1\t`), `it says '${told}'`);
+    await page.locator(".review-quiz .curve").waitFor();
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Quiz answers as CSV" }).click(),
+    ]);
+    const lines = readFileSync(await download.path(), "utf8").trim().split("\r\n");
+    expect(lines.length === 2 && lines[1].includes(`"${PLAYER}"`), lines.join(" / "));
+    await expectAccessible(page, 8);
   });
 }

@@ -29,6 +29,9 @@ void write(FieldWriter& out, const PlacementFault& in);
 void read(FieldReader& in, QuizTally& out);
 void write(FieldWriter& out, const QuizTally& in);
 
+void read(FieldReader& in, AnsweredQuestion& out);
+void write(FieldWriter& out, const AnsweredQuestion& in);
+
 void read(FieldReader& in, LoggedEvent& out);
 void write(FieldWriter& out, const LoggedEvent& in);
 

@@ -13,7 +13,7 @@ inline constexpr int kApplicationId = 0x43415250;
 
 /// kMigrations[v] turns a file of version v into one of version v + 1; a new file begins at 0.
 /// Never change one that was released: add the next.
-inline constexpr std::array<const char*, 4> kMigrations{
+inline constexpr std::array<const char*, 5> kMigrations{
     R"sql(
       CREATE TABLE attempt (
         id               INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -47,6 +47,24 @@ inline constexpr std::array<const char*, 4> kMigrations{
     // NULL of attempts from before there were two ways to operate.
     R"sql(
       ALTER TABLE attempt ADD COLUMN mode TEXT CHECK (mode IN ('practice', 'assessed'));
+    )sql",
+    // What was answered in the view quiz, a row a question.
+    R"sql(
+      CREATE TABLE quiz_answer (
+        id               INTEGER PRIMARY KEY AUTOINCREMENT,
+        trainee          TEXT NOT NULL,
+        case_name        TEXT NOT NULL,
+        case_fingerprint TEXT NOT NULL,
+        seed             INTEGER NOT NULL,
+        question         INTEGER NOT NULL,
+        answered_at      TEXT NOT NULL,
+        place            TEXT NOT NULL CHECK (place IN ('inside', 'distal', 'proximal', 'side')),
+        depth_mm         REAL NOT NULL,
+        answered         TEXT NOT NULL CHECK (answered IN ('inside', 'distal', 'proximal', 'side')),
+        next_view        TEXT NOT NULL,
+        is_view_right    INTEGER NOT NULL CHECK (is_view_right IN (0, 1)),
+        views_taken      INTEGER NOT NULL
+      );
     )sql",
 };
 

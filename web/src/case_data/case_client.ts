@@ -10,6 +10,7 @@ import {
   parseCaseList,
   parsePictureTruth,
   parseProcedureList,
+  parseQuizAnswerList,
   parseViewDebrief,
   type Attempt,
   type AttemptList,
@@ -19,6 +20,7 @@ import {
   type Parsed,
   type PictureTruth,
   type ProcedureSummary,
+  type QuizAnswerList,
   type ViewDebrief,
 } from "../protocol";
 
@@ -68,6 +70,12 @@ export async function fetchProcedures(): Promise<readonly ProcedureSummary[]> {
 export function fetchAttempts(before?: number): Promise<AttemptList> {
   const query = before === undefined ? "" : `?before=${before}`;
   return ask(`/api/attempts${query}`, parseAttemptList);
+}
+
+/** A page, newest first. @param before  the number of an answer: those that are older. */
+export function fetchQuizAnswers(before?: number): Promise<QuizAnswerList> {
+  const query = before === undefined ? "" : `?before=${before}`;
+  return ask(`/api/quiz_answers${query}`, parseQuizAnswerList);
 }
 
 export function fetchAttempt(id: number): Promise<Attempt> {

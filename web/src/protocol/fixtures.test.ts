@@ -16,6 +16,7 @@ import {
   parsePageMessage,
   parsePictureTruth,
   parseProcedureList,
+  parseQuizAnswerList,
   parseViewDebrief,
 } from "./generated";
 import type { Parsed } from "./validator";
@@ -29,6 +30,7 @@ const READERS: readonly (readonly [string, (text: string) => Parsed<unknown>])[]
   ["http/instrument_list", parseInstrumentList],
   ["http/procedure_list", parseProcedureList],
   ["http/attempt_list", parseAttemptList],
+  ["http/quiz_answer_list", parseQuizAnswerList],
   ["http/case_list", parseCaseList],
   ["http/picture_truth", parsePictureTruth],
   ["http/view_debrief", parseViewDebrief],

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 12;
+export const PROTOCOL_VERSION = 13;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -140,6 +140,36 @@ export interface QuizTally {
   /** called inside when the screw was out 0 to 4294967295 */
   readonly false_safety: number;
   /** before the answers, the first of each question too 0 to 4294967295 */
+  readonly views_taken: number;
+}
+
+/** A question of the view quiz that was answered, as the records keep it. */
+export interface AnsweredQuestion {
+  /** number in the records 0 to 9007199254740991 */
+  readonly id: number;
+  /** as typed; may be empty */
+  readonly trainee: string;
+  /** its pseudonym */
+  readonly case: string;
+  /** identifies the case to the bit */
+  readonly case_fingerprint: string;
+  /** of the quiz: the same seed asks the same questions of the same case 0 to 4294967295 */
+  readonly seed: number;
+  /** of the question in it 1 to 4294967295 */
+  readonly number: number;
+  /** UTC, ISO 8601 */
+  readonly answered_at: string;
+  /** where the screw was out */
+  readonly place: ScrewPlace;
+  /** how far; negative: the least bone that covered it [mm] -100 to 100 */
+  readonly depth_mm: number;
+  readonly answered: ScrewPlace;
+  readonly next_view: string;
+  readonly is_place_right: boolean;
+  readonly is_view_right: boolean;
+  /** called inside when the screw was out */
+  readonly is_false_safety: boolean;
+  /** before the answer, the first too 0 to 4294967295 */
   readonly views_taken: number;
 }
 
@@ -763,9 +793,11 @@ export interface CalibrateMessage {
   readonly step: CalibrationStep;
 }
 
-/** Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid of the case. It touches no exercise. */
+/** Begins the view quiz anew and asks for its first question: screws of this seed in the scaphoid of the case. It touches no exercise. Its answers are kept in the records, with the trainee's name. */
 export interface QuizBeginMessage {
   readonly type: "quiz_begin";
+  /** as typed; may be empty */
+  readonly trainee: string;
   /** 0 to 4294967295 */
   readonly seed: number;
 }
@@ -1030,6 +1062,13 @@ export interface AttemptList {
   readonly total: number;
 }
 
+/** GET /api/quiz_answers?before=<id>. A page, newest first: those with numbers below `before`, the newest without it. */
+export interface QuizAnswerList {
+  readonly answers: readonly AnsweredQuestion[];
+  /** there are older ones than the last of these */
+  readonly older: boolean;
+}
+
 /** GET /api/attempts/<id>/replay/truth?at=<tick>. What was true of a picture that was taken then. */
 export interface PictureTruth {
   readonly bone: readonly PictureOutline[];
@@ -1096,6 +1135,11 @@ export function parseInstrumentList(text: string): Parsed<InstrumentList> {
 /** Validates the body of an HTTP answer; never throws. */
 export function parseAttemptList(text: string): Parsed<AttemptList> {
   return parseBody(text, rules.ATTEMPT_LIST, 262144, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseQuizAnswerList(text: string): Parsed<QuizAnswerList> {
+  return parseBody(text, rules.QUIZ_ANSWER_LIST, 1048576, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

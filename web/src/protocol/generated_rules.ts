@@ -67,6 +67,23 @@ export const SCHEMA: Schema = {
       false_safety: {"type": "integer", "min": 0, "max": 4294967295},
       views_taken: {"type": "integer", "min": 0, "max": 4294967295},
     } },
+    answered_question: { fields: {
+      id: {"type": "integer", "min": 0, "max": 9007199254740991},
+      trainee: {"type": "string", "max_length": 64},
+      case: {"type": "string", "max_length": 128},
+      case_fingerprint: {"type": "string", "max_length": 16},
+      seed: {"type": "integer", "min": 0, "max": 4294967295},
+      number: {"type": "integer", "min": 1, "max": 4294967295},
+      answered_at: {"type": "string", "max_length": 32},
+      place: {"type": "screw_place"},
+      depth_mm: {"type": "number", "min": -100, "max": 100},
+      answered: {"type": "screw_place"},
+      next_view: {"type": "string", "max_length": 32},
+      is_place_right: {"type": "boolean"},
+      is_view_right: {"type": "boolean"},
+      is_false_safety: {"type": "boolean"},
+      views_taken: {"type": "integer", "min": 0, "max": 4294967295},
+    } },
     logged_event: { fields: {
       tick: {"type": "integer", "min": 0, "max": 9007199254740991},
       kind: {"type": "string", "max_length": 32},
@@ -414,6 +431,7 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     step: {"type": "calibration_step"},
   },
   quiz_begin: {
+    trainee: {"type": "string", "max_length": 64},
     seed: {"type": "integer", "min": 0, "max": 4294967295},
   },
   quiz_next: {},
@@ -553,6 +571,11 @@ export const ATTEMPT_LIST: Rules = {
   attempts: {"type": "array", "of": {"type": "attempt_summary"}, "max_items": 50},
   older: {"type": "boolean"},
   total: {"type": "integer", "min": 0, "max": 9007199254740991},
+};
+
+export const QUIZ_ANSWER_LIST: Rules = {
+  answers: {"type": "array", "of": {"type": "answered_question"}, "max_items": 200},
+  older: {"type": "boolean"},
 };
 
 export const PICTURE_TRUTH: Rules = {

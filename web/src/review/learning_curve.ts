@@ -4,6 +4,19 @@
 // Two pictures one above the other, attempt by attempt: the score beside group and expert, and the
 // cumulative sum of failures between its limits. SVG, so that they print.
 import { makeSvg } from "../dom";
+import {
+  cross,
+  frame,
+  LEFT,
+  level,
+  line,
+  numbers,
+  placing,
+  RIGHT,
+  text,
+  TOP,
+  WIDTH,
+} from "./curve_frame";
 import type { CusumLimits, CusumPoint } from "./cusum_model";
 
 export interface CurveData {
@@ -20,57 +33,6 @@ export interface CurveData {
     readonly to: number;
     readonly text: string;
   }[];
-}
-
-const WIDTH = 880;
-const LEFT = 48;
-const RIGHT = 150;
-const TOP = 22;
-
-type Place = (index: number, value: number) => readonly [number, number];
-
-/** Room for ten, then for all. */
-function placing(count: number, height: number, low: number, high: number): Place {
-  const room = Math.max(10, count);
-  return (index, value) => [
-    LEFT + ((WIDTH - LEFT - RIGHT) * (index + 0.5)) / room,
-    TOP + ((height - 2 * TOP) * (high - value)) / (high - low),
-  ];
-}
-
-function line(points: readonly (readonly [number, number])[], kind: string): SVGElement {
-  const text = points.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(" ");
-  return makeSvg("polyline", { points: text, class: kind, fill: "none" });
-}
-
-function text(x: number, y: number, says: string, kind: string, anchor = "start"): SVGElement {
-  return makeSvg("text", { x, y, class: kind, "text-anchor": anchor }, says);
-}
-
-function level(place: Place, value: number, says: string, kind: string): SVGElement[] {
-  const y = place(0, value)[1];
-  return [
-    makeSvg("line", { x1: LEFT, x2: WIDTH - RIGHT, y1: y, y2: y, class: kind }),
-    text(WIDTH - RIGHT + 8, y + 4, says, `${kind}-word`),
-  ];
-}
-
-/** Numbers of attempts under a picture. */
-function numbers(count: number, place: Place, y: number): SVGElement[] {
-  const room = Math.max(10, count);
-  const every = Math.ceil(room / 20);
-  const all = Array.from({ length: room }, (_, index) => index);
-  return all
-    .filter((index) => (index + 1) % every === 0 || index === 0)
-    .map((index) => text(place(index, 0)[0], y, String(index + 1), "curve-number", "middle"));
-}
-
-function frame(height: number, says: string, ...children: SVGElement[]): SVGElement {
-  return makeSvg(
-    "svg",
-    { viewBox: `0 0 ${WIDTH} ${height}`, class: "curve", role: "img", "aria-label": says },
-    ...children,
-  );
 }
 
 export function scoreCurve(data: CurveData): SVGElement {
@@ -137,13 +99,6 @@ export function scoreCurve(data: CurveData): SVGElement {
     ...numbers(scores.length, place, height - 6),
     text(4, TOP - 6, "Score", "curve-number"),
   );
-}
-
-function cross(x: number, y: number): SVGElement {
-  return makeSvg("path", {
-    d: `M${x - 5},${y - 5}L${x + 5},${y + 5}M${x + 5},${y - 5}L${x - 5},${y + 5}`,
-    class: "curve-failed",
-  });
 }
 
 export function cusumCurve(points: readonly CusumPoint[], limits: CusumLimits): SVGElement {

@@ -36,7 +36,7 @@ export function traineeOf(attempt: Pick<AttemptSummary, "trainee">): string {
   return attempt.trainee === "" ? NOT_NAMED : attempt.trainee;
 }
 
-function dayOf(iso: string): string {
+export function dayOf(iso: string): string {
   const date = new Date(iso);
   if (Number.isNaN(date.getTime())) return "";
   const two = (n: number): string => String(n).padStart(2, "0");
@@ -200,7 +200,7 @@ const COLUMNS = [
 ] as const satisfies readonly (keyof AttemptSummary)[];
 
 /** A cell that no table program takes for a formula, quoted where it must be. */
-function cell(value: string | number | boolean | null): string {
+export function cell(value: string | number | boolean | null): string {
   if (value === null) return "";
   const text = String(value);
   const safe = typeof value === "string" && /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;

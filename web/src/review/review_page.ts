@@ -3,12 +3,14 @@
 //
 // The review room: whose attempts, how they go on, beside group and expert; out as CSV or JSON.
 import { dateText, durationText, procedureText } from "../attempts_list";
-import { fetchAttempts, fetchProcedures } from "../case_data";
+import { fetchAttempts, fetchProcedures, fetchQuizAnswers } from "../case_data";
 import { button, make, setText } from "../dom";
-import type { AttemptSummary, ProcedureSummary } from "../protocol";
+import type { AnsweredQuestion, AttemptSummary, ProcedureSummary } from "../protocol";
 import { cusum, standing, type CusumPoint } from "./cusum_model";
 import { FiguresSection } from "./figures_section";
 import { cusumCurve, scoreCurve } from "./learning_curve";
+import { playerOf } from "./quiz_answers_model";
+import { quizSection } from "./quiz_section";
 import { CUSUM_LIMITS, FLAT_AFTER, LIMIT_SOURCES, PROFICIENT_SCORE } from "./review_limits";
 import {
   choicesOf,
@@ -31,6 +33,7 @@ import "./review.css";
 
 /** Of a class in a year; who has more takes the program's own export. */
 const MOST_ATTEMPTS = 5000;
+const MOST_ANSWERS = 20_000;
 const TABLE_ROWS = 60;
 
 export function mountReview(app: HTMLElement): () => void {
@@ -39,8 +42,13 @@ export function mountReview(app: HTMLElement): () => void {
   app.replaceChildren(main);
   void (async () => {
     try {
-      const [attempts, procedures] = await Promise.all([fetchAll(() => left), fetchProcedures()]);
-      if (!left) new ReviewPage(main, attempts, procedures, () => left);
+      const isLeft = (): boolean => left;
+      const [attempts, answers, procedures] = await Promise.all([
+        fetchAll(isLeft),
+        fetchAllAnswers(isLeft),
+        fetchProcedures(),
+      ]);
+      if (!left) new ReviewPage(main, attempts, answers, procedures, isLeft);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       main.replaceChildren(make("p", { role: "alert" }, why));
@@ -62,6 +70,17 @@ async function fetchAll(isLeft: () => boolean): Promise<AttemptSummary[]> {
   return all;
 }
 
+async function fetchAllAnswers(isLeft: () => boolean): Promise<AnsweredQuestion[]> {
+  const all: AnsweredQuestion[] = [];
+  let older = true;
+  while (older && !isLeft() && all.length < MOST_ANSWERS) {
+    const page = await fetchQuizAnswers(all.at(-1)?.id);
+    all.push(...page.answers);
+    older = page.older && page.answers.length > 0;
+  }
+  return all;
+}
+
 class ReviewPage {
   private filter: ReviewFilter;
   private readonly results = make("div.review-results");
@@ -71,6 +90,7 @@ class ReviewPage {
   constructor(
     main: HTMLElement,
     private readonly attempts: readonly AttemptSummary[],
+    private readonly answers: readonly AnsweredQuestion[],
     private readonly procedures: readonly ProcedureSummary[],
     isLeft: () => boolean,
   ) {
@@ -106,7 +126,10 @@ class ReviewPage {
   /** The one who operated last, on what they did. */
   private firstFilter(): ReviewFilter {
     const last = this.attempts.find((attempt) => !isScripted(attempt)) ?? this.attempts[0];
-    if (last === undefined) return NO_FILTER;
+    const player = this.answers[0];
+    if (last === undefined) {
+      return player === undefined ? NO_FILTER : { ...NO_FILTER, trainee: playerOf(player) };
+    }
     return { ...NO_FILTER, trainee: traineeOf(last), procedure: last.procedure };
   }
 
@@ -141,7 +164,7 @@ class ReviewPage {
     return make(
       "form.review-filter",
       { "aria-label": "Which attempts" },
-      select("Trainee", "trainee", "all", choicesOf(this.attempts, traineeOf), same),
+      select("Trainee", "trainee", "all", this.trainees(), same),
       select(
         "Procedure",
         "procedure",
@@ -163,6 +186,16 @@ class ReviewPage {
     );
   }
 
+  /** Who operated, or answered. */
+  private trainees(): string[] {
+    const names = [...choicesOf(this.attempts, traineeOf), ...this.answers.map(playerOf)];
+    return [...new Set(names)].sort((a, b) => a.localeCompare(b, "en"));
+  }
+
+  private quiz(): HTMLElement {
+    return quizSection(this.answers, this.filter, saveFile);
+  }
+
   private change(by: Partial<ReviewFilter>): void {
     this.filter = { ...this.filter, ...by };
     this.show();
@@ -181,7 +214,10 @@ class ReviewPage {
       `${own.length} ${own.length === 1 ? "attempt" : "attempts"}, ${done.length} finished`,
     );
     if (own.length === 0) {
-      this.results.replaceChildren(make("p.secondary", {}, "No attempt is like that."));
+      this.results.replaceChildren(
+        make("p.secondary", {}, "No attempt is like that."),
+        this.quiz(),
+      );
       return;
     }
     const scores = done.map((attempt) => attempt.overall ?? 0);
@@ -215,6 +251,7 @@ class ReviewPage {
         comparisonTable(compare(scope, this.filter)),
       ),
       this.figures.element,
+      this.quiz(),
       make(
         "section.review-attempts",
         { "aria-labelledby": "attempts-title" },
@@ -238,11 +275,16 @@ class ReviewPage {
 
   private save(kind: "csv" | "json"): void {
     const text = kind === "csv" ? csvOf(this.shown) : jsonOf(this.shown);
-    const type = kind === "csv" ? "text/csv;charset=utf-8" : "application/json";
-    const url = URL.createObjectURL(new Blob([text], { type }));
-    make("a", { href: url, download: `carpus-attempts.${kind}` }).click();
-    URL.revokeObjectURL(url);
+    saveFile(text, `carpus-attempts.${kind}`);
   }
+}
+
+/** Hands a text out; what kind it is, its name says. */
+function saveFile(text: string, name: string): void {
+  const type = name.endsWith(".csv") ? "text/csv;charset=utf-8" : "application/json";
+  const url = URL.createObjectURL(new Blob([text], { type }));
+  make("a", { href: url, download: name }).click();
+  URL.revokeObjectURL(url);
 }
 
 function standingText(points: readonly CusumPoint[]): string {

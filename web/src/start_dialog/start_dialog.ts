@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Who operates, on which case, and that it is no patient where it is none.
-import { button, make, setText } from "../dom";
+import { button, make, remember, remembered, setText } from "../dom";
 import type { CaseDescription, CaseList, Mode, ProcedureSummary } from "../protocol";
+import { nameField, rememberName } from "../trainee_name";
 import { CaseCards } from "./case_cards";
-import { nameProblem } from "./name_model";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
 
@@ -16,7 +16,6 @@ export interface StartChoice {
   readonly mode: Mode;
 }
 
-const NAME_KEY = "carpus.trainee";
 const PROCEDURE_KEY = "carpus.procedure";
 const MODE_KEY = "carpus.mode";
 
@@ -32,24 +31,6 @@ const MODES: readonly { readonly mode: Mode; readonly title: string; readonly te
     text: "Closed skin and the C-arm, as in theatre. Nothing is taken back; the truth comes afterwards.",
   },
 ];
-const MAX_NAME = 64;
-
-function remembered(key: string): string {
-  try {
-    return localStorage.getItem(key) ?? "";
-  } catch {
-    return ""; // storage may be forbidden; it is then said again
-  }
-}
-
-function remember(key: string, value: string): void {
-  try {
-    localStorage.setItem(key, value);
-  } catch {
-    // storage may be forbidden; it is then said again
-  }
-}
-
 /** ", scaphoid in 2 parts" of the bones that the scene has in parts. */
 function brokenText(bones: readonly string[]): string {
   const parts = new Map<string, number>();
@@ -76,14 +57,7 @@ export class StartDialog {
     onResume: (choice: StartChoice) => void,
     onEnd: () => void,
   ) {
-    this.name = make("input", {
-      type: "text",
-      id: "trainee-name",
-      maxlength: String(MAX_NAME),
-      autocomplete: "off",
-      spellcheck: "false",
-      value: remembered(NAME_KEY),
-    });
+    this.name = nameField("trainee-name");
     this.start = make("button.primary", { type: "submit" }, "Start");
     this.resume = button("Go on with the running exercise", "", () => {
       onResume(this.choice());
@@ -127,10 +101,6 @@ export class StartDialog {
       ),
       make("p.start-foot", {}, "For training and research. Not a medical device."),
     );
-    this.name.addEventListener("input", () => {
-      this.name.setCustomValidity(nameProblem(this.name.value.trim()) ?? "");
-    });
-    this.name.setCustomValidity(nameProblem(this.name.value.trim()) ?? "");
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       onStart(this.choice());
@@ -224,7 +194,7 @@ export class StartDialog {
     const procedure = checked?.value ?? "";
     const { mode } = this;
     remember(MODE_KEY, mode);
-    remember(NAME_KEY, trainee);
+    rememberName(trainee);
     remember(PROCEDURE_KEY, procedure);
     return { trainee, procedure, mode };
   }

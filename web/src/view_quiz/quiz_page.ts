@@ -13,7 +13,9 @@ import type {
   QuizQuestionMessage,
   QuizTruthMessage,
 } from "../protocol";
+import { rememberedName } from "../trainee_name";
 import { AnswerForm } from "./answer_form";
+import { NamePanel } from "./name_panel";
 import { PLACES, seedOf, tallyRows, viewOfPicture } from "./quiz_model";
 import { QuizPicture } from "./quiz_picture";
 import { TruthPanel } from "./truth_panel";
@@ -37,6 +39,7 @@ class QuizPage {
   private readonly lead = make("p.quiz-lead");
   private readonly notice = make("p.notice-line", { role: "status" });
   private readonly caseName = make("p.secondary");
+  private readonly namePanel: NamePanel;
   private readonly form: AnswerForm;
   private readonly truthPanel: TruthPanel;
   private readonly link: HostLink;
@@ -48,7 +51,13 @@ class QuizPage {
   private asked = new Set<number>();
   private shown = 0;
 
+  private name = rememberedName();
+
   constructor(app: HTMLElement) {
+    this.namePanel = new NamePanel((name) => {
+      this.name = name;
+      this.begin();
+    });
     this.form = new AnswerForm((choice) => {
       this.tell({ type: "quiz_answer", place: choice.place, next_view: choice.view });
     });
@@ -96,6 +105,9 @@ class QuizPage {
     const anew = button("Begin anew", "", () => {
       this.begin();
     });
+    const other = button("Another name…", "", () => {
+      this.askName();
+    });
     return make(
       "main.quiz",
       {},
@@ -109,6 +121,7 @@ class QuizPage {
           make("div", {}, this.caseName, make("h1", {}, "Which view tells?")),
           make("a.button-link", { href: "#/" }, "Operate"),
         ),
+        this.namePanel.element,
         this.lead,
         this.form.element,
         this.truthPanel.element,
@@ -120,9 +133,11 @@ class QuizPage {
           make(
             "p.secondary",
             {},
-            "Generated screws in this case. Counted for this visit, not kept in the records.",
+            "Generated screws in this case. The first answer to a question counts; ",
+            make("a", { href: "#/review" }, "how you go on"),
+            " is with the learning curve.",
           ),
-          anew,
+          make("div.quiz-ways", {}, anew, other),
         ),
       ),
     );
@@ -140,9 +155,23 @@ class QuizPage {
     }
   }
 
+  /** Whose answers they are, before the first question. */
+  private askName(): void {
+    this.question = this.truth = undefined;
+    this.pictures = new Map();
+    this.lead.replaceChildren("A screw lies in a scaphoid: is it in or out, and which view tells?");
+    this.form.hide();
+    this.truthPanel.hide();
+    this.say("");
+    this.redraw();
+    this.namePanel.ask();
+  }
+
   private begin(): void {
+    this.namePanel.hide();
     const seed = seedOf(location.hash) ?? crypto.getRandomValues(new Uint32Array(1))[0] ?? 1;
-    if (this.tell({ type: "quiz_begin", seed })) this.say("Preparing the wrist…");
+    if (this.tell({ type: "quiz_begin", trainee: this.name, seed }))
+      this.say("Preparing the wrist…");
   }
 
   private tell(message: PageMessage): boolean {
@@ -163,9 +192,12 @@ class QuizPage {
         `${why === "" ? "Another page operates here." : why} This page asks again by itself.`,
       );
     }
+    this.namePanel.setReady(state === "open");
     if (state !== "open") return;
     this.say("");
-    if (this.question === undefined) this.begin();
+    if (this.question !== undefined || this.namePanel.isAsking) return;
+    if (this.name === "") this.askName();
+    else this.begin();
   }
 
   private receive(message: HostMessage): void {
@@ -264,6 +296,7 @@ class QuizPage {
   }
 
   private onKey(event: KeyboardEvent): void {
+    if (this.namePanel.isAsking) return;
     if (event.ctrlKey || event.altKey || event.metaKey || event.repeat) return;
     const digit = /^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1];
     const letter = event.key.toUpperCase();
