@@ -53,6 +53,6 @@ export function quizCurve(answers: readonly AnsweredQuestion[]): SVGElement {
         : [makeSvg("circle", { cx: x, cy: y, r: 3, class: "curve-dot" })];
     }),
     ...numbers(answers.length, place, HEIGHT - 4),
-    text(4, TOP - 6, `Right of the last ${LAST}`, "curve-number"),
+    text(LEFT, TOP - 8, `Right of the last ${LAST}`, "curve-number"),
   );
 }
