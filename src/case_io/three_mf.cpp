@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case_io/three_mf.hpp"
 
+#include <Common/Platform/NMR_ExportStream_Callback.h>
 #include <Model/COM/NMR_DLLInterfaces.h>
 
+#include <algorithm>
+#include <fstream>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "case_io/detail/disk_space.hpp"
@@ -64,6 +68,28 @@ void add_object(NMR::PLib3MFModel* model, const NamedMesh& named) {
   require(NMR::lib3mf_model_addbuilditem(model, object, nullptr, item.out()), named.name);
 }
 
+/// What the writer makes, in memory: on a disk that is full its destructor throws, which ends the
+/// program.
+struct Made {
+  std::string bytes;
+  std::size_t at = 0;
+};
+
+constexpr NMR::nfUint32 kTaken = 0;
+
+NMR::nfUint32 take_bytes(NMR::nfByte* data, NMR::nfUint32 count, void* made) {
+  auto& to = *static_cast<Made*>(made);
+  to.bytes.resize(std::max(to.bytes.size(), to.at + count));
+  std::copy_n(data, count, to.bytes.begin() + static_cast<std::ptrdiff_t>(to.at));
+  to.at += count;
+  return kTaken;
+}
+
+NMR::nfUint32 take_place(NMR::nfUint64 place, void* made) {
+  static_cast<Made*>(made)->at = static_cast<std::size_t>(place);
+  return kTaken;
+}
+
 }  // namespace
 
 void write_3mf(const std::filesystem::path& file,
@@ -76,9 +102,14 @@ void write_3mf(const std::filesystem::path& file,
   for (const NamedMesh& named : meshes) add_object(model, named);
   Held<NMR::PLib3MFModelWriter> writer;
   require(NMR::lib3mf_model_querywriter(model, "3mf", writer.out()), "the writer");
-  if (NMR::lib3mf_writer_writetofileutf8(writer, file.c_str()) != LIB3MF_OK) {
-    throw_cannot_write(file);
-  }
+  Made made;
+  require(NMR::lib3mf_writer_writetocallback(writer, reinterpret_cast<void*>(take_bytes),
+                                             reinterpret_cast<void*>(take_place), &made),
+          "what was made");
+  std::ofstream out(file, std::ios::binary);
+  out.write(made.bytes.data(), static_cast<std::streamsize>(made.bytes.size()));
+  out.close();
+  if (!out) throw_cannot_write(file);
 }
 
 }  // namespace carpus::case_io

@@ -67,6 +67,16 @@ TEST(ThreeMf, RefusesWhatIsNoSurfaceAndSaysWhereItCannotWrite) {
   const TriangleMesh mesh = tetrahedron();
   EXPECT_THROW(write_3mf("/nowhere/at/all/x.3mf", std::vector<NamedMesh>{{"a", &mesh, {}}}, "t"),
                IoError);
+  // Larger than what its library holds back, on a disk that is always full.
+  TriangleMesh large;
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    const double at = 0.1 * i;
+    for (const Vec3& v : mesh.vertices) large.vertices.push_back({v.x + at, v.y, v.z - at / 3});
+    for (const Triangle& t : mesh.facets) {
+      large.facets.push_back({t[0] + 4 * i, t[1] + 4 * i, t[2] + 4 * i});
+    }
+  }
+  EXPECT_THROW(write_3mf("/dev/full", std::vector<NamedMesh>{{"a", &large, {}}}, "t"), IoError);
 }
 
 }  // namespace
