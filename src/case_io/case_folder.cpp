@@ -40,12 +40,11 @@ void write_text(const fs::path& file, const std::string& text) {
 }
 
 std::string read_text(const fs::path& file) {
-  constexpr std::uint64_t kLargest = std::uint64_t{64} << 20U;
   if (!fs::exists(file)) {
     throw IoError(file.string() +
                   ": is not there; give a case folder made by 'carpus reconstruct'");
   }
-  return read_whole_file(file, kLargest);
+  return read_whole_file(file, kLargestCaseJson);
 }
 
 std::string bone_name(const cases::Bone& bone) {

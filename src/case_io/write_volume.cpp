@@ -30,7 +30,7 @@ itk::ImageIOBase::Pointer volume_writer_for(const std::string& name) {
   if (is_nifti(name)) return itk::NiftiImageIO::New().GetPointer();
   if (n.ends_with(".nrrd")) return itk::NrrdImageIO::New().GetPointer();
   if (n.ends_with(".mha")) return itk::MetaImageIO::New().GetPointer();
-  throw InvalidInput(name + ": has no ending that volumes are written to (.nii.gz, .nrrd, .mha)");
+  return nullptr;
 }
 
 template <typename T>
@@ -75,6 +75,7 @@ template <typename T>
 void write_by_itk(const fs::path& file,
                   const GridView<const T>& volume,
                   const std::string& description) {
+  require_volume_name(file);
   const itk::ImageIOBase::Pointer io = volume_writer_for(file.string());
   try {
     io->SetFileName(file.string());
@@ -107,6 +108,12 @@ void write_described_nifti(const fs::path& file,
 }
 
 }  // namespace
+
+void require_volume_name(const fs::path& file) {
+  if (volume_writer_for(file.string()) != nullptr) return;
+  throw InvalidInput(file.string() +
+                     ": has no ending that volumes are written to (.nii.gz, .nrrd, .mha)");
+}
 
 template <typename T>
 void write_volume(const fs::path& file,

@@ -14,6 +14,9 @@
 
 namespace carpus::case_io {
 
+/// @throws InvalidInput where no volume can be written to a file of this name.
+void require_volume_name(const std::filesystem::path& file);
+
 /// Writes a volume as its ending says: .nii, .nii.gz, .nrrd (raw) or .mha (raw). T is int16_t,
 /// uint8_t or float. The file is read back and compared, because the NIfTI library does not report
 /// a full disk.

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <string_view>
 #include <utility>
 
+#include "case_io/case_cover.hpp"
 #include "case_io/lesson_file.hpp"
 #include "core/error.hpp"
-#include "core/json_fields.hpp"
-#include "records/atomic_file.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -21,8 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostCases = 200;
 constexpr std::size_t kLongestId = 64;
-constexpr std::size_t kLongestTitle = 128;
-constexpr std::uintmax_t kLargestPreview = std::uintmax_t{1} << 20U;
 constexpr double kWithoutLesson = 101;  // after all that have one
 
 bool is_case(const fs::path& folder) { return fs::exists(folder / "case.json"); }
@@ -47,34 +42,19 @@ std::string id_of(const fs::path& folder) {
       .substr(0, kLongestId);
 }
 
-/// As the case calls itself; its id where that cannot be read: whoever loads it says why.
-std::string pseudonym_of(const fs::path& folder, const std::string& id) {
-  try {
-    const std::vector<std::byte> bytes = records::read_file(folder / "case.json");
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const nlohmann::json json = parse_json_text(text, "case.json");
-    return JsonFields(json, "case.json", "").text("pseudonym").substr(0, kLongestTitle);
-  } catch (const Error&) {
-    return id;
-  }
-}
-
 server::ShelvedCase shelved(const fs::path& folder) {
   server::ShelvedCase result;
   result.id = id_of(folder);
   result.folder = folder;
-  result.title = pseudonym_of(folder, result.id);
+  result.title = case_io::read_pseudonym(folder).value_or(result.id);
   const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
   if (!lesson) return result;
   result.title = lesson->title;
   result.history = lesson->history;
   result.goal = lesson->goal;
   result.difficulty = lesson->difficulty.overall;
-  const fs::path preview = folder / case_io::kPreviewFile;
-  if (fs::is_regular_file(preview) && fs::file_size(preview) <= kLargestPreview) {
-    const std::vector<std::byte> bytes = records::read_file(preview);
-    result.preview = std::make_shared<const std::string>(
-        reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (std::optional<std::string> preview = case_io::read_preview(folder)) {
+    result.preview = std::make_shared<const std::string>(std::move(*preview));
   }
   return result;
 }

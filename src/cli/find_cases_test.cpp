@@ -3,6 +3,7 @@
 #include "cli/find_cases.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -73,6 +74,32 @@ TEST_F(FindCases, OneWithoutALessonIsCalledAsItCallsItself) {
   make("a");
   std::ofstream(folder_ / "a" / "case.json") << R"({"pseudonym": "demo wrist"})";
   EXPECT_EQ(find_cases({path()}).shelf.cases[0].title, "demo wrist");
+}
+
+TEST_F(FindCases, OneThatNobodyOpenedYetIsNotBelieved) {
+  make("a");
+  for (const std::string& text :
+       {std::string(300'000, '[') + std::string(300'000, ']'), std::string("{"),
+        std::string(R"({"pseudonym": "a\u202Ebc"})"), std::string(R"({"pseudonym": "a\u001b[2J"})"),
+        R"({"pseudonym": ")" + std::string(200, 'x') + R"("})"}) {
+    std::ofstream(folder_ / "a" / "case.json") << text;
+    EXPECT_EQ(find_cases({path()}).shelf.cases[0].title, "a") << text.substr(0, 40);
+  }
+  fs::remove(folder_ / "a" / "case.json");
+  ASSERT_EQ(::mkfifo((folder_ / "a" / "case.json").c_str(), 0600), 0);
+  EXPECT_EQ(find_cases({path()}).shelf.cases[0].title, "a") << "a pipe";
+}
+
+TEST_F(FindCases, APreviewThatIsALinkIsNotHandedOut) {
+  make("a", 20);
+  const fs::path preview = folder_ / "a" / case_io::kPreviewFile;
+  std::ofstream(folder_ / "secret") << "of this machine";
+  fs::remove(preview);
+  fs::create_symlink(folder_ / "secret", preview);
+  EXPECT_EQ(find_cases({path()}).shelf.cases[0].preview, nullptr);
+  fs::remove(preview);
+  std::ofstream(preview) << std::string((1U << 20U) + 1, 'x');
+  EXPECT_EQ(find_cases({path()}).shelf.cases[0].preview, nullptr) << "larger than a picture";
 }
 
 TEST_F(FindCases, ALessonThatIsWrongIsSaid) {

@@ -16,6 +16,7 @@
 #include "case_io/detail/structures_json.hpp"
 #include "core/error.hpp"
 #include "core/json_nesting.hpp"
+#include "core/person_name.hpp"
 
 namespace carpus::case_io {
 namespace {
@@ -148,15 +149,19 @@ void check_version(const Json& json, const std::filesystem::path& file) {
                     "; update carpus, or make the case again from its CT with this version");
 }
 
+std::string pseudonym_from(const Json& json) {
+  auto pseudonym = json.at("pseudonym").get<std::string>();
+  if (pseudonym.size() > kLongestPseudonym || problem_of_name(pseudonym)) {
+    throw IoError(
+        "the pseudonym is longer than 128 bytes or holds control characters or turned writing");
+  }
+  return pseudonym;
+}
+
 CaseHeader header_from(const Json& json) {
   CaseHeader header;
   cases::CaseData& data = header.data;
-  data.pseudonym = json.at("pseudonym").get<std::string>();
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
-  if (data.pseudonym.size() > kLongestPseudonym ||
-      std::any_of(data.pseudonym.begin(), data.pseudonym.end(), is_control)) {
-    throw IoError("the pseudonym is longer than 128 bytes or holds control characters");
-  }
+  data.pseudonym = pseudonym_from(json);
   const auto side = side_of(json.at("side").get<std::string>());
   if (!side) throw IoError("the side is neither left nor right");
   data.side = *side;
@@ -226,6 +231,17 @@ CaseHeader parse_case_json(const std::string& text, const std::filesystem::path&
     if (json.value("format", "") != "carpus case") throw IoError("is not a case of carpus");
     check_version(json, file);
     return header_from(json);
+  } catch (const Json::exception& error) {
+    throw damaged_file(file, error);
+  } catch (const IoError& error) {
+    throw damaged_file(file, error);
+  }
+}
+
+std::string parse_pseudonym(const std::string& text, const std::filesystem::path& file) {
+  try {
+    if (nests_deeper_than(text, kDeepest)) throw IoError("nests too deeply");
+    return pseudonym_from(Json::parse(text));
   } catch (const Json::exception& error) {
     throw damaged_file(file, error);
   } catch (const IoError& error) {

@@ -4,6 +4,7 @@
 // case.json: everything of a case that is not a volume or a surface.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,6 +12,8 @@
 #include "cases/case_data.hpp"
 
 namespace carpus::case_io {
+
+inline constexpr std::uint64_t kLargestCaseJson = std::uint64_t{64} << 20U;
 
 /// The text of case.json, numbers in full precision.
 [[nodiscard]] std::string case_json_text(const cases::CaseData& data);
@@ -26,6 +29,11 @@ struct CaseHeader {
 /// @throws SchemaError, IoError; messages name `file`.
 [[nodiscard]] CaseHeader parse_case_json(const std::string& text,
                                          const std::filesystem::path& file);
+
+/// As the case calls itself, whatever else stands there.
+/// @throws IoError naming `file`
+[[nodiscard]] std::string parse_pseudonym(const std::string& text,
+                                          const std::filesystem::path& file);
 
 /// Name of a bone's distance field in the folder, e.g. "fields/lunate.nrrd".
 [[nodiscard]] std::string field_file(const cases::Bone& bone);

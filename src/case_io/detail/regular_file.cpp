@@ -98,8 +98,8 @@ MappedFile::~MappedFile() {
 
 MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 
-std::string read_whole_file(const std::filesystem::path& file, std::uint64_t most) {
-  const RegularFile opened(file);
+std::string read_whole_file(const std::filesystem::path& file, std::uint64_t most, Links links) {
+  const RegularFile opened(file, links);
   if (opened.size() > most) {
     refuse(file, "holds " + std::to_string(opened.size()) + " bytes, more than the " +
                      std::to_string(most) + " that such a file may have");

@@ -19,10 +19,11 @@ namespace carpus::case_io {
 /// Surfaces and tables are far smaller; more is refused before it is read.
 inline constexpr std::uint64_t kLargestWholeFile = std::uint64_t{1} << 31U;
 
+enum class Links { Follow, Refuse };
+
 /// A regular file, open for reading.
 class RegularFile {
  public:
-  enum class Links { Follow, Refuse };
   /// @throws IoError where it is not there, may not be read, or is a folder, device, pipe or socket
   /// (or a link, where those are refused).
   explicit RegularFile(const std::filesystem::path& file, Links links = Links::Follow);
@@ -77,6 +78,7 @@ class MappedFile {
 
 /// The whole content. @throws IoError as RegularFile, and where it is larger than `most`.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& file,
-                                          std::uint64_t most = kLargestWholeFile);
+                                          std::uint64_t most = kLargestWholeFile,
+                                          Links links = Links::Follow);
 
 }  // namespace carpus::case_io

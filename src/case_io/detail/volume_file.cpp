@@ -155,8 +155,8 @@ Grid<T> read_volume_file(const fs::path& file, ReadingNotes& notes) {
     throw IoError(file.string() + ": its voxels in '" + image_formats::printable(header.data_file) +
                   "' are not there; copy that file again beside this one");
   }
-  return decode<T>(header, RegularFile(beside, RegularFile::Links::Refuse),
-                   Refuser(beside.string()), notes.count);
+  return decode<T>(header, RegularFile(beside, Links::Refuse), Refuser(beside.string()),
+                   notes.count);
 }
 
 template Grid<std::int16_t> read_volume_file(const fs::path&, ReadingNotes&);
