@@ -238,10 +238,24 @@ void write_surfaces(const fs::path& folder, const Labels& labels) {
 }
 
 void check_targets(const Arguments& a) {
+  if (a.out == a.markers_out) {
+    throw UsageError("--write-markers: names the file of the labels; give another");
+  }
   for (const fs::path& file : {a.out, a.markers_out}) {
-    if (file.empty() || !fs::exists(file) || a.force) continue;
+    if (file.empty()) continue;
+    case_io::require_volume_name(file);
+    if (!fs::exists(file) || a.force) continue;
     throw IoError(file.string() + ": exists; give another file or --force to replace it");
   }
+}
+
+/// Before minutes of work, and before anything is written.
+void require_slice(int slice, const Task& task) {
+  const int first = task.offset.z;
+  const int last = first + task.markers.geometry().size[2] - 1;
+  if (slice >= first && slice <= last) return;
+  throw UsageError("--slice: give one from " + std::to_string(first) + " to " +
+                   std::to_string(last));
 }
 
 void run(const Arguments& a) {
@@ -269,6 +283,7 @@ void run(const Arguments& a) {
   const VoxelBox box = a.region.empty() ? whole_of(g) : box_between(g, a.region);
   Task task = a.markers.empty() ? find_markers(imaging::crop(ct.view(), box), box.low, a)
                                 : take_markers(ct, box, a);
+  if (a.slice >= 0) require_slice(a.slice, task);
   require_room_for_labels(task.markers);
   clock.begin("gradient");
   StopRequest::show_or_stop("gradient", 0.6);
@@ -302,14 +317,8 @@ void run(const Arguments& a) {
                          task.offset.y + flooded.geometry().size[1] - 1,
                          task.offset.z + flooded.geometry().size[2] - 1}};
     const Grid<std::int16_t> grey = imaging::crop(ct.view(), part);
-    int z = figures::most_telling_slice(flooded.view());
-    if (a.slice >= 0) {
-      z = a.slice - task.offset.z;
-      if (z < 0 || z >= flooded.geometry().size[2]) {
-        throw UsageError("--slice: give one from " + std::to_string(task.offset.z) + " to " +
-                         std::to_string(part.high.z));
-      }
-    }
+    const int z =
+        a.slice >= 0 ? a.slice - task.offset.z : figures::most_telling_slice(flooded.view());
     const figures::SegmentSteps steps{grey.view(), gradient.view(),
                                       std::as_const(task.markers).view(),
                                       std::as_const(flooded).view(), task.outside};

@@ -183,6 +183,12 @@ TEST_F(Segment, RefusesWhatDoesNotFit) {
                                       Grid<std::uint8_t>(GridGeometry{{4, 4, 4}}, 1).view());
   EXPECT_THAT(refusal_of<InvalidInput>({"--markers", file("other.nrrd")}),
               HasSubstr("not on the grid"));
+  EXPECT_THAT(refusal_of<UsageError>({"--write-markers", file("labels.nii.gz")}),
+              HasSubstr("names the file of the labels"));
+  EXPECT_THAT(refusal_of<InvalidInput>({"--write-markers", file("markers.txt")}),
+              HasSubstr("no ending"));
+  EXPECT_THAT(refusal_of<UsageError>({"--pictures", file("steps"), "--slice", "99"}),
+              HasSubstr("from 0 to 31"));
   EXPECT_FALSE(fs::exists(folder_ / "labels.nii.gz"));
   write("labels.nii.gz", "mine");
   EXPECT_THAT(refusal_of<IoError>({}), HasSubstr("--force"));

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "cli/attempts_command.hpp"
@@ -101,6 +102,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "carpus: %s\n", error.what());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "carpus: out of memory; close other programs or use a smaller volume\n");
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "carpus: %s: %s; check the name, the permissions and the disk\n",
+                 error.path1().c_str(), error.code().message().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "carpus: unexpected error: %s\n", error.what());
   }
