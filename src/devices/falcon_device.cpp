@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "devices/trusted_command.hpp"
+#include "devices/trusted_state.hpp"
 
 namespace carpus::devices {
 namespace {
@@ -138,20 +139,30 @@ void FalconDevice::take_frame(Nanoseconds now) noexcept {
   for (std::size_t i = 0; i < 3; ++i) angles_[i] = falcon_angle(says.counts[i]);
   auto tip = falcon_forward(angles_, tip_);
   if (!tip) tip = falcon_forward(angles_, kFalconCentre);
-  constexpr double kFarthestMm = 120;
-  is_impossible_ = !tip || !(distance(*tip, kFalconCentre) < kFarthestMm);
+  constexpr double kFarthestOffMm = 120;
+  is_impossible_ = !tip || !(distance(*tip, kFalconCentre) < kFarthestOffMm);
+  Vec3 position;
+  Vec3 velocity;
+  double seconds = 0;
+  if (!is_impossible_) {
+    // Its x right, y up, z towards whoever sits there; ours x right, y away, z up.
+    const Vec3 off = *tip - kFalconCentre;
+    position = {off.x, -off.z, off.y};
+    if (has_place_ && now > placed_ns_) {
+      seconds = static_cast<double>(now - placed_ns_) * 1e-9;
+      velocity = (position - state_.position_mm) / seconds;
+      // Counts that leap: an encoder that slipped, or a frame that was damaged.
+      is_impossible_ = !(length(velocity) < kFastestMmPerS);
+    }
+  }
   if (is_impossible_) {
     ++state_.refused;
+    state_.velocity_mm_s = {};
     has_place_ = false;
     return;
   }
   tip_ = *tip;
-  // Its x right, y up, z towards whoever sits there; ours x right, y away, z up.
-  const Vec3 off = tip_ - kFalconCentre;
-  const Vec3 position{off.x, -off.z, off.y};
-  if (has_place_ && now > placed_ns_) {
-    const double seconds = static_cast<double>(now - placed_ns_) * 1e-9;
-    const Vec3 velocity = (position - state_.position_mm) / seconds;
+  if (seconds > 0) {
     state_.velocity_mm_s +=
         (velocity - state_.velocity_mm_s) * std::min(1.0, seconds / kVelocityFilterS);
   } else {

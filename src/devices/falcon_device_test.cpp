@@ -10,6 +10,7 @@
 
 #include "core/rng.hpp"
 #include "devices/fake_link_test_support.hpp"
+#include "devices/trusted_state.hpp"
 
 namespace carpus::devices {
 namespace {
@@ -134,6 +135,21 @@ TEST(Falcon, AWallPushesOut) {
   }
   desk.run_ms(5);
   EXPECT_EQ(desk.falcon.motors, (std::array<std::int16_t, 3>{}));
+}
+
+TEST(Falcon, ALeapThatNoHandMakesIsRefusedAndLetsGo) {
+  Desk desk;
+  desk.run_ms(50);
+  desk.falcon.put(kFalconCentre + Vec3{0, 30, 20});
+  desk.run_ms(1);
+  EXPECT_TRUE(is_sound(desk.state)) << length(desk.state.velocity_mm_s) << " mm/s";
+  EXPECT_EQ(desk.state.health, Health::Faulty);
+  EXPECT_EQ(desk.state.refused, 1U);
+  EXPECT_EQ(length(desk.state.velocity_mm_s), 0);
+  desk.run_ms(1);
+  EXPECT_EQ(desk.state.health, Health::Good) << "it goes on from where it is";
+  EXPECT_EQ(length(desk.state.velocity_mm_s), 0);
+  EXPECT_GT(length(desk.state.position_mm), 30);
 }
 
 TEST(Falcon, SilenceUnpluggingAndGarbage) {
