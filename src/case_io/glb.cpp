@@ -7,9 +7,11 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -39,7 +41,9 @@ int add_accessor(tinygltf::Model& model,
   accessor.bufferView = static_cast<int>(model.bufferViews.size());
   accessor.componentType = component;
   accessor.type = type;
-  accessor.count = type == TINYGLTF_TYPE_VEC3 ? values.size() / 3 : values.size();
+  accessor.count = values.size() / (type == TINYGLTF_TYPE_VEC3   ? 3U
+                                    : type == TINYGLTF_TYPE_VEC2 ? 2U
+                                                                 : 1U);
   model.bufferViews.push_back(std::move(view));
   model.accessors.push_back(std::move(accessor));
   return static_cast<int>(model.accessors.size()) - 1;
@@ -65,12 +69,124 @@ void set_bounds(tinygltf::Accessor& accessor, const std::vector<float>& position
   }
 }
 
-int add_mesh(tinygltf::Model& model, const NamedMesh& named) {
+/// glTF's colours of materials are linear.
+double linear(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+std::vector<double> linear_colour(const std::array<double, 3>& srgb) {
+  return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])};
+}
+
+tinygltf::Value as_value(const std::array<double, 3>& colour) {
+  tinygltf::Value::Array array;
+  for (const double c : colour) array.emplace_back(c);
+  return tinygltf::Value(array);
+}
+
+tinygltf::Value six_fields(const anatomy::Material& m) {
+  tinygltf::Value::Object fields;
+  fields["diffuse"] = as_value(m.diffuse);
+  fields["emissive"] = as_value(m.emissive);
+  fields["specular"] = as_value(m.specular);
+  fields["ambient"] = tinygltf::Value(m.ambient);
+  fields["shininess"] = tinygltf::Value(m.shininess);
+  fields["transparency"] = tinygltf::Value(m.transparency);
+  tinygltf::Value::Object extras;
+  extras["material"] = tinygltf::Value(fields);
+  return tinygltf::Value(extras);
+}
+
+/// The bytes of a file, at a place divisible by four. @return the view of them.
+int add_bytes(tinygltf::Model& model, const std::string& content) {
+  std::vector<unsigned char>& bytes = model.buffers.front().data;
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = bytes.size();
+  view.byteLength = content.size();
+  bytes.insert(bytes.end(), content.begin(), content.end());
+  bytes.resize((bytes.size() + 3) / 4 * 4);
+  model.bufferViews.push_back(std::move(view));
+  return static_cast<int>(model.bufferViews.size()) - 1;
+}
+
+int add_texture(tinygltf::Model& model, const std::string& name, const BoneBitmap& bitmap) {
+  if (model.samplers.empty()) {
+    tinygltf::Sampler sampler;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    model.samplers.push_back(sampler);
+  }
+  tinygltf::Image image;
+  image.name = name;
+  image.mimeType = "image/png";
+  image.bufferView = add_bytes(model, bitmap.png());
+  model.images.push_back(std::move(image));
+  tinygltf::Texture texture;
+  texture.sampler = 0;
+  texture.source = static_cast<int>(model.images.size()) - 1;
+  model.textures.push_back(std::move(texture));
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+/// Of the tissue, and of this bone alone where it has a bitmap.
+int add_material(tinygltf::Model& model, const NamedMesh& named) {
+  const anatomy::Material& m = anatomy::material_of(named.tissue);
+  const std::string name = named.bitmap != nullptr ? m.name + " of the " + named.name : m.name;
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    if (model.materials[i].name == name) return static_cast<int>(i);
+  }
+  tinygltf::Material material;
+  material.name = name;
+  auto& surface = material.pbrMetallicRoughness;
+  surface.baseColorFactor = linear_colour(m.diffuse);
+  surface.baseColorFactor.push_back(1 - m.transparency);
+  surface.metallicFactor = 0;
+  surface.roughnessFactor = anatomy::roughness_of(m);
+  material.emissiveFactor = linear_colour(m.emissive);
+  if (m.transparency > 0) material.alphaMode = "BLEND";
+  tinygltf::Value::Object specular;
+  tinygltf::Value::Array colour;
+  // Half of the light is what the standard's own reflectance (0.04) stands for.
+  for (const double c : linear_colour(m.specular)) colour.emplace_back(c / linear(0.5));
+  specular["specularColorFactor"] = tinygltf::Value(colour);
+  material.extensions["KHR_materials_specular"] = tinygltf::Value(specular);
+  if (model.extensionsUsed.empty()) model.extensionsUsed.emplace_back("KHR_materials_specular");
+  material.extras = six_fields(m);
+  if (named.bitmap != nullptr) {
+    surface.baseColorTexture.index = add_texture(model, named.name, *named.bitmap);
+  }
+  model.materials.push_back(std::move(material));
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+/// A surface as it is written: with a bitmap, vertices at its charts' borders stand more than once.
+struct Written {
+  std::vector<Vec3> vertices;
+  std::vector<Vec3> normals;
+  std::vector<Triangle> facets;
+};
+
+Written as_written(const NamedMesh& named) {
   const TriangleMesh& mesh = *named.mesh;
-  const std::vector<float> positions = as_floats(mesh.vertices);
+  const std::vector<Vec3> normals = smooth_normals(mesh);
+  if (named.bitmap == nullptr) return {mesh.vertices, normals, mesh.facets};
+  const mesh::TextureAtlas& atlas = named.bitmap->atlas;
+  Written written{{}, {}, atlas.facets};
+  for (const std::uint32_t v : atlas.sources) {
+    written.vertices.push_back(mesh.vertices[v]);
+    written.normals.push_back(normals[v]);
+  }
+  return written;
+}
+
+int add_mesh(tinygltf::Model& model, const NamedMesh& named) {
+  const Written written = as_written(named);
+  const std::vector<float> positions = as_floats(written.vertices);
   std::vector<std::uint32_t> indices;
-  indices.reserve(mesh.facets.size() * 3);
-  for (const Triangle& t : mesh.facets) indices.insert(indices.end(), t.begin(), t.end());
+  indices.reserve(written.facets.size() * 3);
+  for (const Triangle& t : written.facets) indices.insert(indices.end(), t.begin(), t.end());
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   const int position = add_accessor(model, positions, TINYGLTF_COMPONENT_TYPE_FLOAT,
@@ -78,10 +194,19 @@ int add_mesh(tinygltf::Model& model, const NamedMesh& named) {
   set_bounds(model.accessors[static_cast<std::size_t>(position)], positions);
   primitive.attributes["POSITION"] = position;
   primitive.attributes["NORMAL"] =
-      add_accessor(model, as_floats(smooth_normals(mesh)), TINYGLTF_COMPONENT_TYPE_FLOAT,
+      add_accessor(model, as_floats(written.normals), TINYGLTF_COMPONENT_TYPE_FLOAT,
                    TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+  if (named.bitmap != nullptr) {
+    std::vector<float> uv;
+    for (const auto& place : named.bitmap->atlas.uv) {
+      for (const double c : place) uv.push_back(static_cast<float>(c));
+    }
+    primitive.attributes["TEXCOORD_0"] = add_accessor(
+        model, uv, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
+  }
   primitive.indices = add_accessor(model, indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                                    TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+  primitive.material = add_material(model, named);
   tinygltf::Mesh gltf_mesh;
   gltf_mesh.name = named.name;
   gltf_mesh.primitives.push_back(std::move(primitive));
@@ -155,9 +280,21 @@ TubeSurface surface_of(const cases::Structure& s) {
   return tube;
 }
 
+anatomy::Tissue tissue_of(anatomy::StructureKind kind) {
+  switch (kind) {
+    case anatomy::StructureKind::Artery:
+      return anatomy::Tissue::Artery;
+    case anatomy::StructureKind::Nerve:
+      return anatomy::Tissue::Nerve;
+    case anatomy::StructureKind::Tendon:
+      break;
+  }
+  return anatomy::Tissue::Tendon;
+}
+
 tinygltf::Node add_tube(tinygltf::Model& model, const cases::Structure& s) {
   const TubeSurface tube = surface_of(s);
-  const int mesh = add_mesh(model, {s.id, &tube.mesh, {}});
+  const int mesh = add_mesh(model, {s.id, &tube.mesh, {}, tissue_of(s.kind)});
   model.meshes.back().primitives.front().attributes["_HAND_SHARE"] =
       add_accessor(model, tube.hand_share, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR,
                    TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -217,11 +354,16 @@ std::string make_glb(std::span<const NamedMesh> meshes, std::span<const NamedTub
 
 std::string make_case_glb(const cases::CaseData& data) {
   std::vector<NamedMesh> meshes;
+  std::deque<BoneBitmap> bitmaps;
   for (const cases::Bone& bone : data.bones) {
-    meshes.push_back(
-        {std::string(name_of(bone.bone, bone.part)), &bone.surface, bone.patient_from_bone});
+    NamedMesh named{std::string(name_of(bone.bone, bone.part)), &bone.surface,
+                    bone.patient_from_bone};
+    if (!bone.surface.facets.empty()) {
+      named.bitmap = &bitmaps.emplace_back(make_bone_bitmap(bone, data.ct.view()));
+    }
+    meshes.push_back(std::move(named));
   }
-  meshes.push_back({"skin", &data.skin, {}});
+  meshes.push_back({"skin", &data.skin, {}, anatomy::Tissue::Skin});
   std::vector<NamedTube> tubes;
   for (const cases::Structure& structure : data.structures) tubes.push_back({&structure});
   return make_glb(meshes, tubes);

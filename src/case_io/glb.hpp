@@ -8,17 +8,21 @@
 #include <span>
 #include <string>
 
+#include "anatomy/material_table.hpp"
+#include "case_io/bone_bitmap.hpp"
 #include "cases/case_data.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace carpus::case_io {
 
-/// A surface to show; `mesh` is owned elsewhere.
+/// A surface to show; pointers are owned elsewhere.
 struct NamedMesh {
   std::string name;
   const TriangleMesh* mesh = nullptr;
   Pose<frame::Patient, frame::Bone> patient_from_bone;  ///< becomes the node's matrix
+  anatomy::Tissue tissue = anatomy::Tissue::Bone;
+  const BoneBitmap* bitmap = nullptr;  ///< null: its material alone
 };
 
 /// A tube to show: drawn round its middle line, which stays where it was scanned. Its node carries
@@ -31,11 +35,14 @@ struct NamedTube {
 /// The bytes of a .glb: one node and mesh each, float32 positions [mm, frame Patient before the
 /// node's matrix] and smooth normals, uint32 indices. The unit is mm and +z is superior, not the
 /// metres and Y-up of the glTF standard: the viewer converts (docs/case_format.md). Empty meshes
-/// are left out.
+/// are left out. Each has its tissue's material: physically based, with KHR_materials_specular, and
+/// its six fields as they are in `extras`; a bitmap is a PNG within the file, its charts' borders
+/// split vertices, whose normals stay those of the whole surface.
 [[nodiscard]] std::string make_glb(std::span<const NamedMesh> meshes,
                                    std::span<const NamedTube> tubes = {});
 
-/// Bones (where they are now), skin and structures of a case, named as in the case.
+/// Bones (where they are now, each with its bitmap), skin and structures of a case, named as in the
+/// case.
 [[nodiscard]] std::string make_case_glb(const cases::CaseData& data);
 
 /// Vertex normals: the mean of the facets' normals, weighted by their area.

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "case_io/small_case_test_support.hpp"
+
 namespace carpus::case_io {
 namespace {
 
@@ -70,6 +72,41 @@ TEST(Glb, HoldsAStructureAsATubeThatSaysWhatItIs) {
     return json.at("accessors")[attributes.at(name).get<std::size_t>()].at("count");
   };
   EXPECT_EQ(count("_HAND_SHARE"), count("POSITION"));
+}
+
+TEST(Glb, GivesEachTissueItsMaterialAndABoneItsBitmap) {
+  const cases::Bone lunate = test::octahedron(BoneId::Lunate, BonePart::Whole, 4, {0, 0, 0});
+  const Grid<std::int16_t> no_ct;
+  const BoneBitmap bitmap = make_bone_bitmap(lunate, no_ct.view(), 64);
+  const std::vector<NamedMesh> meshes{
+      {"lunate", &lunate.surface, {}, anatomy::Tissue::Bone, &bitmap},
+      {"skin", &kTetrahedron, {}, anatomy::Tissue::Skin}};
+  const std::string glb = make_glb(meshes);
+  const std::uint32_t json_size = word_at(glb, 12);
+  const auto json = nlohmann::json::parse(glb.substr(20, json_size));
+  const auto& bone = json.at("materials")[0];
+  EXPECT_EQ(bone.at("extras").at("material").at("shininess"),
+            anatomy::material_of(anatomy::Tissue::Bone).shininess);
+  EXPECT_EQ(bone.at("extras").at("material").size(), 6U);
+  EXPECT_NEAR(bone.at("pbrMetallicRoughness").at("roughnessFactor").get<double>(), 0.72, 1e-3);
+  EXPECT_NEAR(
+      bone.at("extensions").at("KHR_materials_specular").at("specularColorFactor")[0].get<double>(),
+      1, 1e-12);
+  EXPECT_EQ(bone.at("pbrMetallicRoughness").at("baseColorTexture").at("index"), 0);
+  EXPECT_EQ(json.at("materials")[1].at("alphaMode"), "BLEND");
+  EXPECT_EQ(json.at("extensionsUsed")[0], "KHR_materials_specular");
+  // The bitmap's bytes are a PNG, where the file says that it lies.
+  const auto& image = json.at("images")[0];
+  EXPECT_EQ(image.at("mimeType"), "image/png");
+  const auto& view = json.at("bufferViews")[image.at("bufferView").get<std::size_t>()];
+  const std::size_t at = 20 + json_size + 8 + view.at("byteOffset").get<std::size_t>();
+  EXPECT_EQ(glb.substr(at, view.at("byteLength").get<std::size_t>()), bitmap.png());
+  const auto& attributes = json.at("meshes")[0].at("primitives")[0].at("attributes");
+  const auto count = [&](const char* name) {
+    return json.at("accessors")[attributes.at(name).get<std::size_t>()].at("count");
+  };
+  EXPECT_EQ(count("TEXCOORD_0"), count("POSITION"));
+  EXPECT_EQ(count("POSITION"), bitmap.atlas.sources.size());
 }
 
 TEST(Glb, NormalsPointOutwards) {

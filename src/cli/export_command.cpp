@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -146,7 +147,13 @@ void run(const Arguments& a) {
     write_one_a_bone(a, bones);
   } else if (ending == ".glb") {
     refuse_existing(a.out, a.force);
-    records::write_file_atomically(a.out, case_io::make_glb(named(bones)));
+    std::vector<case_io::NamedMesh> meshes = named(bones);
+    std::deque<case_io::BoneBitmap> bitmaps;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      meshes[i].bitmap =
+          &bitmaps.emplace_back(case_io::make_bone_bitmap(*bones[i], data.ct.view()));
+    }
+    records::write_file_atomically(a.out, case_io::make_glb(meshes));
     std::printf("%s\n", a.out.string().c_str());
   } else {
     write_one_file(a, data, bones);

@@ -139,7 +139,10 @@ class ThesisRun {
     keep("figure_3_5", figures::draw_cube_cases());
     keep("figure_3_6", figures::draw_wrist(bones, WristSide::Dorsal, Facets::Outlined));
     keep("figure_3_7", figures::draw_wrist(bones, WristSide::Dorsal));
-    keep("figure_3_10", figures::draw_wrist(bones, WristSide::Volar));
+    keep("figure_3_8",
+         figures::draw_texture_mapping(*cases::scaphoid_parts(data).back(), data.ct.view()));
+    keep("figure_3_9", figures::draw_wrist(bones, WristSide::Dorsal, Facets::Textured));
+    keep("figure_3_10", figures::draw_wrist(bones, WristSide::Volar, Facets::Textured));
     const BoneId scaphoid = BoneId::Scaphoid;
     keep("figure_3_11", figures::draw_wrist(bones, WristSide::Volar, Facets::Shaded, &scaphoid));
     const std::vector<Vec2> points = figures::outline_points(*bone(scaphoid), kExamplePoints);

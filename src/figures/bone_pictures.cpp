@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "case_io/bone_bitmap.hpp"
 #include "core/text_format.hpp"
 #include "drawing/facets.hpp"
 #include "drawing/svg.hpp"
@@ -71,6 +72,29 @@ drawing::SurfacePaint paint_of(const Colour& colour, Facets facets) {
   return paint;
 }
 
+Colour in_palette(std::uint8_t texel) {
+  const auto& c = case_io::BoneBitmap::palette()[texel];
+  return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
+}
+
+Colour product(const Colour& a, const Colour& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+
+/// Of each facet, looked up in the bitmap at its middle.
+std::vector<Colour> facet_colours(const case_io::BoneBitmap& bitmap) {
+  const auto side = static_cast<std::size_t>(bitmap.atlas.side);
+  std::vector<Colour> colours;
+  for (const Triangle& t : bitmap.atlas.facets) {
+    std::array<std::size_t, 2> texel{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      double middle = 0;
+      for (const std::uint32_t v : t) middle += bitmap.atlas.uv[v][k] / 3;
+      texel[k] = std::min(side - 1, static_cast<std::size_t>(middle * bitmap.atlas.side));
+    }
+    colours.push_back(in_palette(bitmap.texels[texel[1] * side + texel[0]]));
+  }
+  return colours;
+}
+
 std::string name_in_words(BoneId bone) {
   std::string name(name_of(bone));
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
@@ -98,10 +122,14 @@ std::string arrow_to(const Vec2& tip) {
 std::vector<DrawnBone> drawn_bones(const cases::CaseData& data, double most_error_mm) {
   std::vector<DrawnBone> drawn;
   for (const BoneId id : kAllBones) {
-    DrawnBone bone{id, {}};
+    DrawnBone bone{id, {}, {}};
     for (const cases::Bone& part : data.bones) {
       if (part.bone != id) continue;
       TriangleMesh surface = mesh::simplify(part.surface, {kMostFacets, most_error_mm}).mesh;
+      cases::Bone thinned;
+      thinned.surface = MeshIn<frame::Bone>(surface);
+      const auto colours = facet_colours(case_io::make_bone_bitmap(thinned, data.ct.view()));
+      bone.texture.insert(bone.texture.end(), colours.begin(), colours.end());
       for (Vec3& v : surface.vertices) {
         const Point<frame::Patient> seen = part.patient_from_bone * Point<frame::Bone>{v};
         v = upright((data.wrist_from_patient * seen).v);
@@ -134,7 +162,12 @@ std::string draw_wrist(const std::vector<DrawnBone>& bones,
   for (const DrawnBone& bone : bones) {
     const bool stands_out = marked != nullptr && *marked == bone.bone;
     append(all, bone.surface);
-    colours.resize(all.facets.size(), stands_out ? kMarked : kBone);
+    const Colour& own = stands_out ? kMarked : kBone;
+    if (facets == Facets::Textured) {
+      for (const Colour& texel : bone.texture) colours.push_back(product(own, texel));
+    } else {
+      colours.resize(all.facets.size(), own);
+    }
     if (stands_out) pointed_at = bone.surface;
   }
   const drawing::View view(all.vertices, kScene, {0, side == WristSide::Dorsal ? -1.0 : 1.0, 0});
@@ -147,6 +180,66 @@ std::string draw_wrist(const std::vector<DrawnBone>& bones,
     svg += arrow_to(view(middle * (1.0 / static_cast<double>(pointed_at.vertices.size()))));
   }
   return drawing::page(900, 1100, svg);
+}
+
+std::string draw_texture_mapping(const cases::Bone& bone, const GridView<const std::int16_t>& ct) {
+  constexpr double kPanel = 430;
+  constexpr int kPixels = 128;  // enough for a page
+  cases::Bone thinned;
+  constexpr std::size_t kFewFacets = 700;  // so that a facet is seen
+  constexpr double kMostErrorMm = 0.3;
+  thinned.surface =
+      MeshIn<frame::Bone>(mesh::simplify(bone.surface, {kFewFacets, kMostErrorMm}).mesh);
+  const case_io::BoneBitmap bitmap = case_io::make_bone_bitmap(thinned, ct, kPixels);
+  const mesh::TextureAtlas& atlas = bitmap.atlas;
+  const drawing::View view(thinned.surface.vertices, {20 + kPanel, 40, kPanel - 40, kPanel - 60},
+                           kAslant);
+  // The largest facet that looks at the viewer.
+  std::size_t shown = 0;
+  double largest = 0;
+  for (std::size_t f = 0; f < thinned.surface.facets.size(); ++f) {
+    const Triangle& t = thinned.surface.facets[f];
+    const Vec3 twice = cross(thinned.surface.vertices[t[1]] - thinned.surface.vertices[t[0]],
+                             thinned.surface.vertices[t[2]] - thinned.surface.vertices[t[0]]);
+    const double towards = dot(twice, normalized_or(kAslant, {0, 1, 0}));
+    if (towards > 0.95 * length(twice) && length(twice) > largest) {
+      largest = length(twice);
+      shown = f;
+    }
+  }
+  const double left = 20;
+  const double top = 40;
+  const double size = kPanel - 60;
+  std::string svg =
+      drawing::text_at(left, 26, format("bitmap, %d x %d texels of 256 colours", kPixels, kPixels),
+                       {.size = 17}) +
+      drawing::text_at(left + kPanel, 26, "one facet of the bone", {.size = 17});
+  svg += "<g shape-rendering=\"crispEdges\">\n";
+  const double texel = size / kPixels;
+  for (int y = 0; y < kPixels; ++y) {
+    for (int x = 0; x < kPixels; ++x) {
+      const std::uint8_t value = bitmap.texels[static_cast<std::size_t>(y * kPixels + x)];
+      svg += format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"",
+                    left + x * texel, top + y * texel, texel + 0.1, texel + 0.1) +
+             drawing::hex(product(kBone, in_palette(value))) + "\"/>\n";
+    }
+  }
+  svg += "</g>\n";
+  std::vector<Vec2> in_bitmap;
+  std::vector<Vec2> on_bone;
+  for (const std::uint32_t v : atlas.facets[shown]) {
+    in_bitmap.push_back({left + atlas.uv[v][0] * size, top + atlas.uv[v][1] * size});
+    on_bone.push_back(view(thinned.surface.vertices[atlas.sources[v]]));
+  }
+  const std::vector<Colour> colours = facet_colours(bitmap);
+  svg += draw_surface(view, thinned.surface,
+                      {[&](std::size_t f) { return product(kBone, colours[f]); }, kFacetEdge, 0.3});
+  for (std::size_t i = 0; i < 3; ++i) {
+    svg += drawing::strokes(drawing::line_path(in_bitmap[i], on_bone[i]), {kArrow, 0.8, 0.7});
+  }
+  svg += drawing::strokes(drawing::polygon_path(in_bitmap), {kArrow, 2}) +
+         drawing::strokes(drawing::polygon_path(on_bone), {kArrow, 2});
+  return drawing::page(2 * kPanel, kPanel, svg);
 }
 
 std::string draw_bones_and_hulls(const std::vector<const DrawnBone*>& bones, Facets facets) {

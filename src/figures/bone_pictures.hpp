@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
+#include "drawing/svg.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -20,6 +21,8 @@ namespace carpus::figures {
 struct DrawnBone {
   BoneId bone = BoneId::Radius;
   TriangleMesh surface;  ///< of a broken bone all parts
+  /// By facet: the colour of its middle in the bone's bitmap (case_io/bone_bitmap.hpp).
+  std::vector<drawing::Colour> texture;
 };
 
 /// The bones of a case, broken ones in one piece of drawing, in the order of BoneId.
@@ -32,7 +35,7 @@ struct DrawnBone {
 [[nodiscard]] std::vector<Vec2> outline_points(const DrawnBone& bone, std::size_t count);
 
 enum class WristSide { Dorsal, Volar };
-enum class Facets { Shaded, Outlined };
+enum class Facets { Shaded, Outlined, Textured };
 
 /// The whole wrist from behind (dorsal) or from the palm, fingers up.
 /// @param marked  null, or a bone that a red arrow points at and that stands out in colour.
@@ -40,6 +43,11 @@ enum class Facets { Shaded, Outlined };
                                      WristSide side,
                                      Facets facets = Facets::Shaded,
                                      const BoneId* marked = nullptr);
+
+/// Figure 3.8: the bone's bitmap with the outline of one of its facets, and the same facet on the
+/// bone.
+[[nodiscard]] std::string draw_texture_mapping(const cases::Bone& bone,
+                                               const GridView<const std::int16_t>& ct);
 
 /// A row for each: the bone to the left, its convex hull to the right, at one scale.
 [[nodiscard]] std::string draw_bones_and_hulls(const std::vector<const DrawnBone*>& bones,

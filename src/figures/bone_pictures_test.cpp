@@ -62,6 +62,16 @@ TEST(BonePictures, TheMarkedBoneHasAnArrowAndAColour) {
               HasSubstr("stroke=\"#3a3226\""));
 }
 
+TEST(BonePictures, TexturedFacetsTakeTheirColourFromTheBitmap) {
+  const auto data = broken_wrist();
+  const auto bones = drawn_bones(data);
+  EXPECT_EQ(bones[1].texture.size(), bones[1].surface.facets.size());
+  EXPECT_NE(draw_wrist(bones, WristSide::Dorsal, Facets::Textured),
+            draw_wrist(bones, WristSide::Dorsal));
+  const std::string mapping = draw_texture_mapping(data.bones[0], data.ct.view());
+  EXPECT_THAT(mapping, HasSubstr("128 x 128 texels"));
+}
+
 TEST(BonePictures, HullsStandBesideAndAboutTheirBones) {
   const auto bones = drawn_bones(broken_wrist());
   const std::string rows = draw_bones_and_hulls({&bones[0], &bones[1]});
