@@ -16,9 +16,15 @@
 #include <vector>
 
 #include "case_io/case_folder.hpp"
+#include "case_io/detail/structures_json.hpp"
+#include "case_io/dicom_segmentation.hpp"
 #include "case_io/mutation_test_support.hpp"
+#include "case_io/read_dicom_segmentation.hpp"
 #include "case_io/small_case_test_support.hpp"
+#include "case_io/small_tissue_test_support.hpp"
+#include "case_io/soft_tissue_folder.hpp"
 #include "case_io/surface_file.hpp"
+#include "case_io/trust_file.hpp"
 #include "core/amount_test_support.hpp"
 #include "core/error.hpp"
 
@@ -105,6 +111,31 @@ TEST_F(MutatedCases, CaseFoldersAreRefusedByNameOrRead) {
     targets.push_back({name, whole / name, [whole] { (void)read_case(whole); }});
   }
   damage(targets, carpus::test::amount<std::size_t>(3, 15, 500));
+}
+
+TEST_F(MutatedCases, WhatLiesBesideACaseIsRefusedByNameOrRead) {
+  const fs::path whole = folder() / "wrist";
+  const cases::CaseData data = test::small_case();
+  write_case(data, whole);
+  test::write(whole / "structures.json", structures_text(test::small_structures()));
+  test::write(whole / kTrustFile, trust_text({{"lunate", 0.5, true, "why"}}, "carpus"));
+  write_soft_tissue(test::small_tissue(), data, whole);
+  const fs::path segments = folder() / "labels.dcm";
+  write_dicom_segmentation(segments, data.labels.view(), {{data.bones[0].label, "lunate"}},
+                           {"small", true, "carpus"});
+  const GridGeometry grid = data.labels.geometry();
+  const std::vector<Target> targets{
+      {"structures.json", whole / "structures.json",
+       [whole] {
+         const fs::path file = whole / "structures.json";
+         (void)parse_structures(test::bytes_of(file), file);
+       }},
+      {"trust.json", whole / kTrustFile, [whole] { (void)read_trust(whole); }},
+      {"soft_tissue.json", whole / "soft_tissue/soft_tissue.json",
+       [whole] { (void)read_soft_tissue(whole); }},
+      {"labels.dcm", segments,
+       [segments, grid] { (void)read_dicom_segmentation(segments, grid); }}};
+  damage(targets, carpus::test::amount<std::size_t>(10, 60, 2000));
 }
 
 }  // namespace

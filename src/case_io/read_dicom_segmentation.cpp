@@ -19,6 +19,8 @@
 #include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/shared_array.hpp"
 #include "core/error.hpp"
+#include "image_formats/dicom_elements.hpp"
+#include "image_formats/dicom_header.hpp"
 
 namespace carpus::case_io {
 namespace {
@@ -90,6 +92,7 @@ class Reader {
     }
     if (segments->card() == 0) damaged("names no segment");
     if (segments->card() > kMostSegments) unfit("has more than 255 segments");
+    std::array<bool, kMostSegments + 1> described{};
     for (unsigned long i = 0; i < segments->card(); ++i) {
       Uint16 number = 0;
       OFString name;
@@ -98,6 +101,8 @@ class Reader {
           number == 0 || number > kMostSegments) {
         damaged("has a segment without a number");
       }
+      if (described[number]) damaged("has two segments of number " + std::to_string(number));
+      described[number] = true;
       (void)item->findAndGetOFString(DCM_SegmentLabel, name);
       auto& to = found.names[number - std::size_t{1}];
       to = {};
@@ -111,6 +116,11 @@ class Reader {
     if (data_.findAndGetSint32(DCM_NumberOfFrames, frames).bad() || frames < 1) {
       damaged("has no frames");
     }
+    DcmSequenceOfItems* places = nullptr;
+    if (data_.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, places).bad() ||
+        places == nullptr || places->card() != static_cast<unsigned long>(frames)) {
+      damaged("does not describe as many frames as it says it has");
+    }
     return frames;
   }
 
@@ -120,8 +130,10 @@ class Reader {
     if (data_.findAndGetUint8Array(DCM_PixelData, bits, &length).bad() || bits == nullptr) {
       damaged("has no pixels, or packed ones that are not read");
     }
-    if (static_cast<std::uint64_t>(frames_) * rows_ * columns_ > std::uint64_t{8} * length) {
-      damaged("ends before its last frame");
+    const std::uint64_t needed = (static_cast<std::uint64_t>(frames_) * rows_ * columns_ + 7) / 8;
+    if (length != needed && length != needed + needed % 2) {
+      damaged("has " + std::to_string(length) + " bytes of pixels where its frames have " +
+              std::to_string(needed));
     }
     return bits;
   }
@@ -198,6 +210,9 @@ class Reader {
         step_of(vector(*orientation, DCM_ImageOrientationPatient, 0) * column_mm, columns_);
     const VoxelIndex down =
         step_of(vector(*orientation, DCM_ImageOrientationPatient, 3) * row_mm, rows_);
+    if (right.x * down.x + right.y * down.y + right.z * down.z != 0) {
+      damaged("has rows along its columns");
+    }
     const Vec3 place = onto_.voxel_from_patient(vector(*plane, DCM_ImagePositionPatient, 0));
     const Vec3 first{std::round(place.x), std::round(place.y), std::round(place.z)};
     if (!(length(place - first) < 2 * kSamePlace) || !(length(first) < 1e6)) off_grid();
@@ -244,10 +259,27 @@ void parse(const std::string& bytes,
   Reader(*format.getDataset(), onto, file).lay_on(labels, found);
 }
 
+/// By our own strict reader, before a library sees it: every element ends within its bounds, and
+/// nothing follows the last.
+void check_structure(const std::string& text, const std::string& file) {
+  const image_formats::Refuser refuse(file);
+  image_formats::MemoryBytes bytes(std::as_bytes(std::span(text)));
+  if (!image_formats::has_dicom_mark(bytes)) {
+    throw IoError(file + ": is no DICOM file, or a damaged one; export the segmentation anew");
+  }
+  const image_formats::DicomFront front = image_formats::parse_dicom_front(bytes, refuse);
+  if (front.syntax.is_deflated || front.syntax.coding != image_formats::PixelCoding::Plain) {
+    refuse.unusable("its transfer syntax", front.syntax.uid, "export it uncompressed");
+  }
+  image_formats::DicomElements(bytes, refuse, front.syntax.encoding)
+      .walk(front.data_begins, bytes.size(), [](const image_formats::DicomElement&) {});
+}
+
 }  // namespace
 
 ReadSegmentation read_dicom_segmentation(const fs::path& file, const GridGeometry& onto) {
   const std::string bytes = read_whole_file(file, kLargestFile);
+  check_structure(bytes, file.string());
   OFLog::configure(OFLogger::OFF_LOG_LEVEL);  // what fails is thrown
   (void)dcmDataDict.rdlock();                 // read from its file now: the child opens none
   dcmDataDict.rdunlock();

@@ -123,6 +123,75 @@ TEST_F(ReadDicomSegmentation, RefusesWhatIsNoneOrDamaged) {
   EXPECT_NE(refusal(g), "");
 }
 
+/// Where the value of an element with a short length begins, the n-th of its tag.
+std::size_t value_at(const std::string& bytes, std::string_view tag_and_type, int nth = 0) {
+  std::size_t at = bytes.find(tag_and_type);
+  while (nth-- > 0) at = bytes.find(tag_and_type, at + 1);
+  EXPECT_NE(at, std::string::npos);
+  return at + tag_and_type.size() + 2;
+}
+using std::string_view_literals::operator""sv;
+constexpr std::string_view kNumberOfFrames = "\x28\x00\x08\x00IS"sv;
+constexpr std::string_view kSegmentNumber = "\x62\x00\x04\x00US"sv;
+constexpr std::string_view kOrientation =
+    "\x20\x00\x37\x00"
+    "DS"sv;
+constexpr std::string_view kPixels = "\xE0\x7F\x10\x00OB\x00\x00"sv;
+
+TEST_F(ReadDicomSegmentation, RefusesWhatItSaysTwiceAndOtherwise) {
+  const GridGeometry g = two_bones().geometry();
+  const std::string whole = bytes();
+  ASSERT_EQ(refusal(g), "");
+
+  std::string changed = whole;
+  changed[value_at(changed, kNumberOfFrames)] -= 1;
+  replace_bytes(changed);
+  EXPECT_THAT(refusal(g), HasSubstr("frames")) << "one fewer than it describes";
+
+  changed = whole;
+  changed[value_at(changed, kSegmentNumber, 1)] = 1;
+  replace_bytes(changed);
+  EXPECT_THAT(refusal(g), HasSubstr("two segments")) << "the same number";
+
+  changed = whole;
+  const std::size_t pixels = changed.find(kPixels) + kPixels.size();
+  ASSERT_LT(pixels, changed.size());
+  changed[pixels] = static_cast<char>(changed[pixels] + 2);
+  changed.append(2, '\0');
+  replace_bytes(changed);
+  EXPECT_THAT(refusal(g), HasSubstr("pixels")) << "more than its frames have";
+
+  replace_bytes(whole + std::string(8, '\0'));
+  EXPECT_NE(refusal(g), "") << "more than a data set";
+}
+
+TEST_F(ReadDicomSegmentation, RefusesRowsAlongItsColumns) {
+  GridGeometry square = two_bones().geometry();
+  square.spacing.y = square.spacing.x;
+  square.direction = Mat3::from_columns({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  write_dicom_segmentation(file_, Grid<std::uint8_t>(square, 3).view(), {{3, "scaphoid"}},
+                           {"demo wrist", true, "carpus 0.1.0"});
+  std::string changed = bytes();
+  const std::size_t turn = value_at(changed, kOrientation);
+  const auto length = static_cast<unsigned char>(changed[turn - 2]);
+  std::string along = "1\\0\\0\\1\\0\\0";
+  ASSERT_LE(along.size(), length);
+  along.resize(length, ' ');
+  changed.replace(turn, length, along);
+  replace_bytes(changed);
+  square.size[0] = 100;
+  EXPECT_THAT(refusal(square), HasSubstr("rows along its columns"));
+}
+
+TEST_F(ReadDicomSegmentation, RefusesEveryCut) {
+  const GridGeometry g = two_bones().geometry();
+  const std::string whole = bytes();
+  for (std::size_t size = 1; size < whole.size(); size += 97) {
+    replace_bytes(whole.substr(0, whole.size() - size));
+    EXPECT_NE(refusal(g), "") << size << " bytes cut off";
+  }
+}
+
 /// Whatever a few changed bytes make of it: voxels or a refusal, and this process goes on.
 TEST_F(ReadDicomSegmentation, OutlivesChangedBytes) {
   const std::string whole = bytes();

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 
+#include "case_io/small_tissue_test_support.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
@@ -16,44 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using soft_tissue::SoftTissue;
+using test::small_tissue;
 using ::testing::HasSubstr;
-
-TriangleMesh tetrahedron() {
-  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-}
-
-SoftTissue small_tissue() {
-  SoftTissue tissue;
-  tissue.size = 1.03;
-  tissue.problems = {"LT_volar: 3.9 mm long"};
-  soft_tissue::Ligament l;
-  l.id = "SL_dorsal";
-  l.name = "scapholunate, dorsal part";
-  l.group = "proximal_row";
-  l.body = tetrahedron();
-  l.length_mm = 5.3;
-  soft_tissue::Strand s;
-  s.course = {{1, 2, 3}, {0.1, 0.2, 0.3}};
-  s.rest_length_mm = 3.25;
-  s.stiffness_n_per_mm = 23;
-  s.anchors = {{3, "", 0, {1, 2, 3}, 0}, {0, "VRUL", 0.45, {0.1, 0.2, 0.3}, 1}};
-  l.strands = {s};
-  tissue.ligaments = {l};
-  soft_tissue::Cartilage c;
-  c.label = 3;
-  c.body = tetrahedron();
-  c.vertex_thickness_mm = {0, 0.5F};
-  tissue.cartilage = {c};
-  tissue.disc.body = tissue.disc.middle = tetrahedron();
-  tissue.spaces = {{"radiocarpal",
-                    "radiocarpal joint",
-                    tetrahedron(),
-                    {soft_tissue::Lining::Bone, soft_tissue::Lining::Disc,
-                     soft_tissue::Lining::Synovium, soft_tissue::Lining::Ligament},
-                    12}};
-  return tissue;
-}
 
 class SoftTissueFolder : public ::testing::Test {
  protected:
