@@ -88,6 +88,53 @@ TEST(Structures, ASleevePutsTheWayAside) {
   EXPECT_FALSE(op.world().operation_record().structures[0].was_struck);
 }
 
+TEST(Structures, AWireThatWasLedComesOutOnItsWay) {
+  const cases::CaseData data = wrist_with_tube(0.5, 1.0);
+  Operator op({}, data);
+  op.command(test::take("needle_sleeve_14g", 1));
+  op.aim({});
+  op.hand(1).shaft_in_patient = -op.inward();
+  for (double away = 25.0; away > 1.2; away -= 0.05) {
+    op.hand(1).tip_in_patient = op.entry() - op.inward() * away;
+    op.hold(Driver::Off, 0.0, 1);
+  }
+  op.hold(Driver::Off, 0.0, 400);
+  op.place_on_entry({});
+  op.drive_to(5.0);
+  op.command(test::simple(CommandKind::PutDown, 1));
+  op.hold(Driver::Reverse, 0.0, 3000);
+  ASSERT_EQ(op.item().body, kNoBody);
+  EXPECT_FALSE(op.world().operation_record().structures[0].was_struck);
+  op.hold(Driver::Off, 0.0, 10);
+  op.hold(Driver::Reverse, 0.0, 10);
+  EXPECT_TRUE(op.world().operation_record().structures[0].was_struck)
+      << "what is let go of and turns again is bare";
+}
+
+/// A tube across the far end of the axis that lies partly in the bone.
+TEST(Structures, WhatIsGeneratedIntoTheBoneIsStruckOnlyOutsideIt) {
+  cases::CaseData data = wrist_with_tube(0.0, 1.0);
+  const World plain(test::wrist(), test::exercise(), 1);
+  const auto& pose = plain.now().patient_from_bone[test::body_of(BoneId::Scaphoid)];
+  const auto& hand = plain.now().patient_from_bone[test::body_of(BoneId::Capitate)];
+  const auto& axis = data.scaphoid.central_axis;
+  const Vec3 outward = normalized_or(axis.distal - axis.proximal, {0, 0, 1});
+  const Vec3 across = any_perpendicular(outward);
+  const auto lay = [&](double out_mm) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec3 p = axis.distal + outward * out_mm + across * (i == 0 ? -10.0 : 10.0);
+      data.structures[0].course[i].at = (hand.inverse() * (pose * Point<frame::Bone>{p})).v;
+    }
+  };
+  lay(0.3);
+  Operator op({}, data);
+  op.place_on_entry({});
+  op.drive_to(distance(axis.proximal, axis.distal) - 0.5);
+  EXPECT_FALSE(op.world().operation_record().structures[0].was_struck);
+  op.drive_to(distance(axis.proximal, axis.distal) + 1.0);
+  EXPECT_TRUE(op.world().operation_record().structures[0].was_struck);
+}
+
 TEST(Structures, OfAKeyframeGoOnToTheSameHash) {
   const cases::CaseData data = wrist_with_tube(0.5, 1.0);
   std::vector<Input> inputs;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Harm to what lies under the skin: something that turns, and what of it is bare.
+#include <algorithm>
+
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -12,6 +14,7 @@ namespace {
 
 /// A sleeve of the other hand leads an item while their shafts are one to rounding.
 constexpr double kLedMm = 1e-9;
+constexpr double kPointMm = 1.5;  // of a wire, over which it comes to its width
 
 }  // namespace
 
@@ -26,7 +29,11 @@ void World::State::note_sleeves(const Model& model) noexcept {
     } else if (item.wire < kMaxItems) {
       is_led = structure_state.is_led[item.wire];
     } else if (!item.is_fixed()) {
-      is_led = false;
+      // Drawn back out of bone it stands in the way that was spread for it until it is let turn
+      // again.
+      const bool came_out = item.hand < kHands && spent.hands[item.hand].reverse_is_held;
+      is_led = is_led && came_out;
+      if (is_led) continue;
       if (item.hand >= kHands) continue;
       const Item* sleeve = in_hand(1U - item.hand);
       is_led = sleeve != nullptr && kind_of(model, *sleeve).is_sleeve &&
@@ -35,19 +42,42 @@ void World::State::note_sleeves(const Model& model) noexcept {
   }
 }
 
-/// What of a turning item is bare of bone and sleeve, as a segment: of one that was led only what
-/// is beyond where it went into bone, or out of its sleeve.
-World::State::Bare World::State::bare_part(std::uint8_t index) const noexcept {
+/// What of a turning item is bare of bone and sleeve. In the bone that it came through nothing lies
+/// but bone, whatever the generated tubes say; of one that was led only what is out at the far side
+/// is bare, or out of its sleeve.
+World::State::BareParts World::State::bare_parts(std::uint8_t index,
+                                                 double radius_mm) const noexcept {
+  BareParts bare;
+  const auto add = [&bare](const Vec3& from, const Vec3& to, double radius) {
+    bare.part[bare.count++] = {from, to, radius};
+  };
   const Item& item = now.items[index];
   const Vec3 back = item.tip + item.shaft * item.length_mm;
-  if (!structure_state.is_led[index]) return {item.tip, back};
-  if (item.is_fixed()) {
-    return {item.tip, (poses[item.body] * Point<frame::Bone>{item.origin_in_bone}).v};
+  const bool is_led = structure_state.is_led[index];
+  if (!item.is_fixed()) {
+    if (!is_led) {
+      add(item.tip, back, radius_mm);
+      return bare;
+    }
+    const std::uint8_t sleeve = now.held[1U - item.hand];
+    const Vec3 mouth = sleeve < kMaxItems ? now.items[sleeve].tip : item.tip;
+    const bool is_out = dot(item.tip - mouth, item.shaft) < 0.0;
+    if (is_out) add(item.tip, mouth, radius_mm);
+    return bare;
   }
-  const std::uint8_t sleeve = now.held[1U - item.hand];
-  const Vec3 mouth = sleeve < kMaxItems ? now.items[sleeve].tip : item.tip;
-  const bool is_out = dot(item.tip - mouth, item.shaft) < 0.0;
-  return {item.tip, is_out ? mouth : item.tip};
+  const auto at = [&](double travel_mm) {
+    return (poses[item.body] *
+            Point<frame::Bone>{item.origin_in_bone + item.direction_in_bone * travel_mm})
+        .v;
+  };
+  if (!is_led && item.travel_mm < item.length_mm) add(at(0.0), back, radius_mm);
+  const double exit_mm = item.in_target ? item.entry_at_mm + item.chord_mm : 0.0;
+  const double out_mm = item.travel_mm - exit_mm;
+  if (out_mm > 0.0) {
+    const double share = out_mm < kPointMm ? out_mm / kPointMm : 1.0;
+    add(item.tip, at(exit_mm), radius_mm * share);
+  }
+  return bare;
 }
 
 void World::State::watch_structures(const Model& model) noexcept {
@@ -59,15 +89,18 @@ void World::State::watch_structures(const Model& model) noexcept {
     const instruments::Instrument& kind = kind_of(model, *item);
     if (kind.work == instruments::Work::None) continue;
     structures.follow({poses.data(), snapshot.body_count});
-    const Bare bare = bare_part(now.held[h]);
     // What rides on a wire takes its way, held open: it harms what the wire's way leads through.
     const instruments::Instrument& opens =
         item->wire < kMaxItems ? kind_of(model, now.items[item->wire]) : kind;
-    const double radius = opens.cut_tip_radius_mm;
+    const BareParts bare = bare_parts(now.held[h], opens.cut_tip_radius_mm);
     for (std::size_t i = 0; i < structures.size(); ++i) {
       detail::StructureHarm& harm = structure_state.harm[i];
       // Only what is nearer than ever before changes anything; what is struck is below 0 already.
-      const double gap = structures.gap_mm(i, bare.from, bare.to, harm.least_mm + radius) - radius;
+      double gap = harm.least_mm;
+      for (std::size_t p = 0; p < bare.count; ++p) {
+        const auto& [from, to, radius] = bare.part[p];
+        gap = std::min(gap, structures.gap_mm(i, from, to, gap + radius) - radius);
+      }
       if (gap < harm.least_mm) {
         harm.least_mm = gap;
         harm.by = item->instrument;

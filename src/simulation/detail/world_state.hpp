@@ -211,10 +211,15 @@ struct World::State {
   struct Bare {
     Vec3 from;
     Vec3 to;
+    double radius_mm = 0.0;
+  };
+  struct BareParts {
+    std::array<Bare, 2> part;
+    std::size_t count = 0;
   };
   void watch_structures(const Model& model) noexcept;
   void note_sleeves(const Model& model) noexcept;
-  [[nodiscard]] Bare bare_part(std::uint8_t index) const noexcept;
+  [[nodiscard]] BareParts bare_parts(std::uint8_t index, double radius_mm) const noexcept;
 
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;
