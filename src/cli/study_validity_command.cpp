@@ -92,6 +92,11 @@ void print(const ProcedureValidity& validity, const std::vector<std::string>& na
                 100 * of(means.safe_share, Skill::Middle),
                 100 * of(means.safe_share, Skill::Expert),
                 means.is_in_order() ? "" : "   NOT IN ORDER");
+    for (const trainee::MissedShare& missed : means.missed) {
+      const auto percent = [&](Skill skill) { return 100 * of(missed.share, skill); };
+      std::printf("  missed: %-22.22s %6.0f %% %6.0f %% %6.0f %%\n", missed.id.c_str(),
+                  percent(Skill::Novice), percent(Skill::Middle), percent(Skill::Expert));
+    }
   }
 }
 
@@ -117,6 +122,10 @@ nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std:
           validity.cases[c].total[static_cast<std::size_t>(skill)];
       means["safe_share"][trainee::name_of(skill)] =
           validity.cases[c].safe_share[static_cast<std::size_t>(skill)];
+      for (const trainee::MissedShare& missed : validity.cases[c].missed) {
+        means["missed"][missed.id][trainee::name_of(skill)] =
+            missed.share[static_cast<std::size_t>(skill)];
+      }
     }
     json["cases"].push_back(std::move(means));
   }

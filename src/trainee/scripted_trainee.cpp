@@ -23,6 +23,7 @@ using simulation::ItemView;
 using simulation::Snapshot;
 
 constexpr double kStandoffMm = 18.0;       // from where the last straight approach starts
+constexpr double kBehindSleeveMm = 60.0;   // where a sleeve leads: from behind it
 constexpr double kFirstStandoffMm = 45.0;  // where the hand waits during the survey
 constexpr double kPressMm = 0.5;           // hand beyond the surface, so that the tip rests on it
 constexpr Tick kMostTicks = 900000;        // 15 min: whoever has not finished by then gives up
@@ -98,7 +99,9 @@ ScriptedTrainee::ScriptedTrainee(const cases::CaseData& data,
       rng_(seed * kSkillCount + static_cast<std::uint64_t>(skill)),
       tremor_(profile_.tremor_mm, Rng(seed ^ 0x7265746Du)),
       scaphoid_(solid_of(data)),
-      reducing_(data, procedure) {
+      reducing_(data, procedure),
+      sleeve_(procedure),
+      uses_sleeve_(sleeve_.is_offered() && rng_.uniform(0, 1) < profile_.sleeve_share) {
   bool has_screw = false;
   for (const InstrumentIndex index : procedure.tray) {
     if (kind_of(index).is_gauge) gauge_ = index;
@@ -181,8 +184,12 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
   lean_n_ = 0.0;
   last_depth_mm_ = -1e9;
   plan_shots(now);
-  if (phase == Phase::GoToStandoff) {
-    start_move({planned_entry_ - planned_direction_ * kStandoffMm, -planned_direction_});
+  if (phase == Phase::PlaceSleeve) {
+    start_move({planned_entry_ - planned_direction_ * kBehindSleeveMm, -planned_direction_});
+    sleeve_.begin(second_hand(), planned_entry_, planned_direction_, profile_.speed_mm_per_s);
+  } else if (phase == Phase::GoToStandoff) {
+    const double far = uses_sleeve_ ? kBehindSleeveMm : kStandoffMm;
+    start_move({planned_entry_ - planned_direction_ * far, -planned_direction_});
   } else if (phase == Phase::Approach) {
     start_move({planned_entry_ + planned_direction_ * (kPressMm + 1.0), -planned_direction_});
   } else if (phase == Phase::Ream) {
@@ -196,6 +203,11 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
   } else if (phase == Phase::Insert) {
     bury_mm_ = draw(profile_.bury_mm);
   }
+}
+
+void ScriptedTrainee::try_again(const Snapshot& now) {
+  plan_line(now);
+  enter(uses_sleeve_ ? Phase::PlaceSleeve : Phase::GoToStandoff, now);
 }
 
 void ScriptedTrainee::start_move(const HandPose& target) {
@@ -276,7 +288,8 @@ void ScriptedTrainee::judge_line(const Snapshot& now) {
   } else {
     const bool goes_on = draws_through_ && is_in && is_way_out_free(now);
     after_freeing_ = goes_on ? Phase::DriveThrough : is_in ? Phase::Measure : Phase::Finish;
-    enter(reducing_.has_left_wire() ? Phase::FreeFragment : after_freeing_, now);
+    after_sleeve_ = reducing_.has_left_wire() ? Phase::FreeFragment : after_freeing_;
+    enter(sleeve_.is_held() ? Phase::PutSleeveDown : after_sleeve_, now);
   }
 }
 
@@ -334,8 +347,11 @@ void ScriptedTrainee::think_of_line(const Snapshot& now) {
         enter(Phase::Drive, now);
       } else if (in_phase_ > kEngageTicks) {  // skated or missed: look again, closer
         error_scale_ *= 0.7;
-        plan_line(now);
-        enter(++tries_ < kMostTries ? Phase::GoToStandoff : Phase::Finish, now);
+        if (++tries_ < kMostTries) {
+          try_again(now);
+        } else {
+          enter(Phase::Finish, now);
+        }
       }
       return;
     case Phase::Drive:
@@ -350,8 +366,7 @@ void ScriptedTrainee::think_of_line(const Snapshot& now) {
     case Phase::Withdraw:
       if (!is_fixed) {
         hand_ = {wire.tip_in_patient, wire.shaft_in_patient};
-        plan_line(now);
-        enter(Phase::GoToStandoff, now);
+        try_again(now);
       }
       return;
     default:
@@ -359,7 +374,8 @@ void ScriptedTrainee::think_of_line(const Snapshot& now) {
   }
 }
 
-/// Whether no bone lies in the wire's way out of the skin: where one does, it is not driven on.
+/// Whether no bone lies in the wire's way out of the skin, nor a tendon, artery or nerve as far as
+/// this trainee knows them: where one does, it is not driven on.
 bool ScriptedTrainee::is_way_out_free(const Snapshot& now) const {
   constexpr double kBesideMm = 2.0;
   constexpr double kWayMm = 60.0;
@@ -377,6 +393,14 @@ bool ScriptedTrainee::is_way_out_free(const Snapshot& now) const {
           (now.patient_from_bone[b] * Point<frame::Bone>{vertex}).v - wire.tip_in_patient;
       const double ahead = dot(w, along);
       if (ahead > 0.0 && ahead < kWayMm && length(w - along * ahead) < kBesideMm) return false;
+    }
+  }
+  for (const LyingPoint& point : structures_now(case_, now)) {
+    const Vec3 w = point.at - wire.tip_in_patient;
+    const double ahead = dot(w, along);
+    if (ahead > 0.0 && ahead < kWayMm &&
+        length(w - along * ahead) < point.radius_mm + profile_.beside_structures_mm) {
+      return false;
     }
   }
   return true;
@@ -589,8 +613,7 @@ void ScriptedTrainee::look_at_bone(const Snapshot& now, Input& input) {
     enter(Phase::Reduce, now);
     return;
   }
-  plan_line(now);
-  enter(Phase::GoToStandoff, now);
+  try_again(now);
 }
 
 /// The bone is another one now: its axis is read off the pictures anew.
@@ -620,6 +643,13 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
       return;
     case Phase::FreeFragment:
       if (reducing_.next(now, input)) enter(after_freeing_, now);
+      return;
+    case Phase::PlaceSleeve:
+      if (sleeve_.next(now, input) && move_.is_over(in_move_)) enter(Phase::GoToStandoff, now);
+      return;
+    case Phase::PutSleeveDown:
+      sleeve_.put_down(input);
+      enter(after_sleeve_, now);
       return;
     case Phase::Engage:
     case Phase::Drive:
@@ -685,7 +715,8 @@ Input ScriptedTrainee::next(const Snapshot& now) {
       --wait_;
     } else {
       ++in_phase_;
-      if (phase_ == Phase::GoToStandoff || phase_ == Phase::Approach) {
+      if (phase_ == Phase::PlaceSleeve || phase_ == Phase::GoToStandoff ||
+          phase_ == Phase::Approach) {
         hand_ = move_.at(++in_move_);
       }
       act(now, input);
@@ -698,7 +729,9 @@ Input ScriptedTrainee::next(const Snapshot& now) {
   input.hands[0].tip_in_patient = is_held ? item.tip_in_patient : hand_.tip + tremor_.next();
   input.hands[0].shaft_in_patient = is_held ? item.shaft_in_patient : hand_.shaft;
   const bool is_second_busy = phase_ == Phase::Reduce || phase_ == Phase::FreeFragment;
-  if (!is_second_busy || wait_ > 0) {
+  if (sleeve_.is_held()) {
+    sleeve_.keep(input);
+  } else if (!is_second_busy || wait_ > 0) {
     const HandPose beside = second_hand();
     input.hands[1].tip_in_patient = beside.tip;
     input.hands[1].shaft_in_patient = beside.shaft;

@@ -17,6 +17,7 @@
 #include "simulation/input.hpp"
 #include "simulation/snapshot.hpp"
 #include "trainee/hand_motion.hpp"
+#include "trainee/leading_sleeve.hpp"
 #include "trainee/reducing.hpp"
 #include "trainee/skill.hpp"
 
@@ -45,12 +46,14 @@ class ScriptedTrainee {
     Survey,
     Reduce,
     LookReduced,
+    PlaceSleeve,
     GoToStandoff,
     Approach,
     Engage,
     Drive,
     Check,
     Judge,
+    PutSleeveDown,
     FreeFragment,
     DriveThrough,
     TakeFarEnd,
@@ -80,6 +83,8 @@ class ScriptedTrainee {
   void plan_line(const simulation::Snapshot& now);
   void enter(Phase phase, const simulation::Snapshot& now);
   void start_move(const HandPose& target);
+  /// The next try, on a line that is planned anew.
+  void try_again(const simulation::Snapshot& now);
   void think(const simulation::Snapshot& now);
   void think_of_line(const simulation::Snapshot& now);
   void act(const simulation::Snapshot& now, simulation::Input& input);
@@ -134,7 +139,9 @@ class ScriptedTrainee {
   Tremor tremor_;
   BoneSolid scaphoid_;  ///< as its fragments lie, frame Bone of the target
   Reducing reducing_;
+  LeadingSleeve sleeve_;
 
+  bool uses_sleeve_ = false;
   bool draws_through_ = false;   ///< a step asks for it, and this trainee knows how
   simulation::WristPose wrist_;  ///< as it is to be held
   Phase phase_ = Phase::Survey;
@@ -150,6 +157,7 @@ class ScriptedTrainee {
   Vec3 planned_direction_;  ///< Patient, into the bone
   double error_scale_ = 1.0;
   int tries_ = 0;
+  Phase after_sleeve_ = Phase::Finish;
   Phase after_freeing_ = Phase::Finish;
   double stop_depth_mm_ = -1.0;
   double ream_depth_mm_ = 0.0;

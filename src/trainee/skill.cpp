@@ -41,6 +41,8 @@ SkillProfile profile_of(Skill skill) noexcept {
     profile.speed_mm_per_s = 55;
     profile.drive_thrust_n = {25.0, 38.0};
     profile.checks_oblique = true;
+    profile.sleeve_share = 0.85;
+    profile.beside_structures_mm = 0.8;
     profile.noticed_displacement_mm = 1.3;
     profile.reduction_error_mm = {0.4, 1.2};
     profile.repeated_shots = 1;
@@ -62,6 +64,7 @@ SkillProfile profile_of(Skill skill) noexcept {
   profile.checks_oblique = false;
   profile.finds_ring = false;
   profile.draws_wire_through = false;
+  profile.sleeve_share = 0.2;
   profile.repeated_shots = 2;
   return profile;
 }

@@ -52,6 +52,8 @@ struct SkillProfile {
   bool checks_oblique = true;            ///< takes the oblique and the proximal pole views
   bool finds_ring = true;                ///< looks down the bone before it goes in
   bool draws_wire_through = true;        ///< where a step asks for it
+  double sleeve_share = 1.0;             ///< of operations in which a sleeve leads the wire
+  double beside_structures_mm = 1.2;     ///< a wire's middle is driven out no nearer to one
   double noticed_displacement_mm = 1e9;  ///< a gap or step larger than this is seen and reduced
   Range reduction_error_mm;              ///< of where a fragment is led to
   int repeated_shots = 0;                ///< pictures taken again because they were not read

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "procedure/grading.hpp"
 
@@ -32,6 +33,27 @@ std::optional<double> share_of(const procedure::ScoreReport& report,
     return item.value ? procedure::earned_share(rule, *item.value) : 0.0;
   }
   return std::nullopt;
+}
+
+void note_missed(CaseMeans& means, const ScoredOperation& one) {
+  for (const procedure::MustHave& must : one.score.must_haves) {
+    if (must.fulfilled) continue;
+    auto found = std::find_if(means.missed.begin(), means.missed.end(),
+                              [&](const MissedShare& missed) { return missed.id == must.id; });
+    if (found == means.missed.end()) found = means.missed.insert(found, {must.id, {}});
+    found->share[static_cast<std::size_t>(one.skill)] += 1.0;
+  }
+}
+
+/// The procedure's order, which is not that in which they were missed.
+void put_in_order(CaseMeans& means, const procedure::Procedure& procedure) {
+  std::vector<MissedShare> ordered;
+  for (const procedure::SafetyRule& rule : procedure.rules.safety) {
+    for (const MissedShare& missed : means.missed) {
+      if (missed.id == rule.id) ordered.push_back(missed);
+    }
+  }
+  means.missed = std::move(ordered);
 }
 
 }  // namespace
@@ -94,11 +116,14 @@ ProcedureValidity validity_of(const procedure::Procedure& procedure,
       count[skill] += 1.0;
       means.total[skill] += one.score.overall;
       means.safe_share[skill] += one.score.is_fixation_acceptable ? 1.0 : 0.0;
+      note_missed(means, one);
     }
+    put_in_order(means, procedure);
     for (std::size_t skill = 0; skill < kSkillCount; ++skill) {
       if (!(count[skill] > 0.0)) continue;
       means.total[skill] /= count[skill];
       means.safe_share[skill] /= count[skill];
+      for (MissedShare& missed : means.missed) missed.share[skill] /= count[skill];
     }
   }
   return validity;

@@ -39,10 +39,18 @@ struct ItemValidity {
   Separation separation;
 };
 
-/// Mean total of each skill on one case, and the share of safe fixations.
+/// Of each skill's operations on one case, how many missed a must-have.
+struct MissedShare {
+  std::string id;
+  std::array<double, kSkillCount> share{};
+};
+
+/// Mean total of each skill on one case, the share of safe fixations, and what made the others
+/// unsafe.
 struct CaseMeans {
   std::array<double, kSkillCount> total{};
   std::array<double, kSkillCount> safe_share{};
+  std::vector<MissedShare> missed;  ///< in the procedure's order; what nobody missed is left out
   /// Novice < middle < expert.
   [[nodiscard]] bool is_in_order() const noexcept;
 };

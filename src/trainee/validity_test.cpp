@@ -64,5 +64,25 @@ TEST(Validity, ItemsCountByWhatTheirValueEarns) {
   EXPECT_DOUBLE_EQ(validity.cases[0].total[static_cast<std::size_t>(Skill::Expert)], 85.0);
 }
 
+TEST(Validity, TellsWhatMadeAFixationUnsafeInTheProceduresOrder) {
+  procedure::Procedure procedure = one_rule();
+  procedure.rules.safety.resize(3);
+  procedure.rules.safety[0].id = "placed";
+  procedure.rules.safety[1].id = "covered";
+  procedure.rules.safety[2].id = "out";
+  std::array operations{operation(Skill::Expert, 0.5, 90), operation(Skill::Novice, 2.5, 0),
+                        operation(Skill::Novice, 2.5, 0), operation(Skill::Middle, 1.5, 60)};
+  operations[1].score.must_haves = {{"covered", "", true}, {"out", "", false}};
+  operations[2].score.must_haves = {{"covered", "", false}, {"out", "", false}};
+  const ProcedureValidity validity = validity_of(procedure, operations, 1);
+  const std::vector<MissedShare>& missed = validity.cases[0].missed;
+  ASSERT_EQ(missed.size(), 2U);
+  EXPECT_EQ(missed[0].id, "covered");
+  EXPECT_EQ(missed[1].id, "out");
+  EXPECT_DOUBLE_EQ(missed[0].share[static_cast<std::size_t>(Skill::Novice)], 0.5);
+  EXPECT_DOUBLE_EQ(missed[1].share[static_cast<std::size_t>(Skill::Novice)], 1.0);
+  EXPECT_DOUBLE_EQ(missed[1].share[static_cast<std::size_t>(Skill::Expert)], 0.0);
+}
+
 }  // namespace
 }  // namespace carpus::trainee
