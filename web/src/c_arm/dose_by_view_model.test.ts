@@ -6,6 +6,7 @@ import { DoseByView, dosesText } from "./dose_by_view_model";
 describe("DoseByView", () => {
   it("gives what the dose grew by to the view of that moment", () => {
     const doses = new DoseByView();
+    doses.see(0, "PA");
     doses.see(0.5, "PA");
     doses.see(0.5, "LAT");
     doses.see(0.75, "LAT");
@@ -15,9 +16,18 @@ describe("DoseByView", () => {
 
   it("forgets with the exercise", () => {
     const doses = new DoseByView();
+    doses.see(0, "PA");
     doses.see(3, "PA");
     doses.clear();
+    doses.see(0, "SKY");
     doses.see(0.5, "SKY");
     expect(dosesText(doses.list)).toBe("SKY 0.5");
+  });
+
+  it("gives what there was before the page came back to no view", () => {
+    const doses = new DoseByView();
+    doses.see(3, "45P");
+    doses.see(3.5, "PA");
+    expect(dosesText(doses.list)).toBe("earlier 3.0, PA 0.5");
   });
 });

@@ -8,20 +8,23 @@ export interface ViewDose {
   readonly cGyCm2: number;
 }
 
+const EARLIER = "earlier";
+
 export class DoseByView {
   private readonly doses = new Map<string, number>();
-  private total = 0;
+  private total: number | undefined;
 
-  /** A page that came back begins with what was there before. */
+  /** A page that came back does not know where from what was there before it came. */
   see(totalCGyCm2: number, view: string): void {
-    const more = totalCGyCm2 - this.total;
+    const from = this.total === undefined ? EARLIER : view;
+    const more = totalCGyCm2 - (this.total ?? 0);
     this.total = totalCGyCm2;
-    if (more > 0) this.doses.set(view, (this.doses.get(view) ?? 0) + more);
+    if (more > 0) this.doses.set(from, (this.doses.get(from) ?? 0) + more);
   }
 
   clear(): void {
     this.doses.clear();
-    this.total = 0;
+    this.total = undefined;
   }
 
   /** In the order in which they were first looked at. */

@@ -97,7 +97,7 @@ export function scoreCurve(data: CurveData): SVGElement {
         : makeSvg("circle", { cx, cy, r: 4.5, class: "curve-dot" }),
     ),
     ...numbers(scores.length, place, height - 6),
-    text(4, TOP - 6, "Score", "curve-number"),
+    text(LEFT, TOP - 6, "Score", "curve-number"),
   );
 }
 
