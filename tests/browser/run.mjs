@@ -12,6 +12,7 @@ import { holdsDevices } from "./devices.mjs";
 import { newPage, startBrowser } from "./browser.mjs";
 import { chooseAmongCases } from "./cases.mjs";
 import { check, counted, expect } from "./checks.mjs";
+import { changesTheLook } from "./appearance.mjs";
 import { withPictures } from "./c_arm.mjs";
 import { firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
@@ -612,6 +613,7 @@ try {
   await byFinger(browser, station);
   await holdsDevices(browser, station);
   await withPictures(browser, station);
+  await changesTheLook(browser, station);
   await operateAssessed(browser, station);
   await firstMinutes(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.

@@ -19,6 +19,8 @@ export interface CaseScene {
   /** Each in a frame of its own, which is Patient's until it moves; hittable (bone_rays.ts). */
   readonly bones: readonly BoneMesh[];
   readonly skin: Skin | undefined;
+  /** Each bone's own, by its name; none from a host that paints none. */
+  readonly bitmaps: ReadonlyMap<string, THREE.Texture>;
   /** Empty in a case that was made before they were. */
   readonly structures: Structures;
 }
@@ -30,6 +32,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   const loaded = await new GLTFLoader().loadAsync(url);
   const root = new THREE.Group();
   const bones: BoneMesh[] = [];
+  const bitmaps = new Map<string, THREE.Texture>();
   const structures: StructureSurface[] = [];
   let skinSurface: THREE.BufferGeometry | undefined;
   loaded.scene.updateMatrixWorld(true);
@@ -42,7 +45,13 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
     const facts = structureFacts(mesh.userData) ?? structureFacts(mesh.parent?.userData);
     if (facts !== undefined) structures.push({ facts, geometry });
     else if (name === "skin") skinSurface = geometry;
-    else bones.push(makeBone(name, geometry));
+    else {
+      bones.push(makeBone(name, geometry));
+      const { material } = mesh;
+      if (material instanceof THREE.MeshStandardMaterial && material.map !== null) {
+        bitmaps.set(name, material.map);
+      }
+    }
   });
   if (bones.length === 0) throw new Error("the scene holds no bones");
   shade(bones);
@@ -51,7 +60,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   if (skin !== undefined) root.add(skin.group);
   const tubes = new Structures(structures, new Set(bones.map((bone) => bone.name)));
   root.add(tubes.group);
-  return { root, bones, skin, structures: tubes };
+  return { root, bones, skin, bitmaps, structures: tubes };
 }
 
 function makeBone(name: string, geometry: THREE.BufferGeometry): BoneMesh {

@@ -3,14 +3,19 @@
 //
 // One large soft key light, a dim fill, and a room to be mirrored in steel.
 import * as THREE from "three";
+import { defaultLook, MOST_LAMPS, type Lamp } from "../appearance";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 
 /** Half the width of what casts a shadow [m]. */
 const SHADOW_HALF_M = 0.07;
+/** How far lamps stand from what is looked at [m]. */
+const LAMP_M = 0.44;
 
 export interface StudioLight {
   readonly rig: THREE.Group;
-  /** Turns the lamp with the viewer, as one turns a theatre lamp. */
+  /** 1 to 4 lamps; the first casts shadows. */
+  setLamps(lamps: readonly Lamp[]): void;
+  /** Turns the lamps with the viewer, as one turns a theatre lamp. */
   follow(camera: THREE.Camera, target: THREE.Vector3): void;
   /** Side of the shadow map, 0 for no shadows. */
   setShadowPixels(side: number): void;
@@ -27,7 +32,11 @@ export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): 
   scene.environmentIntensity = 0.55;
 
   const rig = new THREE.Group();
-  const key = new THREE.DirectionalLight("#fff1dc", 2.15);
+  const lights: readonly [THREE.DirectionalLight, ...THREE.DirectionalLight[]] = [
+    new THREE.DirectionalLight(),
+    ...Array.from({ length: MOST_LAMPS - 1 }, () => new THREE.DirectionalLight()),
+  ];
+  const [key] = lights;
   key.castShadow = true;
   key.shadow.mapSize.set(2048, 2048);
   key.shadow.camera.left = key.shadow.camera.bottom = -SHADOW_HALF_M;
@@ -37,10 +46,30 @@ export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): 
   key.shadow.radius = 5;
   key.shadow.bias = -0.0004;
   key.shadow.normalBias = 0.0003;
-  const fill = new THREE.DirectionalLight("#8fb8d6", 0.3);
   const sky = new THREE.HemisphereLight("#cfdde6", "#1c1714", 0.28);
-  rig.add(key, key.target, fill, fill.target, sky);
+  for (const light of lights) rig.add(light, light.target);
+  rig.add(sky);
   scene.add(rig);
+
+  /** Of each lamp: to the right, up, back towards the viewer, unit. */
+  const directions = lights.map(() => new THREE.Vector3(0, 0, 1));
+  const setLamps = (lamps: readonly Lamp[]): void => {
+    lights.forEach((light, index) => {
+      const lamp = lamps[index];
+      light.visible = lamp !== undefined && lamp.strength > 0;
+      if (lamp === undefined) return;
+      light.color.setRGB(...lamp.color, THREE.SRGBColorSpace);
+      light.intensity = lamp.strength;
+      const right = THREE.MathUtils.degToRad(lamp.right);
+      const up = THREE.MathUtils.degToRad(lamp.up);
+      directions[index]?.set(
+        Math.sin(right) * Math.cos(up),
+        Math.sin(up),
+        Math.cos(right) * Math.cos(up),
+      );
+    });
+  };
+  setLamps(defaultLook().lamps);
 
   const right = new THREE.Vector3();
   const up = new THREE.Vector3();
@@ -49,13 +78,16 @@ export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): 
     rig,
     follow(camera, target) {
       camera.matrixWorld.extractBasis(right, up, back);
-      key.target.position.copy(target);
-      key.position.copy(target).addScaledVector(right, -0.3);
-      key.position.addScaledVector(up, 0.26).addScaledVector(back, 0.2);
-      fill.target.position.copy(target);
-      fill.position.copy(target).addScaledVector(right, 0.4);
-      fill.position.addScaledVector(up, -0.15).addScaledVector(back, 0.25);
+      lights.forEach((light, index) => {
+        const towards = directions[index];
+        if (towards === undefined) return;
+        light.target.position.copy(target);
+        light.position.copy(target).addScaledVector(right, LAMP_M * towards.x);
+        light.position.addScaledVector(up, LAMP_M * towards.y);
+        light.position.addScaledVector(back, LAMP_M * towards.z);
+      });
     },
+    setLamps,
     setShadowPixels(side) {
       key.castShadow = side > 0;
       if (side > 0) key.shadow.mapSize.set(side, side);
@@ -64,8 +96,7 @@ export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): 
     },
     dispose() {
       environment.dispose();
-      key.dispose();
-      fill.dispose();
+      for (const light of lights) light.dispose();
       sky.dispose();
     },
   };

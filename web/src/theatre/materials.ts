@@ -3,18 +3,13 @@
 //
 // How bone, skin and steel look. Colours: docs/ui.md's tokens.
 import * as THREE from "three";
+import { hexOf, materialOf, roughnessOf } from "../appearance";
 import { BLEND_DECLARATIONS } from "./blend_shader";
 import type { StructureKind } from "./structure_model";
 import { CUT_GLSL, TRACKS_GLSL, type TrackUniforms } from "./track_shader";
 
-export const BONE_COLOR = "#e9dfc7";
-export const SKIN_COLOR = "#c99a80";
-/** As in atlases. */
-export const STRUCTURE_COLORS: Readonly<Record<StructureKind, string>> = {
-  tendon: "#b9d3d6",
-  artery: "#c63a35",
-  nerve: "#f0cf3c",
-};
+export const BONE_COLOR = hexOf(materialOf("bone").diffuse);
+export const SKIN_COLOR = hexOf(materialOf("skin").diffuse);
 export const ACCENT_COLOR = "#5cc8ff";
 export const ATTENTION_COLOR = "#f0c36a";
 
@@ -36,14 +31,15 @@ float noise3(vec3 x) {
 }
 `;
 
-/** Matt bone; `color` attribute carries the occlusion. */
-export function boneMaterial(): THREE.MeshStandardMaterial {
-  const material = new THREE.MeshStandardMaterial({
+/** Matt bone; `color` attribute carries the occlusion. Its look is applied_look.ts's to change. */
+export function boneMaterial(): THREE.MeshPhysicalMaterial {
+  const bone = materialOf("bone");
+  const material = new THREE.MeshPhysicalMaterial({
     color: BONE_COLOR,
-    roughness: 0.72,
+    roughness: roughnessOf(bone),
     metalness: 0,
     vertexColors: true,
-    envMapIntensity: 0.3,
+    envMapIntensity: bone.ambient,
   });
   material.onBeforeCompile = grain;
   return material;
@@ -69,7 +65,9 @@ function grain(shader: Shader): void {
       "#include <color_fragment>",
       `#include <color_fragment>
 float boneGrain = 0.6 * noise3(vBoneMm * 0.45) + 0.3 * noise3(vBoneMm * 1.7) + 0.1 * noise3(vBoneMm * 5.0);
-diffuseColor.rgb *= mix(vec3(0.90, 0.86, 0.80), vec3(1.04, 1.03, 1.02), boneGrain);`,
+#ifndef USE_MAP
+diffuseColor.rgb *= mix(vec3(0.90, 0.86, 0.80), vec3(1.04, 1.03, 1.02), boneGrain);
+#endif`,
     )
     .replace(
       "#include <roughnessmap_fragment>",
@@ -301,12 +299,13 @@ export type BlendUniforms = Readonly<
 export function structureMaterial(
   kind: StructureKind,
   motion: BlendUniforms,
-): THREE.MeshStandardMaterial {
-  const material = new THREE.MeshStandardMaterial({
-    color: STRUCTURE_COLORS[kind],
-    roughness: 0.38,
+): THREE.MeshPhysicalMaterial {
+  const look = materialOf(kind);
+  const material = new THREE.MeshPhysicalMaterial({
+    color: hexOf(look.diffuse),
+    roughness: roughnessOf(look),
     metalness: 0,
-    envMapIntensity: 0.4,
+    envMapIntensity: look.ambient,
   });
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, motion);

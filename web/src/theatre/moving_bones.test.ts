@@ -24,7 +24,13 @@ function makeScene(): CaseScene {
   });
   root.add(...bones);
   root.updateMatrixWorld(true);
-  return { root, bones, skin: undefined, structures: new Structures([], new Set()) };
+  return {
+    root,
+    bones,
+    skin: undefined,
+    bitmaps: new Map(),
+    structures: new Structures([], new Set()),
+  };
 }
 
 function bone(scene: CaseScene, index: number): BoneMesh {

@@ -4,7 +4,9 @@
 // Tendons, arteries and nerves as tubes that bend with the wrist as the host bends them. They were
 // generated from the generic wrist, not seen in the CT: who shows them says so.
 import * as THREE from "three";
+import type { Look } from "../appearance";
 import type { Vec3 } from "../protocol";
+import { applyMaterial } from "./apply_material";
 import { structureMaterial, type BlendUniforms } from "./materials";
 import {
   blendedPoint,
@@ -12,7 +14,13 @@ import {
   type DualQuaternion,
   type RigidMotion,
 } from "./skin_blend_model";
-import { carriedBy, isStructure, type Carrier, type StructureFacts } from "./structure_model";
+import {
+  carriedBy,
+  isStructure,
+  type Carrier,
+  type StructureFacts,
+  type StructureKind,
+} from "./structure_model";
 
 /** A mesh of the host's scene that is a structure, with what the host says of it. */
 export interface StructureSurface {
@@ -39,6 +47,10 @@ export class Structures {
   /** Where each is now, for its name; empty of all else. */
   readonly markers: readonly THREE.Object3D[];
   private readonly named: readonly Named[];
+  private readonly painted: {
+    readonly kind: StructureKind;
+    readonly material: THREE.MeshPhysicalMaterial;
+  }[] = [];
   private readonly motions: Record<Carrier, DualQuaternion> = {
     radius: RESTING,
     ulna: RESTING,
@@ -60,6 +72,11 @@ export class Structures {
     this.group.visible = false;
   }
 
+  /** Gives each kind its material. */
+  apply(materials: Look["materials"]): void {
+    for (const { kind, material } of this.painted) applyMaterial(material, materials[kind]);
+  }
+
   get isEmpty(): boolean {
     return this.named.length === 0;
   }
@@ -74,7 +91,9 @@ export class Structures {
       handReal: this.uniforms.hand.real,
       handDual: this.uniforms.hand.dual,
     };
-    const mesh = new THREE.Mesh(geometry, structureMaterial(facts.structure, motion));
+    const material = structureMaterial(facts.structure, motion);
+    this.painted.push({ kind: facts.structure, material });
+    const mesh = new THREE.Mesh(geometry, material);
     mesh.name = facts.title;
     // Its bounds are those of the unbent wrist.
     mesh.frustumCulled = false;

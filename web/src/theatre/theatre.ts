@@ -6,8 +6,10 @@
 // frame, under one group that carries the conversion (frames/).
 import * as THREE from "three";
 import { make } from "../dom";
+import type { Look } from "../appearance";
 import type { FaceNames, FrameMap } from "../frames";
 import type { BodyPose, Ideal, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
+import { AppliedLook } from "./applied_look";
 import { backdrop } from "./backdrop";
 import { Beam } from "./beam";
 import { BeamShown, roomAngles, towardsSource } from "./beam_model";
@@ -42,6 +44,7 @@ export class Theatre {
   private readonly beamShown = new BeamShown();
   private readonly ghost = new Ghost();
   private readonly cutBones: CutBones;
+  private readonly look: AppliedLook;
   private cut: Cut = "off";
   private ideal: Ideal | null = null;
   private readonly scratch = {
@@ -80,6 +83,7 @@ export class Theatre {
     this.cube = new OrientationCube(facing);
     this.bones = new MovingBones(caseScene);
     this.cutBones = new CutBones(caseScene.bones);
+    this.look = new AppliedLook(caseScene);
     this.names = new BoneNames(caseScene.bones, caseScene.structures);
     this.names.canvas.hidden = true;
     this.patient.matrixAutoUpdate = false;
@@ -192,6 +196,13 @@ export class Theatre {
   /** Shows what was drilled out of the bones, all of it at once. */
   setTracks(tracks: readonly Track[]): void {
     if (this.bones.setTracks(tracks)) this.stale = true;
+  }
+
+  /** Materials, lamps, bitmaps, facets' edges and hulls. */
+  setLook(look: Look): void {
+    this.look.apply(look);
+    this.light.setLamps(look.lamps);
+    this.stale = true;
   }
 
   /** @param opacity 0 none, 1 as on the patient. */
@@ -361,6 +372,7 @@ export class Theatre {
     this.instruments.dispose();
     this.ghost.dispose();
     this.cutBones.dispose();
+    this.look.dispose();
     this.scene.traverse((node) => {
       if (node instanceof THREE.Mesh) (node as THREE.Mesh).geometry.dispose();
     });

@@ -36,6 +36,7 @@ export interface Wishes {
   /** What the hands hold. */
   readonly devices: DeviceHandlers;
   showDevices(): void;
+  showAppearance(): void;
   useHand(hand: HandIndex): void;
   take(instrument: Instrument, hand: HandIndex): void;
   moveWrist(wish: WristPose): void;
@@ -139,6 +140,9 @@ export function makePanels(
       hint: act("hint"),
       structures: () => {
         wishes.act({ kind: "structures" });
+      },
+      appearance: () => {
+        wishes.showAppearance();
       },
     }),
     arm: new CArmPanel(patientText(description), wishes.cArm),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
+import { AppearancePanel } from "../appearance";
 import { fetchCases } from "../case_data";
 import { lostText } from "../devices";
 import { setText } from "../dom";
@@ -33,6 +34,7 @@ const OPENING = "Opening the case…";
 export class TrainPage {
   private readonly panels: Panels;
   private readonly theatre: Theatre;
+  private readonly appearance: AppearancePanel;
   private readonly seen: WhatIsSeen;
   private readonly hand: Hand;
   private readonly pointer: HandPointer;
@@ -60,6 +62,7 @@ export class TrainPage {
     const stage = layOut(app, this.panels);
     this.theatre = new Theatre(stage, scene, frames, faceNames(description.side));
     this.theatre.setSkin(this.panels.views.skinOpacity);
+    this.appearance = this.makeAppearance(stage);
     this.panels.views.offerStructures(this.theatre.hasStructures);
     this.theatre.onViewLeft = () => {
       this.panels.views.showView(undefined);
@@ -93,6 +96,18 @@ export class TrainPage {
     this.panels.start.open();
     this.connection = this.connect();
     this.stops = [showToTests(this.theatre, this.seen, this.sound), this.startLoop()];
+  }
+
+  private makeAppearance(stage: HTMLElement): AppearancePanel {
+    const appearance = new AppearancePanel((look) => {
+      this.theatre.setLook(look);
+    });
+    appearance.onOpen = (isOpen) => {
+      this.panels.views.showAppearance(isOpen);
+    };
+    stage.after(appearance.element);
+    appearance.begin();
+    return appearance;
   }
 
   /** Lets another case be chosen, and goes with the host where it has opened another. */
@@ -213,6 +228,9 @@ export class TrainPage {
       },
       showDevices: () => {
         this.panels.devices.open();
+      },
+      showAppearance: () => {
+        this.appearance.open(!this.appearance.isOpen);
       },
       useHand: (hand) => {
         this.actions.useHand(hand);

@@ -15,6 +15,7 @@ export interface ViewBarHandlers {
   cut(): void;
   hint(): void;
   structures(): void;
+  appearance(): void;
 }
 
 const NAMES: Readonly<Record<ViewId, string>> = {
@@ -41,6 +42,7 @@ export class ViewBar {
   private readonly namesButton: HTMLButtonElement;
   private readonly aids: Readonly<Record<"ghost" | "cut" | "hint", HTMLButtonElement>>;
   private readonly structuresButton: HTMLButtonElement;
+  private readonly appearanceButton: HTMLButtonElement;
   private hasStructures = false;
 
   constructor(private readonly handlers: ViewBarHandlers) {
@@ -84,6 +86,9 @@ export class ViewBar {
     this.structuresButton = button("Tendons", "F7", handlers.structures, ".quiet");
     this.structuresButton.setAttribute("aria-pressed", "false");
     this.offerStructures(false);
+    this.appearanceButton = button("Look", "", handlers.appearance, ".quiet");
+    this.appearanceButton.title = "Appearance: materials, lamps, bitmaps, facets, hulls";
+    this.appearanceButton.setAttribute("aria-expanded", "false");
     this.element = make(
       "div.view-bar",
       { role: "group", "aria-label": "View" },
@@ -97,6 +102,7 @@ export class ViewBar {
       ),
       this.structuresButton,
       this.namesButton,
+      this.appearanceButton,
       make("label.secondary", { for: "skin-opacity" }, "Skin ", keyCap("{KeyT}")),
       this.slider,
     );
@@ -123,6 +129,10 @@ export class ViewBar {
 
   showStructures(on: boolean): void {
     this.structuresButton.setAttribute("aria-pressed", String(on));
+  }
+
+  showAppearance(isOpen: boolean): void {
+    this.appearanceButton.setAttribute("aria-expanded", String(isOpen));
   }
 
   /** 0 to 1. */
