@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
-
-#include "core/error.hpp"
-#include "records/atomic_file.hpp"
+#include <fstream>
+#include <string>
+#include <utility>
 
 namespace carpus::server {
 
@@ -54,17 +55,20 @@ HttpResponse answer_scan(const CaseShelf& shelf, const TruthGate* gate, std::str
   const fs::path path = found->folder / file->name;
   std::error_code error;
   // A link in a folder from elsewhere may lead to any file of this machine.
-  if (!fs::is_regular_file(fs::symlink_status(path, error)) ||
-      fs::file_size(path, error) > kLargestFile || error) {
+  const bool is_regular = fs::is_regular_file(fs::symlink_status(path, error));
+  const std::uintmax_t size = is_regular ? fs::file_size(path, error) : 0;
+  if (!is_regular || size > kLargestFile || error) {
     return make_problem(404, "The case has no " + std::string(file->name) + ".");
   }
-  try {
-    const std::vector<std::byte> bytes = records::read_file(path);
-    return make_response(200, file->media_type,
-                         {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  } catch (const IoError&) {
+  // Straight into the answer: a scan is large, and whoever asks again and again would have it
+  // twice.
+  std::string bytes(size, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) {
     return make_problem(404, "The case's " + std::string(file->name) + " cannot be read.");
   }
+  return make_response(200, file->media_type, std::move(bytes));
 }
 
 }  // namespace carpus::server
