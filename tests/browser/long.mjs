@@ -1,9 +1,11 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What takes minutes in a browser: everything goes wrong, and a long operation is looked at again.
+// What takes minutes in a browser: everything goes wrong, a wire is drawn through and back, and a long operation
+// is looked at again.
 // Run by `npm --prefix web run test:browser:long` and by ./test --all.
 import { allGoesWrong } from "./all_goes_wrong.mjs";
+import { drawnThrough } from "./drawn_through.mjs";
 import { startBrowser } from "./browser.mjs";
 import { counted } from "./checks.mjs";
 import { replayLong } from "./long_replay.mjs";
@@ -13,6 +15,7 @@ const station = await startStation();
 const browser = await startBrowser();
 try {
   await allGoesWrong(browser, station);
+  await drawnThrough(browser, station);
   await replayLong(browser);
 } finally {
   await browser.close();

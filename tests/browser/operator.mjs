@@ -20,6 +20,8 @@ const unit = (a) => a.map((v) => v / Math.sqrt(dot(a, a)));
 /** Degrees that one pixel of Shift + drag turns the shaft (web/README.md). */
 const DEG_PER_PX = 0.25;
 const MAX_DRAG_PX = 160;
+/** Flexed by more the demo's radius is out of a driver's way. */
+const FLEXED_DEG = 48;
 
 /** The central axis as scanned, from `entry` (where the wire goes in) to `end`. */
 export function readAxis(caseFolder, from = "proximal") {
@@ -28,7 +30,7 @@ export function readAxis(caseFolder, from = "proximal") {
     data.scaphoid.central_axis;
   const [entry, end] =
     from === "proximal" ? [proximal, distal] : [distal, proximal];
-  return { entry, end, lengthMm: Math.hypot(...add(entry, end, -1)) };
+  return { from, entry, end, lengthMm: Math.hypot(...add(entry, end, -1)) };
 }
 
 function turned([w, x, y, z], v) {
@@ -64,6 +66,11 @@ export class Operator {
   /** What `hand` holds, of a snapshot. */
   static held(s, hand = 0) {
     return s.items.find((item) => item.hand === hand);
+  }
+
+  /** A point of a bone as scanned, where the bone's pose takes it. */
+  static moved({ quaternion, translation_mm: moved }, point) {
+    return add(turned(quaternion, point), moved);
   }
 
   /** The axis where the first part of the bone that is operated on is now. */
@@ -360,8 +367,15 @@ export class Operator {
     throw new Error(`in vain: ${what}`);
   }
 
-  /** Entry and aim: the tip on the bone, the shaft along the axis. @return degrees that it is off */
+  /** Flexes the wrist until the radius no longer stands before the proximal pole. */
+  async flex() {
+    if ((await this.snapshot()).wrist.flexion_deg > FLEXED_DEG) return;
+    await this.holdKey("j", (s) => s.wrist.flexion_deg > FLEXED_DEG, "a flexed wrist");
+  }
+
+  /** Entry and aim, of a wrist that is posed for it: the tip on the bone, the shaft along the axis. @return degrees that it is off */
   async placeWire(axis) {
+    if (axis.from === "proximal") await this.flex();
     const { entry, toHand } = await this.axisNow(axis);
     // A turn towards the viewer is none on the screen: from two sides, which two is all the same.
     const angles = [];

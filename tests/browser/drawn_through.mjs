@@ -1,0 +1,86 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The dorsal procedure's own way with the wire: driven through, taken at the base of the thumb and drawn
+// until nothing stands over the radius; the wrist straightened and looked at; flexed, pushed out dorsally,
+// taken there and drawn back.
+import { newPage } from "./browser.mjs";
+import { check, expect } from "./checks.mjs";
+import { Operator, readAxis } from "./operator.mjs";
+
+const TRAINEE = "Browser test, drawn through";
+
+const wireOf = (s) => s.items.find((item) => item.instrument === "guide_wire");
+
+async function hasDone(operator, id) {
+  const { steps } = await operator.exercise();
+  const index = steps.findIndex((step) => step.id === id);
+  expect(index >= 0, `there is no step ${id}`);
+  await operator.until((s) => s.completed_steps.includes(index), `step ${id} ticked`);
+}
+
+/** Lets go and takes hold again: of the end that `key` names. */
+async function changeEnds(operator, key, byFarEnd) {
+  await operator.page.keyboard.press("q");
+  await operator.until((s) => s.hands[0].item < 0, "an empty hand");
+  await operator.settle();
+  await operator.page.keyboard.press(key);
+  await operator.until((s) => wireOf(s).hand === 0, "the wire in the hand");
+  const { by_far_end: far } = wireOf(await operator.snapshot());
+  expect(far === byFarEnd, `held by its ${far ? "far" : "near"} end`);
+}
+
+export async function drawnThrough(browser, station) {
+  const page = await newPage(browser);
+  // Few pixels: a machine without graphics draws each of them itself.
+  await page.setViewportSize({ width: 720, height: 480 });
+  const operator = new Operator(page);
+  const axis = readAxis(station.caseFolder);
+  const went = await check(page, "the wire is driven through and drawn at the thumb's base", async () => {
+    await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
+    for (const key of ["1", "2"]) await operator.shot(key);
+    await hasDone(operator, "survey");
+    await operator.placeWire(axis);
+    await operator.driveWireTo(axis.lengthMm - 2);
+    await page.locator("#push").fill("40");
+    await page.locator("#push").blur();
+    await operator.holdKey(
+      "Space",
+      (s) => wireOf(s).depth_mm > axis.lengthMm + 45,
+      "the wire far through",
+    );
+    await changeEnds(operator, "Shift+G", true);
+    await operator.holdKey(
+      "r",
+      (s) => wireOf(s).depth_mm >= wireOf(s).length_mm - 0.5,
+      "its dorsal end level with the bone",
+    );
+    await hasDone(operator, "draw_through");
+  });
+  if (!went) return page.close();
+  const looked = await check(page, "the wrist is straightened without harm and looked at", async () => {
+    await operator.holdKey("u", (s) => s.wrist.flexion_deg < 2, "a straight wrist");
+    for (const key of ["1", "2"]) await operator.shot(key);
+    await hasDone(operator, "extend");
+    const { length_mm: length, bent_at_mm: bentAt } = wireOf(await operator.snapshot());
+    expect(bentAt >= length - 0.01, "the wire is bent");
+  });
+  if (!looked) return page.close();
+  await check(page, "flexed again it is pushed out dorsally and drawn back to the far cortex", async () => {
+    await operator.flex();
+    await operator.holdKey(
+      "Space",
+      (s) => wireOf(s).length_mm - wireOf(s).depth_mm > 60,
+      "enough of it out dorsally",
+    );
+    await changeEnds(operator, "g", false);
+    await operator.holdKey(
+      "r",
+      (s) => wireOf(s).depth_mm <= axis.lengthMm - 1,
+      "its tip at the far cortex",
+    );
+    for (const key of ["1", "2", "3"]) await operator.shot(key);
+    await hasDone(operator, "drive_back");
+  });
+  await page.close();
+}
