@@ -92,7 +92,8 @@ Result<LegCalibration> calibrate_leg(std::span<const CalibrationPoint> points) {
     out.line_error_rad = std::max(out.line_error_rad, std::abs(left));
   }
   if (out.line_error_rad > kWorstLineErrorRad) {
-    return Refusal{"the sensor is " + std::to_string(degrees_from_radians(out.line_error_rad)) +
+    return Refusal{"the sensor is " +
+                   std::to_string(std::lround(degrees_from_radians(out.line_error_rad))) +
                    " degrees off a straight line: a potentiometer of 2 % is at most 9"};
   }
   return out;

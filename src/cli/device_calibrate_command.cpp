@@ -78,6 +78,9 @@ void run(const CalibrateArguments& arguments) {
     throw IoError(id + ": " + health_in_words(loop, state));
   }
   const firmware::Drive drive = state.able.stop ? firmware::Drive::Stop : firmware::Drive::Motor;
+  if (arguments.evens_motors && drive == firmware::Drive::Stop) {
+    throw UsageError("device calibrate: --even-motors is for drive B, and this is drive A");
+  }
   std::printf("%s: drive %s, unit %u\n", id.c_str(), state.able.stop ? "A" : "B",
               state.device.unit);
   devices::ArmCalibrator calibrator(
@@ -92,6 +95,13 @@ void run(const CalibrateArguments& arguments) {
       }
       if (const auto problem = calibrator.take(listen(loop, calibrator))) {
         std::printf("  %s\n", problem->c_str());
+        // Or servos would be asked to turn for ever, of an arm that is gone.
+        (void)loop.look(state);
+        if (state.device.health == devices::Health::Gone ||
+            state.device.health == devices::Health::Silent) {
+          throw IoError(id + ": " + health_in_words(loop, state) +
+                        "; the calibration was given up, what was known before stays");
+        }
       }
     }
     const Result<devices::ArmCalibration> result = calibrator.finish(records::utc_now());

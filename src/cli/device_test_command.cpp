@@ -64,6 +64,14 @@ struct Measured {
   double unwell_s = 0;
 };
 
+/// A wall that stands knows not how it is pressed.
+std::string force_in_words(const LoopState& state) {
+  if (!state.able.force) return "force not measured";
+  char words[32];
+  std::snprintf(words, sizeof words, "force %4.1f N", length(state.device.force_n));
+  return words;
+}
+
 /// Feels the wall for so long, and prints a line a second.
 Measured feel(devices::HostLoop& loop, LoopState& state, const TestArguments& arguments) {
   const bool has_places = state.able.absolute && state.able.position;
@@ -97,10 +105,10 @@ Measured feel(devices::HostLoop& loop, LoopState& state, const TestArguments& ar
     if (static_cast<int>(passed) > told) {
       told = static_cast<int>(passed);
       const devices::DeviceState& device = state.device;
-      std::printf("%3d s  %-14s  at %6.1f %6.1f %6.1f mm  force %4.1f N  %4.0f Hz  %llu missed\n",
-                  told, devices::in_words(device.health), device.position_mm.x,
-                  device.position_mm.y, device.position_mm.z, length(device.force_n),
-                  timing.rate_hz, static_cast<unsigned long long>(timing.missed));
+      std::printf("%3d s  %-14s  at %6.1f %6.1f %6.1f mm  %s  %4.0f Hz  %llu missed\n", told,
+                  devices::in_words(device.health), device.position_mm.x, device.position_mm.y,
+                  device.position_mm.z, force_in_words(state).c_str(), timing.rate_hz,
+                  static_cast<unsigned long long>(timing.missed));
       std::fflush(stdout);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -135,7 +143,8 @@ nlohmann::ordered_json figures_of(const std::string& id,
       {"refused", state.device.refused},
       {"unsent", state.device.unsent},
       {"faults", state.faults},
-      {"strongest_n", measured.strongest_n},
+      {"strongest_n", state.able.force ? nlohmann::ordered_json(measured.strongest_n)
+                                       : nlohmann::ordered_json(nullptr)},
       {"deepest_mm", measured.deepest_mm},
       {"unwell_s", measured.unwell_s}};
 }
@@ -154,9 +163,13 @@ void print(const nlohmann::ordered_json& f) {
       f["missed"].get<unsigned long long>(), f["ticks"].get<unsigned long long>());
   std::printf("work: %.1f %% of each tick; round trip p50 %.0f us, p99 %.0f us\n",
               100 * number("work_share"), number("round_trip_p50_us"), number("round_trip_p99_us"));
-  std::printf("felt: up to %.2f N, %.2f mm into the wall; %llu refused, %llu unsent\n",
-              number("strongest_n"), number("deepest_mm"), f["refused"].get<unsigned long long>(),
-              f["unsent"].get<unsigned long long>());
+  if (f["strongest_n"].is_null()) {
+    std::printf("felt: a wall that stands, its force not measured; ");
+  } else {
+    std::printf("felt: up to %.2f N; ", number("strongest_n"));
+  }
+  std::printf("%.2f mm into the wall; %llu refused, %llu unsent\n", number("deepest_mm"),
+              f["refused"].get<unsigned long long>(), f["unsent"].get<unsigned long long>());
 }
 
 void run(const TestArguments& arguments) {

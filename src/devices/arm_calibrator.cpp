@@ -150,8 +150,24 @@ std::optional<std::string> ArmCalibrator::take(
   } else {
     const std::size_t leg = step_ / kNotches;
     points_[leg].push_back({radians_from_degrees(kGaugeDeg[step_ % kNotches]), means[leg]});
+    if (points_[leg].size() == kNotches) {
+      if (const auto problem = fit_leg(leg)) return problem;
+    }
   }
   ++step_;
+  return std::nullopt;
+}
+
+/// At once after its last notch, while the gauge still sits on its block.
+std::optional<std::string> ArmCalibrator::fit_leg(std::size_t leg) {
+  const Result<arm::LegCalibration> one = arm::calibrate_leg(points_[leg]);
+  if (!one) {
+    points_[leg].clear();
+    step_ = leg * kNotches;
+    return "Leg " + std::to_string(leg + 1) + ": " + one.error() +
+           ". The steps of this leg begin anew.";
+  }
+  made_.legs[leg] = *one;
   return std::nullopt;
 }
 
@@ -218,14 +234,6 @@ Result<ArmCalibration> ArmCalibrator::finish(std::string made_at) {
   if (!is_complete()) return Refusal{"Not all steps are done."};
   if (made_.drive == firmware::Drive::Stop) {
     for (std::size_t leg = 0; leg < kLegs; ++leg) {
-      const Result<arm::LegCalibration> one = arm::calibrate_leg(points_[leg]);
-      if (!one) {
-        step_ = 0;
-        for (auto& points : points_) points.clear();
-        return Refusal{"Leg " + std::to_string(leg + 1) + ": " + one.error() +
-                       ". The steps begin anew."};
-      }
-      made_.legs[leg] = *one;
       if (const auto problem = fit_servo(leg)) {
         step_ = kHeld;
         return Refusal{"Leg " + std::to_string(leg + 1) + ": " + *problem};

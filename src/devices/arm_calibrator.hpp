@@ -54,15 +54,17 @@ class ArmCalibrator {
   /// What the person is to do now.
   [[nodiscard]] std::string instruction() const;
   /// @param samples  of the three sensors while the person keeps still.
-  /// @return what was wrong with them, and the step is to be done again; none: on to the next.
+  /// @return what was wrong with them, and step() is to be done again: the same, or where a leg's
+  /// points do not fit each other its first; none: on to the next.
   [[nodiscard]] std::optional<std::string> take(
       const std::vector<std::array<std::int32_t, kLegs>>& samples);
-  /// Of all steps. A refusal says which leg, and the steps begin anew.
+  /// Of all steps. A refusal says which leg's servo sits wrong, and the servos' steps begin anew.
   [[nodiscard]] Result<ArmCalibration> finish(std::string made_at);
 
  private:
   [[nodiscard]] std::optional<std::string> take_lead(
       const std::vector<std::array<std::int32_t, kLegs>>& samples);
+  [[nodiscard]] std::optional<std::string> fit_leg(std::size_t leg);
   [[nodiscard]] std::optional<std::string> fit_servo(std::size_t leg);
 
   ArmCalibration made_;

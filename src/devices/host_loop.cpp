@@ -119,10 +119,13 @@ void HostLoop::work_until_gone() noexcept {
     const std::uint64_t samples = state_.device.samples;
     const std::uint64_t raw_samples = state_.device.raw_samples;
     const Health before = state_.device.health;
+    const bool had_unit = state_.device.has_unit;
     device_->turn_servos(pulse_us_.load(std::memory_order_relaxed));
     is_there = turn(*device_, began, wish_, state_);
     // A driver knows what its device is able to do once that has said who it is.
-    if (state_.device.health != before) state_.able = device_->capabilities();
+    if (state_.device.health != before || state_.device.has_unit != had_unit) {
+      state_.able = device_->capabilities();
+    }
     if (state_.device.samples != samples && state_.device.round_trip_us > 0) {
       round_trips_.add(state_.device.round_trip_us);
     }

@@ -21,6 +21,8 @@ struct Script {
   std::atomic<int> commands{0};
   std::atomic<int> opened{0};
   std::atomic<bool> is_plugged{true};
+  /// It says who it is, and with it that it is one of stops.
+  std::atomic<bool> says_unit{false};
 };
 
 class ScriptedDevice final : public Device {
@@ -29,6 +31,7 @@ class ScriptedDevice final : public Device {
   [[nodiscard]] Capabilities capabilities() const override {
     Capabilities able;
     able.position = able.force = able.local_plane = true;
+    able.stop = script_.says_unit;
     able.peak_force_n = 3;
     able.most_stiffness_n_per_mm = 2;
     return able;
@@ -40,6 +43,7 @@ class ScriptedDevice final : public Device {
   void close() noexcept override {}
   void poll(Nanoseconds now, DeviceState& state) noexcept override {
     state = script_.says;
+    state.has_unit = script_.says_unit;
     state.heard_ns = now;
     if (!script_.is_plugged) state.health = Health::Gone;
   }
@@ -197,6 +201,20 @@ TEST(HostLoop, GoesOnAloneAndOpensAgainWhatWasUnplugged) {
   ASSERT_TRUE(soon([&] { return loop.look(state) && state.device.health == Health::Good; }));
   EXPECT_EQ(script.opened, 2);
   EXPECT_TRUE(loop.problem().empty());
+}
+
+TEST(HostLoop, WhatADeviceCanIsKnownAsSoonAsItHasSaidWhoItIs) {
+  // Else a motor arm's calibration, begun on its first sample, would be that of a servo arm.
+  Script script;
+  script.says.health = Health::Starting;
+  HostLoop loop(std::make_unique<ScriptedDevice>(script));
+  LoopState state;
+  ASSERT_TRUE(soon([&] { return loop.look(state) && state.timing.ticks > 5; }));
+  EXPECT_FALSE(state.able.stop);
+  script.says_unit = true;
+  ASSERT_TRUE(soon([&] { return loop.look(state) && state.device.has_unit; }));
+  EXPECT_EQ(state.device.health, Health::Starting);
+  EXPECT_TRUE(state.able.stop);
 }
 
 TEST(TimeHistogram, TellsTimesToThreeInAHundred) {
