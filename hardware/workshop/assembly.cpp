@@ -212,10 +212,12 @@ class Builder {
         "gimbal_ring", Group::Ring, Material::Drive,
         at(o_.tip) * turned({0, 1, 0}, -degrees_from_radians(state->pitch_rad)) * at({0, 0, -3.5}));
     part("carrier", Group::Carrier, Material::Moving, held * at({0, 0, 25}) * kUpsideDown);
-    add("roll_sensor", Group::Carrier, Material::Board, box({-11.5, -11.5, 29}, {11.5, 11.5, 30.6}),
+    add("roll_sensor", Group::Carrier, Material::Board, box({-11.5, -11.5, 32}, {11.5, 11.5, 33.6}),
         held);
     add("tool_shaft", Group::Tool, Material::Steel,
-        cylinder(n_["tool_shaft"] / 2, -tool.length_mm + 6, 26), held);
+        cylinder(n_["tool_shaft"] / 2, -tool.length_mm + 6, 29.5), held);
+    // Or the tool would be pulled down out of the carrier.
+    add("retaining_ring", Group::Tool, Material::Steel, ring(3, 6.5, 25.2, 27), held);
     part("tool_tip", Group::Tool, Material::Rubber,
          held * at({0, 0, -tool.length_mm + 14}) * kUpsideDown);
     if (o_.is_scope) {

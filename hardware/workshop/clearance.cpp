@@ -152,6 +152,7 @@ bool is_joint(const std::string& one, const std::string& other) {
       {"horn", "servo"},
       {"gimbal_ring", "platform"},
       {"carrier", "gimbal_ring"},
+      {"carrier", "retaining_ring"},
       {"carrier", "tool_shaft"},
       {"carrier", "tool_handle"},
       {"scope_grip", "tool_shaft"},
