@@ -7,8 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "anatomy/bone_id.hpp"
 #include "case_io/case_cover.hpp"
 #include "case_io/lesson_file.hpp"
+#include "case_io/trust_file.hpp"
 #include "core/error.hpp"
 
 namespace carpus::cli {
@@ -42,11 +44,29 @@ std::string id_of(const fs::path& folder) {
       .substr(0, kLongestId);
 }
 
+/// A damaged file takes no case away; the scan's page tells what is wrong with it.
+std::vector<std::string> flagged_in(const fs::path& folder) {
+  std::vector<std::string> bones;
+  try {
+    const auto lines = case_io::read_trust(folder);
+    if (!lines) return bones;
+    for (const case_io::TrustLine& line : *lines) {
+      if (!line.flagged) continue;
+      const std::string bone(name_of(bone_of(line.name)->bone));
+      if (std::find(bones.begin(), bones.end(), bone) == bones.end()) bones.push_back(bone);
+    }
+  } catch (const Error&) {
+    return {};
+  }
+  return bones;
+}
+
 server::ShelvedCase shelved(const fs::path& folder) {
   server::ShelvedCase result;
   result.id = id_of(folder);
   result.folder = folder;
   result.title = case_io::read_pseudonym(folder).value_or(result.id);
+  result.flagged = flagged_in(folder);
   const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
   if (!lesson) return result;
   result.title = lesson->title;

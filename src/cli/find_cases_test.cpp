@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "case_io/lesson_file.hpp"
+#include "case_io/trust_file.hpp"
 #include "core/error.hpp"
 
 namespace carpus::cli {
@@ -42,6 +43,20 @@ class FindCases : public ::testing::Test {
   fs::path folder_ =
       fs::temp_directory_path() / ("carpus_find_cases_" + std::to_string(::getpid()));
 };
+
+TEST_F(FindCases, TellsBonesToBeCheckedAndNotThatOneIsInParts) {
+  make("doubtful");
+  make("damaged");
+  std::ofstream(folder_ / "doubtful" / case_io::kTrustFile)
+      << case_io::trust_text({{"lunate", 0.9, false, ""},
+                              {"scaphoid_proximal", 0.2, true, "look"},
+                              {"scaphoid_distal", 0.1, true, "look"}},
+                             "carpus");
+  std::ofstream(folder_ / "damaged" / case_io::kTrustFile) << "{";
+  const FoundCases found = find_cases({path()});
+  EXPECT_TRUE(found.shelf.find("damaged")->flagged.empty());
+  EXPECT_EQ(found.shelf.find("doubtful")->flagged, std::vector<std::string>{"scaphoid"});
+}
 
 TEST_F(FindCases, AFolderOfThemGivesAllEasiestFirst) {
   make("plain");

@@ -156,7 +156,7 @@ std::string serialize(const CaseDescription& body, int indent) {
 }
 
 Result<CaseList> parse_case_list(std::string_view text) {
-  JsonText json(text, 2097152);
+  JsonText json(text, 3145728);
   FieldReader in(json);
   CaseList out;
   read(in, out);

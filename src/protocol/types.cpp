@@ -197,6 +197,7 @@ void read(FieldReader& in, CaseCard& out) {
   out.history = in.string("history", 1024);
   out.goal = in.string("goal", 1024);
   if (in.has("difficulty")) out.difficulty = in.number("difficulty", 0.0, 100.0);
+  in.list("flagged", 0, 16, 32, out.flagged);
   out.has_preview = in.boolean("has_preview");
 }
 
@@ -210,6 +211,7 @@ void write(FieldWriter& out, const CaseCard& in) {
   } else {
     out.null("difficulty");
   }
+  out.list("flagged", in.flagged, 32);
   out.value("has_preview", in.has_preview);
 }
 

@@ -353,6 +353,9 @@ struct CaseCard {
   std::string goal;
   /// 0 easy to 100, from geometry 0 to 100
   std::optional<double> difficulty;
+  /// bones whose segmentation is to be checked, whole ones: that one is in parts is for the trainee
+  /// to find
+  std::vector<std::string> flagged;
   bool has_preview = false;
   bool operator==(const CaseCard&) const = default;
 };

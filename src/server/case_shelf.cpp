@@ -8,8 +8,8 @@ protocol::CaseList message_of(const CaseShelf& shelf) {
   protocol::CaseList list;
   list.open = shelf.open;
   for (const ShelvedCase& each : shelf.cases) {
-    list.cases.push_back(
-        {each.id, each.title, each.history, each.goal, each.difficulty, each.preview != nullptr});
+    list.cases.push_back({each.id, each.title, each.history, each.goal, each.difficulty,
+                          each.flagged, each.preview != nullptr});
   }
   return list;
 }

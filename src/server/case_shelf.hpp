@@ -27,6 +27,7 @@ struct ShelvedCase {
   std::optional<double> difficulty;
   std::shared_ptr<const std::string> preview;  ///< PNG; null where it has none
   std::filesystem::path folder{};              ///< empty: its scan is not shown
+  std::vector<std::string> flagged{};          ///< bones to be checked, whole ones
 };
 
 struct CaseShelf {

@@ -221,6 +221,8 @@ export interface CaseCard {
   readonly goal: string;
   /** 0 easy to 100, from geometry 0 to 100 */
   readonly difficulty: number | null;
+  /** bones whose segmentation is to be checked, whole ones: that one is in parts is for the trainee to find */
+  readonly flagged: readonly string[];
   readonly has_preview: boolean;
 }
 
@@ -1119,7 +1121,7 @@ export function parseCaseDescription(text: string): Parsed<CaseDescription> {
 
 /** Validates the body of an HTTP answer; never throws. */
 export function parseCaseList(text: string): Parsed<CaseList> {
-  return parseBody(text, rules.CASE_LIST, 2097152, rules.SCHEMA);
+  return parseBody(text, rules.CASE_LIST, 3145728, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

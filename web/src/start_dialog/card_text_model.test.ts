@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { cardText, difficultyText } from "./card_text_model";
+import { cardText, difficultyText, doubtText } from "./card_text_model";
 
 describe("difficultyText", () => {
   it("puts the figure into words", () => {
@@ -15,6 +15,15 @@ describe("difficultyText", () => {
   });
 });
 
+describe("doubtText", () => {
+  it("names up to three bones and counts more", () => {
+    expect(doubtText([])).toBe("");
+    expect(doubtText(["metacarpal1"])).toBe("Check the metacarpal 1 on its scan");
+    expect(doubtText(["lunate", "capitate"])).toBe("Check the lunate and the capitate on its scan");
+    expect(doubtText(["a", "b", "c", "d"])).toBe("Check 4 bones on its scan");
+  });
+});
+
 describe("cardText", () => {
   const one = {
     id: "humpback_right",
@@ -22,6 +31,7 @@ describe("cardText", () => {
     history: "Fell two years ago.",
     goal: "Know when not to.",
     difficulty: 43,
+    flagged: [],
     has_preview: true,
   };
 
@@ -34,6 +44,8 @@ describe("cardText", () => {
 
   it("gives no diagnosis away to whoever is to be assessed by it", () => {
     const told = Object.values(cardText(one, 8, "assessed")).join(" ");
-    expect(told).toBe("Case 9 Difficulty 43 of 100: demanding Fell two years ago.");
+    expect(told.replace(/ +/g, " ")).toBe(
+      "Case 9 Difficulty 43 of 100: demanding Fell two years ago.",
+    );
   });
 });

@@ -8,6 +8,22 @@ export interface CardText {
   readonly title: string;
   readonly difficulty: string;
   readonly what: string;
+  /** What is to be looked at before one operates; empty where nothing is. */
+  readonly doubt: string;
+}
+
+/** "Check the lunate and the capitate on its scan"; more than three are counted. */
+export function doubtText(flagged: readonly string[]): string {
+  if (flagged.length === 0) return "";
+  const names = flagged.map((name) => `the ${name.replace(/(\d)$/, " $1")}`);
+  const last = names.pop() ?? "";
+  const which =
+    flagged.length > 3
+      ? `${flagged.length} bones`
+      : names.length === 0
+        ? last
+        : `${names.join(", ")} and ${last}`;
+  return `Check ${which} on its scan`;
 }
 
 /** "Difficulty 52 of 100: demanding"; nothing where it was not measured. */
@@ -20,11 +36,13 @@ export function difficultyText(difficulty: number | null): string {
 /** In an assessed operation the patient's own words, for title and goal tell the answer. */
 export function cardText(one: CaseCard, index: number, mode: Mode): CardText {
   const difficulty = difficultyText(one.difficulty);
+  const doubt = doubtText(one.flagged);
   return mode === "assessed"
-    ? { title: `Case ${index + 1}`, difficulty, what: one.history }
+    ? { title: `Case ${index + 1}`, difficulty, doubt, what: one.history }
     : {
         title: one.title,
         difficulty,
+        doubt,
         what: one.goal === "" ? "No lesson comes with it." : one.goal,
       };
 }

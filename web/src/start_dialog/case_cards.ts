@@ -46,6 +46,7 @@ export class CaseCards {
         {},
         make("strong", {}, text.title),
         make("span.secondary", {}, text.difficulty),
+        ...(text.doubt === "" ? [] : [make("span.case-card-doubt", {}, text.doubt)]),
         make("span.case-card-goal", {}, text.what),
       ),
     );

@@ -5,6 +5,7 @@
 import { button, make, remember, remembered, setText } from "../dom";
 import type { CaseDescription, CaseList, Mode, ProcedureSummary } from "../protocol";
 import { nameField, rememberName } from "../trainee_name";
+import { doubtText } from "./card_text_model";
 import { CaseCards } from "./case_cards";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
@@ -201,6 +202,12 @@ export class StartDialog {
 
   /** What can be chosen, before what is known of the open one; nothing where there is no choice. */
   showCases(list: CaseList, choose: (id: string) => void): void {
+    const doubt = doubtText(list.cases.find((one) => one.id === list.open)?.flagged ?? []);
+    if (doubt !== "") {
+      this.element
+        .querySelector(".start-facts")
+        ?.after(make("p.case-card-doubt", {}, `${doubt} before you operate.`));
+    }
     if (list.cases.length < 2) return;
     this.cards = new CaseCards(list, choose);
     this.cards.show(this.mode);
