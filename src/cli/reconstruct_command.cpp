@@ -18,6 +18,7 @@
 #include "case_io/read_volume.hpp"
 #include "case_io/soft_tissue_folder.hpp"
 #include "case_io/trust_file.hpp"
+#include "cli/corrected_case.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/simulated_scan.hpp"
 #include "cli/soft_tissue_report.hpp"
@@ -44,6 +45,7 @@ struct Arguments {
   fs::path json;
   std::string series;
   std::string pseudonym = "wrist";
+  bool has_pseudonym = false;
   bool simulated = false;
   bool force = false;
 };
@@ -112,8 +114,34 @@ reconstruct::Reconstruction make_case(const Arguments& a,
   if (a.labels.empty()) return reconstruct::reconstruct_case(std::move(ct), options);
   const Grid<std::uint8_t> labels =
       reconstruct::read_given_labels(a.labels, a.names, ct.geometry(), warn);
-  options.provenance.conventions.push_back("bones as outlined and named in a given label volume");
+  std::vector<std::string>& said = options.provenance.conventions;
+  if (!is_case_folder(a.input)) {
+    said.emplace_back("bones as outlined and named in a given label volume");
+    return reconstruct::reconstruct_labelled(std::move(ct), labels, options);
+  }
+  const EarlierCase earlier = read_earlier_case(a.input);
+  reconstruct::require_same_grid(ct.geometry(), earlier.labels.geometry(), "the earlier case");
+  const std::vector<std::string> changes = changes_between(earlier.labels, labels);
+  if (changes.empty()) {
+    throw InvalidInput("the labels are those that the case has already; nothing would change");
+  }
+  if (!a.has_pseudonym) options.pseudonym = earlier.pseudonym;
+  options.provenance.simulated = options.provenance.simulated || earlier.provenance.simulated;
+  options.provenance.source = earlier.provenance.source;
+  said = earlier.provenance.conventions;
+  for (const std::string& change : changes) said.push_back("corrected by a person, " + change);
   return reconstruct::reconstruct_labelled(std::move(ct), labels, options);
+}
+
+/// The scan of a case is in its folder beside the labels.
+fs::path scan_of(const Arguments& a) {
+  if (!is_case_folder(a.input)) return a.input;
+  if (a.labels.empty()) {
+    throw UsageError(a.input.string() +
+                     " is a case: give its corrected bones with --labels for a new version of it, "
+                     "or its ct.nii.gz to make it anew");
+  }
+  return a.input / "ct.nii.gz";
 }
 
 void run(const Arguments& a) {
@@ -128,7 +156,8 @@ void run(const Arguments& a) {
   reading.warn = warn;
   std::vector<std::string> conventions;
   reading.note = [&](const std::string& text) { conventions.push_back(text); };
-  Grid<std::int16_t> ct = case_io::read_ct(a.input, reading);
+  const fs::path scan = scan_of(a);
+  Grid<std::int16_t> ct = case_io::read_ct(scan, reading);
   reconstruct::GroundTruth truth;
   if (!a.truth.empty()) {
     truth = reconstruct::read_ground_truth(a.truth);
@@ -140,7 +169,7 @@ void run(const Arguments& a) {
   if (const auto problem = problem_of_name(a.pseudonym))
     throw UsageError("--pseudonym: " + *problem);
   options.pseudonym = a.pseudonym;
-  options.provenance.simulated = a.simulated || is_simulated_scan(a.input, a.series);
+  options.provenance.simulated = a.simulated || is_simulated_scan(scan, a.series);
   options.provenance.source = source_in_words(a, ct.geometry(), options.provenance.simulated);
   options.provenance.made_by = kProgramVersion;
   options.provenance.made_at = utc_now();
@@ -166,7 +195,7 @@ void run(const Arguments& a) {
   std::fputs(reconstruct::text_of(report).c_str(), stdout);
   std::printf("soft tissue (generated, not seen in the CT): %s\n", soft_tissue.c_str());
   std::printf("case: %s%s\n", a.out.string().c_str(),
-              options.provenance.simulated ? " (simulated)" : "");
+              result.data.provenance.simulated ? " (simulated)" : "");
   // After minutes of work the figures are on the terminal even where the file cannot be written.
   if (!a.json.empty()) records::write_file_atomically(a.json, reconstruct::json_of(report));
 }
@@ -180,7 +209,8 @@ void add_reconstruct_command(CLI::App& app) {
   command
       ->add_option(
           "input", a->input,
-          "CT: a folder with one DICOM series, or a .nii, .nii.gz, .nrrd, .mha or .dcm file")
+          "CT: a folder with one DICOM series, or a .nii, .nii.gz, .nrrd, .mha or .dcm file; with "
+          "--labels also a case, of which a corrected version is made")
       ->required();
   command->add_option("--out", a->out, "Folder for the case")->required();
   command->add_option("--truth", a->truth,
@@ -203,7 +233,10 @@ void add_reconstruct_command(CLI::App& app) {
       });
   command->add_flag("--simulated", a->simulated, "Mark the case as simulated, not scanned");
   command->add_flag("--force", a->force, "Replace an existing case");
-  command->callback([a] { run(*a); });
+  command->callback([a, command] {
+    a->has_pseudonym = command->count("--pseudonym") > 0;
+    run(*a);
+  });
 }
 
 }  // namespace carpus::cli

@@ -231,7 +231,10 @@ export class PaintTools {
           URL.revokeObjectURL(address);
         }, 10_000);
         this.isSaved = true;
-        this.wishes.say("Saved as labels.nii.gz; the case itself is as it was.");
+        this.wishes.say(
+          "Saved as labels.nii.gz; the case itself is as it was. " +
+            "`carpus reconstruct CASE --labels labels.nii.gz --out NEW` makes a new version of it.",
+        );
       },
       () => {
         this.wishes.say("The labels could not be packed.");
