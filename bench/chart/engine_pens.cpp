@@ -23,12 +23,13 @@ constexpr std::array<std::string_view, 9> kHulls{"fast",   "quickhull",     "cha
                                                  "hybrid", "gift_wrapping", "brute_force",
                                                  "qhull",  "cgal",          "bullet"};
 /// Those that are as fast as each other stand within ten places.
-constexpr std::array<std::string_view, 30> kCollisions{
+constexpr std::array<std::string_view, 31> kCollisions{
     "lp_growth", "lp_walk",    "lp_partial", "lp_scan",     "gjk",         "gjk_table",
     "v_clip",    "lin_canny",  "bullet",     "swift",       "fcl",         "fcl_convex",
     "fcl_indep", "libccd_gjk", "libccd_mpr", "glpk",        "clp",         "closest_active_set",
     "q_collide", "ivri",       "quick_cd_6", "quick_cd_14", "quick_cd_18", "quick_cd_26",
-    "seidel",    "aabb_tree",  "obb_tree",   "epa",         "depth_exact", "ivri_all_vertices"};
+    "seidel",    "aabb_tree",  "obb_tree",   "epa",         "depth_exact", "ivri_all_vertices",
+    "i_collide"};
 static_assert(kHulls[8] == kCollisions[8]);
 static_assert(kCollisions.size() <= kColours.size() * kDashes.size());
 
