@@ -16,7 +16,6 @@
 #include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/version.hpp"
 #include "procedures/built_in.hpp"
 #include "records/atomic_file.hpp"
 #include "trainee/attempt.hpp"
@@ -38,28 +37,34 @@ struct StudyValidityArguments {
   std::string json;
 };
 
+struct Progress {
+  const StudyValidityArguments& arguments;
+  std::size_t planned = 0;  ///< operations
+  std::atomic<std::size_t> done = 0;
+};
+
 /// Every skill on every seed, in parallel; the order is fixed beforehand.
 void operate_on(const cases::CaseData& data,
                 std::size_t case_index,
                 const procedure::Procedure& procedure,
-                const StudyValidityArguments& arguments,
+                Progress& progress,
                 std::vector<ScoredOperation>& operations) {
+  const StudyValidityArguments& arguments = progress.arguments;
   const std::size_t first = operations.size();
   const std::size_t count = arguments.seeds * kSkills.size();
   operations.resize(first + count);
-  std::atomic<std::size_t> done = 0;
+  const std::string stage = procedure.id + ", " + data.pseudonym;
   parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       ScoredOperation& one = operations[first + i];
       one.skill = kSkills[i % kSkills.size()];
       one.case_index = case_index;
-      one.score = trainee::operate(data, procedure, one.skill,
-                                   arguments.first_seed + i / kSkills.size(), kProgramVersion)
-                      .score;
-      std::fprintf(stderr, "\r%s: %zu of %zu ", procedure.id.c_str(), ++done, count);
+      one.score = trainee::score_of_operation(data, procedure, one.skill,
+                                              arguments.first_seed + i / kSkills.size());
+      std::fprintf(stderr, "\r%zu of %zu operations (%s)   ", ++progress.done, progress.planned,
+                   stage.c_str());
     }
   });
-  std::fprintf(stderr, "\n");
 }
 
 std::string in_columns(const trainee::Separation& separation) {
@@ -137,14 +142,17 @@ void run(const StudyValidityArguments& arguments) {
   std::vector<std::vector<ScoredOperation>> operations(offered.size());
   std::vector<std::string> names;
   bool is_simulated = true;
+  Progress progress{arguments,
+                    arguments.seeds * kSkills.size() * arguments.cases.size() * offered.size()};
   for (std::size_t c = 0; c < arguments.cases.size(); ++c) {
     const cases::CaseData data = load_case(arguments.cases[c]);
     names.push_back(data.pseudonym);
     is_simulated = is_simulated && data.provenance.simulated;
     for (std::size_t p = 0; p < offered.size(); ++p) {
-      operate_on(data, c, *offered[p], arguments, operations[p]);
+      operate_on(data, c, *offered[p], progress, operations[p]);
     }
   }
+  std::fprintf(stderr, "\n");
   std::printf(
       "Scripted trainees, %zu of each skill on each of %zu case%s%s: in silico, no people.\n",
       arguments.seeds, names.size(), names.size() == 1 ? "" : "s",

@@ -33,4 +33,15 @@ Attempt operate(const cases::CaseData& data,
   return attempt;
 }
 
+procedure::ScoreReport score_of_operation(const cases::CaseData& data,
+                                          const procedure::Procedure& procedure,
+                                          Skill skill,
+                                          std::uint64_t seed) {
+  simulation::World world(data, procedure, seed);
+  world.leave_out_hashes();
+  ScriptedTrainee trainee(data, procedure, skill, seed);
+  while (!world.now().finished) world.step(trainee.next(world.now()));
+  return procedure.score(data, world.operation_record());
+}
+
 }  // namespace carpus::trainee

@@ -37,4 +37,11 @@ struct Attempt {
                               std::uint64_t seed,
                               const std::string& program_version);
 
+/// The score of the same operation, of which nothing else is kept: for studies, in two thirds of
+/// the time.
+[[nodiscard]] procedure::ScoreReport score_of_operation(const cases::CaseData& data,
+                                                        const procedure::Procedure& procedure,
+                                                        Skill skill,
+                                                        std::uint64_t seed);
+
 }  // namespace carpus::trainee

@@ -142,6 +142,17 @@ TEST(ScriptedTrainee, ItsRecordingReplaysToTheSameHash) {
   EXPECT_EQ(simulation::score_recording(wrist(), procedure, *decoded).overall, a.score.overall);
 }
 
+TEST(ScriptedTrainee, ItsScoreAloneIsTheSame) {
+  const Attempt a = operate("dorsal_scaphoid_fixation", Skill::Novice, 3);
+  const procedure::ScoreReport alone =
+      score_of_operation(wrist(), declared("dorsal_scaphoid_fixation"), Skill::Novice, 3);
+  EXPECT_EQ(alone.overall, a.score.overall);
+  ASSERT_EQ(alone.items.size(), a.score.items.size());
+  for (std::size_t i = 0; i < alone.items.size(); ++i) {
+    EXPECT_EQ(alone.items[i].value, a.score.items[i].value) << alone.items[i].id;
+  }
+}
+
 /// The expert's operation once more, on a wrist that swings by two degrees all the while and is
 /// looked at live now and then.
 std::uint64_t hash_on_a_moving_wrist(const char* procedure) {

@@ -68,6 +68,7 @@ struct World::State {
   std::array<std::uint32_t, detail::kMaxCheckpoints> passes_at_checkpoint{};
   std::size_t checkpoint_count = 0;
   bool is_finishing = false;  ///< in the tick of Finish
+  bool is_hashed = true;
 
   void step(const Model& model, const Input& raw) noexcept;
   void open(const Model& model) noexcept;
