@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "cli/child_program.hpp"
 #include "core/error.hpp"
 
 namespace carpus::cli {
@@ -16,8 +16,7 @@ namespace {
 
 /// Becomes carpus-bench; returns only by an exception.
 void become_bench(const std::string& what, const std::vector<std::string>& arguments) {
-  const auto program =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "carpus-bench";
+  const auto program = own_program().parent_path() / "carpus-bench";
   std::vector<std::string> words{program.string(), what};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/child_program.hpp"
 #include "cli/device_bench_run.hpp"
 #include "core/error.hpp"
 
@@ -23,9 +24,7 @@ struct Arguments {
 };
 
 /// The program that may link simavr, where it was built.
-std::filesystem::path simavr_program() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "carpus-arm-bench";
-}
+std::filesystem::path simavr_program() { return own_program().parent_path() / "carpus-arm-bench"; }
 
 /// Becomes carpus-arm-bench; returns only by an exception.
 void become(const std::filesystem::path& program, const DeviceBenchArguments& bench) {

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace carpus::cli {
 
@@ -18,12 +20,13 @@ namespace carpus::cli {
 /// Table 5.1, the cold rows. @throws InvalidInput where the JSON is not that of `bench collision`.
 [[nodiscard]] std::string collision_table_html(const nlohmann::ordered_json& bench);
 
-/// The exponent of seconds = c n^k that fits rows of one engine, by least squares of the
-/// logarithms; 0 with fewer than two.
+/// seconds = factor * n^exponent.
 struct PowerLaw {
-  double factor = 0;
+  double factor = 0;  ///< s
   double exponent = 0;
 };
+/// The law that fits pairs of n and seconds (both positive) best, by least squares of their
+/// logarithms; all 0 with fewer than two different n.
 [[nodiscard]] PowerLaw fit_power(const std::vector<std::pair<double, double>>& n_and_seconds);
 
 }  // namespace carpus::cli

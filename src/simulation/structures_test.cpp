@@ -71,9 +71,8 @@ TEST(Structures, AWireThatTurnsInOneHarmsItWhateverIsUndone) {
   EXPECT_LT(record.structures[0].least_mm, 0.0);
 }
 
-TEST(Structures, ASleevePutsTheWayAside) {
-  const cases::CaseData data = wrist_with_tube(0.5, 1.0);
-  Operator op({}, data);
+/// The second hand brings a sleeve along the axis to the bone and keeps it there.
+void lead_by_sleeve(Operator& op) {
   op.command(test::take("needle_sleeve_14g", 1));
   op.aim({});
   op.hand(1).shaft_in_patient = -op.inward();
@@ -82,6 +81,12 @@ TEST(Structures, ASleevePutsTheWayAside) {
     op.hold(Driver::Off, 0.0, 1);
   }
   op.hold(Driver::Off, 0.0, 400);
+}
+
+TEST(Structures, ASleevePutsTheWayAside) {
+  const cases::CaseData data = wrist_with_tube(0.5, 1.0);
+  Operator op({}, data);
+  lead_by_sleeve(op);
   op.place_on_entry({});
   op.drive_to(5.0);
   ASSERT_GE(op.item().depth_mm, 5.0);
@@ -91,14 +96,7 @@ TEST(Structures, ASleevePutsTheWayAside) {
 TEST(Structures, AWireThatWasLedComesOutOnItsWay) {
   const cases::CaseData data = wrist_with_tube(0.5, 1.0);
   Operator op({}, data);
-  op.command(test::take("needle_sleeve_14g", 1));
-  op.aim({});
-  op.hand(1).shaft_in_patient = -op.inward();
-  for (double away = 25.0; away > 1.2; away -= 0.05) {
-    op.hand(1).tip_in_patient = op.entry() - op.inward() * away;
-    op.hold(Driver::Off, 0.0, 1);
-  }
-  op.hold(Driver::Off, 0.0, 400);
+  lead_by_sleeve(op);
   op.place_on_entry({});
   op.drive_to(5.0);
   op.command(test::simple(CommandKind::PutDown, 1));
