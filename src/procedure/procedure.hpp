@@ -58,7 +58,9 @@ struct NamedView {
 /// frame Bone of the target (as scanned; its first part), so that nothing here needs to know where
 /// the wrist's pose takes that bone.
 struct Opening {
-  WristPose wrist;
+  WristPose wrist;  ///< how the hand is posed for the bone to be reached
+  /// How it lies before the operator poses it; none: so already.
+  std::optional<WristPose> at_first = std::nullopt;
   Vec3 tip_in_target;             ///< where the first hand waits, outside all tissue [mm]
   Vec3 shaft_in_target{0, 0, 1};  ///< unit, towards the hand
   Aim aim;                        ///< what the operation is after on this case

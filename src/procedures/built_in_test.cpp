@@ -76,6 +76,8 @@ TEST(BuiltIn, TheHandWaitsWhereTheBoneIsReached) {
   EXPECT_LT(distance(dorsal.tip_in_target, axis.proximal),
             distance(dorsal.tip_in_target, axis.distal));
   EXPECT_GT(dorsal.wrist.flexion_rad, 0.0) << "flexed, out of the radius' way";
+  ASSERT_TRUE(dorsal.at_first.has_value());
+  EXPECT_EQ(dorsal.at_first->flexion_rad, 0.0) << "straight: to pose it is a step";
   const procedure::Opening volar = volar_scaphoid_fixation::declared().opening(data);
   EXPECT_LT(distance(volar.tip_in_target, axis.distal),
             distance(volar.tip_in_target, axis.proximal));

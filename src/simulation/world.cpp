@@ -85,7 +85,8 @@ World::State::State(const Model& model)
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
 /// host that holds it there must not start with it across the bones.
 void World::State::open(const Model& model) noexcept {
-  spent.wrist = model.data.hand_motion.limits.clamp(model.opening.wrist);
+  spent.wrist = model.data.hand_motion.limits.clamp(model.opening.at_first ? *model.opening.at_first
+                                                                           : model.opening.wrist);
   // PA over the forearm as it lies, as at the procedure's beginning.
   spent.c_arm.rotation_deg = room_rotation_deg(0.0, spent.wrist.pronation_rad);
   pose_bodies(model);

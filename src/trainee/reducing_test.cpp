@@ -24,8 +24,10 @@ TEST(Reducing, LeadsTheFragmentsTogetherAndLetsGo) {
   ASSERT_TRUE(before.has_value());
   EXPECT_GT(before->gap_mm, 2.0);
   simulation::Input input;
-  input.wrist = world.now().wrist;
+  input.wrist = dorsal().opening(broken_wrist()).wrist;
   input.hands[0].tip_in_patient = {0, 150, 0};
+  constexpr int kPosingTicks = 3000;
+  for (int tick = 0; tick < kPosingTicks; ++tick) world.step(input);
   reducing.begin(world.now(), {{0, 150, 50}, {0, 1, 0}}, {});
   int ticks = 0;
   for (; ticks < 60000; ++ticks) {

@@ -28,6 +28,7 @@ constexpr double kFirstStandoffMm = 45.0;  // where the hand waits during the su
 constexpr double kPressMm = 0.5;           // hand beyond the surface, so that the tip rests on it
 constexpr Tick kMostTicks = 900000;        // 15 min: whoever has not finished by then gives up
 constexpr Tick kEngageTicks = 2500;
+constexpr double kPosedRad = 0.002;
 constexpr Tick kWristTicks = 3000;  // in which the wrist comes to where it is wanted
 constexpr Tick kPhaseTicks = 60000;
 constexpr int kMostTries = 8;
@@ -698,8 +699,25 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
   }
 }
 
+/// Where the procedure leaves it to the operator, the wrist is posed before anything else is
+/// thought of: hands stay where they wait.
+bool ScriptedTrainee::is_posing(const Snapshot& now, Input& input) {
+  const procedure::WristPose& wanted = opening_.wrist;
+  const bool is_posed =
+      std::abs(now.wrist.flexion_rad - wanted.flexion_rad) < kPosedRad &&
+      std::abs(now.wrist.radial_deviation_rad - wanted.radial_deviation_rad) < kPosedRad;
+  if (has_begun_ || !opening_.at_first || is_posed || ++posing_ > kWristTicks) return false;
+  input.wrist = wanted;
+  for (HandInput& hand : input.hands) {
+    hand.tip_in_patient = held(now).tip_in_patient;
+    hand.shaft_in_patient = held(now).shaft_in_patient;
+  }
+  return true;
+}
+
 Input ScriptedTrainee::next(const Snapshot& now) {
   Input input;
+  if (is_posing(now, input)) return input;
   if (!has_begun_) {
     has_begun_ = true;
     wrist_ = opening_.wrist;

@@ -118,6 +118,7 @@ class ScriptedTrainee {
   [[nodiscard]] HandPose second_hand() const;
   [[nodiscard]] bool is_seen_apart(const simulation::Snapshot& now) const;
   void plan_on_reduced_bone(const simulation::Snapshot& now);
+  [[nodiscard]] bool is_posing(const simulation::Snapshot& now, simulation::Input& input);
   void look_at_bone(const simulation::Snapshot& now, simulation::Input& input);
   /// A direction of frame Bone of the target in Patient, as it lies now.
   [[nodiscard]] Vec3 turned(const simulation::Snapshot& now, const Vec3& in_target) const;
@@ -145,6 +146,7 @@ class ScriptedTrainee {
   bool draws_through_ = false;   ///< a step asks for it, and this trainee knows how
   simulation::WristPose wrist_;  ///< as it is to be held
   Phase phase_ = Phase::Survey;
+  Tick posing_ = 0;
   bool has_begun_ = false;
   Tick in_phase_ = 0;  ///< ticks since the phase began
   Tick wait_ = 0;      ///< reaction time left

@@ -76,8 +76,8 @@ Vec3 towards_ulnar(const cases::CaseData& data) {
   return in_patient(data, {0.0, data.side == Side::Left ? 1.0 : -1.0, 0.0}).v;
 }
 
-/// The wrist flexed until the central axis, extended out of the proximal pole, clears the radius;
-/// the wire waits over the back of the hand, neither at the entry nor on the line.
+/// The wrist lies straight, as it is surveyed; to pose it is a step [clinical: B1]. The wire waits
+/// over the back of the hand, neither at the entry nor on the line.
 procedure::Opening opening(const cases::CaseData& data) {
   if (cases::scaphoid_parts(data).empty()) {
     throw InvalidInput("dorsal scaphoid fixation: the case has no scaphoid to operate on");
@@ -85,6 +85,7 @@ procedure::Opening opening(const cases::CaseData& data) {
   const cases::AxisSegment& axis = data.scaphoid.central_axis;
   procedure::Opening opening;
   opening.wrist = flexed(data);
+  opening.at_first = procedure::WristPose{};
   opening.shaft_in_target = from_the_back_of_the_hand(data);
   opening.tip_in_target =
       axis.proximal + towards_ulnar(data) * kBesidePoleMm + opening.shaft_in_target * kWaitingMm;
