@@ -71,6 +71,11 @@ std::string good_text(const Limits& good, std::string_view unit) {
   return number_text(good.low) + " to " + quantity_text(good.high, unit);
 }
 
+/// Of what is counted, where none is what is wanted: "at most 0 good, over 0 fails" says nobody.
+bool is_count_of_none(const ScoreRule& rule) {
+  return rule.unit == "1" && !std::isfinite(rule.good.low) && rule.good.high == 0.0;
+}
+
 }  // namespace
 
 double earned_share(const ScoreRule& rule, double value) {
@@ -117,6 +122,12 @@ void grade(ScoreReport& report, const ScoreRules& rules, std::span<const Measure
 }
 
 std::string target_text(const ScoreRule& rule) {
+  if (is_count_of_none(rule)) {
+    if (rule.fail.high == 0.0) return "none; a single one fails";
+    const std::string none = "none is good";
+    return std::isfinite(rule.fail.high) ? none + ", over " + number_text(rule.fail.high) + " fails"
+                                         : none;
+  }
   std::string text = good_text(rule.good, rule.unit) + " good";
   const bool has_low = std::isfinite(rule.fail.low);
   const bool has_high = std::isfinite(rule.fail.high);

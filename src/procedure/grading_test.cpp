@@ -81,6 +81,12 @@ TEST(Grading, TargetsAreWords) {
   EXPECT_EQ(target_text(rules.items[0]), "1.25 to 2.75 mm good; under 0.5 mm or over 6 mm fails");
   EXPECT_EQ(target_text(rules.items[1]), "at most 10 min good, over 30 min fails");
   EXPECT_EQ(target_text(rules.items[2]), "at most 5° good, over 15° fails");
+  ScoreRule count = rules.items[2];
+  count.unit = "1";
+  count.good.high = count.fail.high = 0;
+  EXPECT_EQ(target_text(count), "none; a single one fails");
+  count.fail.high = 2;
+  EXPECT_EQ(target_text(count), "none is good, over 2 fails");
 }
 
 TEST(Grading, MistakesAreToldByPlaceAndField) {

@@ -9,6 +9,8 @@ describe("bandOf", () => {
     ["at most 5° good, over 15° fails", "deg", -Infinity, 5],
     ["at least 1 mm good, under 0 mm fails", "mm", 1, Infinity],
     ["at least 4 good, under 3 fails", "1", 4, Infinity],
+    ["none; a single one fails", "1", -Infinity, 0],
+    ["none is good, over 2 fails", "1", -Infinity, 0],
     ["1.25 to 2.75 mm good; under 0.5 mm or over 6 mm fails", "mm", 1.25, 2.75],
     ["-1 to 0 mm good; under -4.5 mm or over 0.1 mm fails", "mm", -1, 0],
     ["at most 10 min good, over 30 min fails", "s", -Infinity, 600],

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is good, as numbers, of the sentence that the host says for people (src/procedure/grading.cpp):
-// "at most 5° good, over 15° fails". A sentence of another kind has no band, and none is drawn. Pure.
+// "at most 5° good, over 15° fails", "none; a single one fails". A sentence of another kind has no band,
+// and none is drawn. Pure.
 
 /** Where there is no limit, infinite. */
 export interface TargetBand {
@@ -13,6 +14,7 @@ export interface TargetBand {
 const NUMBER = "(-?[\\d.]+)";
 const UNIT = "[^\\d;]*?";
 const PATTERNS: readonly (readonly [RegExp, (a: number, b: number) => TargetBand])[] = [
+  [/^none(;| is good)/, () => ({ from: -Infinity, to: 0 })],
   [new RegExp(`^at most ${NUMBER}${UNIT} good`), (a) => ({ from: -Infinity, to: a })],
   [new RegExp(`^at least ${NUMBER}${UNIT} good`), (a) => ({ from: a, to: Infinity })],
   [new RegExp(`^${NUMBER}${UNIT} to ${NUMBER}${UNIT} good`), (from, to) => ({ from, to })],
