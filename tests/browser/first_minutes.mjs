@@ -67,6 +67,7 @@ export async function firstMinutes(browser, station) {
     await tilt(0, 0, 0.8, 0);
     await done.filter({ hasText: "Aim" }).waitFor();
     await tilt(0, 0, 0, 0);
+    await operator.flexBySlider();
     await press(1, 1); // along the sight
     await operator.until((s) => s.hands[0].touching, "the tip on the bone");
     await press(1, 0);

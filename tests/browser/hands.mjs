@@ -5,6 +5,7 @@
 // and driven into it by nothing else.
 import { newPage, newTouchPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { Fingers } from "./fingers.mjs";
 import { dot, Operator } from "./operator.mjs";
 
 const TRAINEE = "Browser test, hands";
@@ -102,45 +103,6 @@ export async function byKeysAlone(browser, station) {
   await page.close();
 }
 
-/** Fingers, by the debugger: where each is [CSS px]. */
-class Fingers {
-  constructor(page) {
-    this.page = page;
-  }
-
-  async send(type, points) {
-    this.session ??= await this.page.context().newCDPSession(this.page);
-    await this.session.send("Input.dispatchTouchEvent", {
-      type,
-      touchPoints: points.map(({ x, y }, id) => ({ x, y, id })),
-    });
-  }
-
-  /** @param ways  of each finger, from and to */
-  async slide(ways, steps = 8) {
-    const at = (share) =>
-      ways.map(({ from, to }) => ({
-        x: from.x + share * (to.x - from.x),
-        y: from.y + share * (to.y - from.y),
-      }));
-    await this.send("touchStart", at(0));
-    for (let i = 1; i <= steps; ++i) {
-      await this.send("touchMove", at(i / steps));
-      await this.page.waitForTimeout(30);
-    }
-    await this.send("touchEnd", []);
-  }
-
-  async hold(locator, meanwhile) {
-    const box = await locator.boundingBox();
-    await this.send("touchStart", [
-      { x: box.x + box.width / 2, y: box.y + box.height / 2 },
-    ]);
-    await meanwhile();
-    await this.send("touchEnd", []);
-  }
-}
-
 export async function byFinger(browser, station) {
   const page = await newTouchPage(browser);
   const operator = new Operator(page);
@@ -155,6 +117,7 @@ export async function byFinger(browser, station) {
     async () => {
       await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation");
       await atRest(operator);
+      await operator.flexBySlider();
       const { x, y } = await middle();
       const before = await page.evaluate(() => window.carpus.screenAxes());
       const tip = Operator.held(await operator.snapshot()).tip_mm;

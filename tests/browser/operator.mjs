@@ -373,6 +373,16 @@ export class Operator {
     await this.holdKey("j", (s) => s.wrist.flexion_deg > FLEXED_DEG, "a flexed wrist");
   }
 
+  /** The same by its slider, as a finger does it. */
+  async flexBySlider() {
+    // Its steps begin at a limit that is no whole number: the nearest one is taken.
+    await this.page.locator("#wrist-flexion_deg").evaluate((slider, deg) => {
+      slider.value = String(deg);
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+    }, FLEXED_DEG + 5);
+    await this.until((s) => s.wrist.flexion_deg > FLEXED_DEG, "a flexed wrist");
+  }
+
   /** Entry and aim, of a wrist that is posed for it: the tip on the bone, the shaft along the axis. @return degrees that it is off */
   async placeWire(axis) {
     if (axis.from === "proximal") await this.flex();
