@@ -18,7 +18,9 @@
 #include "case_io/detail/case_json.hpp"
 #include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/structures_json.hpp"
+#include "case_io/dicom_segmentation.hpp"
 #include "case_io/small_case_test_support.hpp"
+#include "case_io/two_bones_test_support.hpp"
 #include "checksum.hpp"
 #include "protocol/bodies.hpp"
 #include "records/journal_block.hpp"
@@ -159,6 +161,10 @@ int main(int argc, char** argv) {
         bytes_of(case_io::hand_motion_text(case_io::test::small_table())));
   write(corpus / "structures" / "whole",
         bytes_of(case_io::structures_text(case_io::test::small_structures())));
+  fs::create_directories(corpus / "dicom_segmentation");
+  case_io::write_dicom_segmentation(corpus / "dicom_segmentation" / "two_bones",
+                                    case_io::test::two_bones().view(),
+                                    {{3, "scaphoid"}, {9, "capitate"}}, {"seed", true, "carpus"});
   write_keyframes(corpus / "keyframe");
   Recorder recorder("0.1.0", 4711, test::exercise(), 7);
   Operator op([&](const Input& input) { recorder.append(input); });
