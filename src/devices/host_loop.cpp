@@ -35,8 +35,13 @@ HostLoop::~HostLoop() {
 }
 
 std::string HostLoop::problem() const {
-  const std::shared_ptr<const std::string> problem = problem_.load();
-  return problem ? *problem : std::string();
+  const std::scoped_lock lock(problem_guard_);
+  return problem_;
+}
+
+void HostLoop::say(const std::string& problem) {
+  const std::scoped_lock lock(problem_guard_);
+  problem_ = problem;
 }
 
 void HostLoop::run() {
@@ -51,10 +56,10 @@ void HostLoop::run() {
   while (!stopping_.load(std::memory_order_relaxed)) {
     try {
       device_->open();
-      problem_.store(nullptr);
+      say("");
       work_until_gone();
     } catch (const std::exception& error) {
-      problem_.store(std::make_shared<const std::string>(error.what()));
+      say(error.what());
       state_.device = {};
       state_.device.health = Health::Gone;
       state_.able = device_->capabilities();

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -91,6 +92,7 @@ class HostLoop {
 
  private:
   void run();
+  void say(const std::string& problem);
   void work_until_gone() noexcept;
   void close_second(Nanoseconds now) noexcept;
   void publish() noexcept;
@@ -109,8 +111,9 @@ class HostLoop {
   DeviceExchange own_;
   DeviceExchange& exchange_;
   LatestValue<LoopState> looks_;
-  /// Set as a whole by the thread while no turn runs; read seldom.
-  std::atomic<std::shared_ptr<const std::string>> problem_;
+  /// Held where a device is opened and where it is lost, never between: there the loop runs.
+  mutable std::mutex problem_guard_;
+  std::string problem_;
   SpscRing<std::array<std::int32_t, 3>, 512> raw_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> reopening_{false};
