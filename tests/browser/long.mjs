@@ -10,12 +10,14 @@ import { startBrowser } from "./browser.mjs";
 import { counted } from "./checks.mjs";
 import { replayLong } from "./long_replay.mjs";
 import { startStation } from "./station.mjs";
+import { operateByTouch } from "./touch_whole.mjs";
 
 const station = await startStation();
 const browser = await startBrowser();
 try {
   await allGoesWrong(browser, station);
   await drawnThrough(browser, station);
+  await operateByTouch(browser, station);
   await replayLong(browser);
 } finally {
   await browser.close();
