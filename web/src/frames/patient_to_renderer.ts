@@ -35,6 +35,8 @@ export interface FrameMap {
   readonly matrix: Matrix16;
   /** A point of the renderer [m] in Patient [mm]. */
   pointToPatient(x: number, y: number, z: number): Vec3;
+  /** A point of Patient [mm] in the renderer [m]. */
+  pointToRenderer(mm: Vec3): Vec3;
   /** A direction of the renderer in Patient; keeps its length. */
   directionToPatient(x: number, y: number, z: number): Vec3;
   /** A direction of Patient in the renderer; keeps its length. */
@@ -58,6 +60,13 @@ export function makeFrameMap(wristFromPatient: readonly number[]): FrameMap {
     pointToPatient(x, y, z) {
       const d = direction(x - at(12), y - at(13), z - at(14));
       return [d[0] / METRES_PER_MM, d[1] / METRES_PER_MM, d[2] / METRES_PER_MM];
+    },
+    pointToRenderer([x, y, z]) {
+      return [
+        at(0) * x + at(4) * y + at(8) * z + at(12),
+        at(1) * x + at(5) * y + at(9) * z + at(13),
+        at(2) * x + at(6) * y + at(10) * z + at(14),
+      ];
     },
     directionToRenderer(v) {
       const scale = 1 / METRES_PER_MM;

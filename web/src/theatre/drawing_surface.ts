@@ -109,6 +109,8 @@ export class DrawingSurface {
   }
 
   private resize(): void {
+    // A headset has a size of its own; the page's is taken up again after it.
+    if (this.renderer.xr.isPresenting) return;
     this.width = this.host.clientWidth;
     this.height = this.host.clientHeight;
     if (this.width < 2 || this.height < 2) return;

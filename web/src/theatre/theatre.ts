@@ -30,8 +30,11 @@ import { Sight, type ToolLine, type ViewId } from "./sight";
 import { SightMark } from "./sight_mark";
 import { STRUCTURES_NOTE } from "./structure_model";
 import { looksDifferent } from "./snapshot_look_model";
+import { WornStage } from "./worn_stage";
 
 const CUBE_PX = 88;
+/** With two eyes one looks past what holds an instrument. */
+const HOLDERS_ARE_SEEN = (): number => 0;
 
 export class Theatre {
   private readonly surface: DrawingSurface;
@@ -60,6 +63,9 @@ export class Theatre {
   private readonly structuresNote = make("p.structures-note", {}, STRUCTURES_NOTE);
   private readonly sightMark = new SightMark();
   private readonly sight: Sight;
+  private readonly backdrop = backdrop();
+  /** While a headset is worn it draws, and the page's canvas rests. */
+  private worn: WornStage | undefined;
   private readonly rays: BoneRays;
   private readonly pointed: PointedAt;
   private readonly home: THREE.Vector3;
@@ -89,7 +95,7 @@ export class Theatre {
     this.patient.matrixAutoUpdate = false;
     this.patient.matrix.fromArray([...frames.matrix]);
     this.patient.add(caseScene.root, this.instruments.group);
-    this.scene.add(backdrop(), this.patient, this.beam.group);
+    this.scene.add(this.backdrop, this.patient, this.beam.group);
     this.radialIsRight = facing.right === "Radial";
     this.scene.updateMatrixWorld(true);
     this.home = middleOf(caseScene, []);
@@ -347,8 +353,29 @@ export class Theatre {
     return this.pointed.pagePoint(pointMm);
   }
 
+  /** The same scene for a headset, until its end() gives it back to the page. */
+  beWorn(): WornStage {
+    const { renderer } = this.surface;
+    this.worn?.end();
+    this.backdrop.visible = false;
+    this.light.follow(this.sight.camera, this.home);
+    this.worn = new WornStage(renderer, this.scene, this.home, {
+      before: () => {
+        this.showBeam(performance.now());
+        if (this.shown !== undefined) this.instruments.pose(this.shown, HOLDERS_ARE_SEEN);
+      },
+      end: () => {
+        this.worn = undefined;
+        this.backdrop.visible = true;
+        this.stale = true;
+      },
+    });
+    return this.worn;
+  }
+
   /** Draws if anything changed since the last time. */
   draw(): void {
+    if (this.worn !== undefined) return;
     const { renderer } = this.surface;
     this.showBeam(performance.now());
     if (!this.surface.wantsDrawing(this.stale)) return;
@@ -365,6 +392,7 @@ export class Theatre {
   }
 
   dispose(): void {
+    this.worn?.end();
     this.sight.dispose();
     this.light.dispose();
     this.cube.dispose();

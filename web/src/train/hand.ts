@@ -416,6 +416,22 @@ export class Hand {
     this.changed = true;
   }
 
+  /** Whether it could be placed freely now; says nothing. */
+  get canBePlaced(): boolean {
+    return this.enabled && this.isPlaced && this.hint("move_tip") === undefined;
+  }
+
+  /** Where its tip is asked to be, in Patient [mm]. */
+  get tipMm(): Vec3 {
+    return tipTarget(this.pose);
+  }
+
+  /** The tip here, in Patient [mm], the shaft (unit) thus: by something that has places, as a controller. */
+  place(tipMm: Vec3, shaft: Vec3): void {
+    this.pose = { anchorMm: subtract(tipMm, shaft), approachMm: 1, shaft };
+    this.changed = true;
+  }
+
   /** Whether it can be placed freely now; says why not. */
   isFree(): boolean {
     if (!this.enabled || !this.isPlaced) return false;

@@ -36,6 +36,8 @@ export interface Wishes {
   /** What the hands hold. */
   readonly devices: DeviceHandlers;
   showDevices(): void;
+  /** Puts the headset on, or takes it off. */
+  headset(): void;
   showAppearance(): void;
   useHand(hand: HandIndex): void;
   take(instrument: Instrument, hand: HandIndex): void;
@@ -121,6 +123,9 @@ export function makePanels(
       fullScreen: act("full_screen"),
       devices: () => {
         wishes.showDevices();
+      },
+      headset: () => {
+        wishes.headset();
       },
     }),
     steps: new StepPanel(firstTouch.element, wrist.element),

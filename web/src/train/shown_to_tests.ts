@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `window.carpus`: for tests and screenshots, what is shown; never a way to act.
+import type { Headset } from "../headset";
 import type { BodyPose, ExerciseMessage, SnapshotMessage, Vec3 } from "../protocol";
 import type { Sound, SoundState } from "../sound";
 import type { Theatre } from "../theatre";
@@ -17,13 +18,19 @@ declare global {
       pagePoint(mm: Vec3): { readonly x: number; readonly y: number };
       beamIsDrawn(): boolean;
       sound(): SoundState;
+      headset(): Headset["shown"];
       screenAxes(): { readonly right: Vec3; readonly up: Vec3 };
     };
   }
 }
 
 /** @return takes it away */
-export function showToTests(theatre: Theatre, seen: WhatIsSeen, sound: Sound): () => void {
+export function showToTests(
+  theatre: Theatre,
+  seen: WhatIsSeen,
+  sound: Sound,
+  headset: Headset,
+): () => void {
   window.carpus = {
     snapshot: () => seen.latest,
     exercise: () => seen.doing,
@@ -31,6 +38,7 @@ export function showToTests(theatre: Theatre, seen: WhatIsSeen, sound: Sound): (
     pagePoint: (mm) => theatre.pagePoint(mm),
     beamIsDrawn: () => theatre.beamIsDrawn,
     sound: () => sound.state,
+    headset: () => headset.shown,
     screenAxes: () => theatre.screenAxes(),
   };
   return () => {

@@ -13,6 +13,7 @@ export interface TopBarHandlers {
   help(): void;
   fullScreen(): void;
   devices(): void;
+  headset(): void;
 }
 
 function tickTimeText(us: number): string {
@@ -32,6 +33,7 @@ export class TopBar {
   private readonly mode = make("span.badge.mode", { hidden: "" });
   private readonly pauseButton: HTMLButtonElement;
   private readonly soundButton: HTMLButtonElement;
+  private readonly headsetButton: HTMLButtonElement;
 
   constructor(
     private readonly description: CaseDescription,
@@ -40,6 +42,8 @@ export class TopBar {
     setText(this.procedure, `${description.side} wrist`);
     this.pauseButton = button("Pause", "{KeyP}", handlers.pause, ".quiet");
     this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet.sound");
+    this.headsetButton = button("Headset", "", handlers.headset, ".quiet");
+    this.headsetButton.hidden = true;
     this.device = button("mouse and keys", "", handlers.devices, ".quiet.device-held");
     this.device.title = "What the hands hold: choose a device, feel a wall, calibrate";
     const patient = make("span.patient", {}, description.pseudonym);
@@ -59,6 +63,7 @@ export class TopBar {
       this.device,
       this.pauseButton,
       this.soundButton,
+      this.headsetButton,
       button("Help", "?", handlers.help, ".quiet"),
       button("Full screen", "", handlers.fullScreen, ".quiet"),
     );
@@ -68,6 +73,16 @@ export class TopBar {
   showGamepad(on: boolean): void {
     this.page = on ? "gamepad" : "mouse and keys";
     this.showDevices(this.hands);
+  }
+
+  /** Whether this browser has a headset. */
+  offerHeadset(isThere: boolean): void {
+    this.headsetButton.hidden = !isThere;
+    this.headsetButton.title = "Operate with the headset's controllers, in the room";
+  }
+
+  showHeadset(isWorn: boolean): void {
+    this.headsetButton.setAttribute("aria-pressed", String(isWorn));
   }
 
   /** What the hands hold, and how it is. */

@@ -6,10 +6,17 @@ import { AppearancePanel } from "../appearance";
 import { fetchCases } from "../case_data";
 import { lostText } from "../devices";
 import { setText } from "../dom";
-import { faceNames, makeFrameMap } from "../frames";
+import { faceNames, makeFrameMap, type FrameMap } from "../frames";
 import { GamepadHand } from "../gamepad";
+import { Headset, headsetIsThere } from "../headset";
 import { followLayout } from "../key_caps";
-import type { CaseDescription, CaseList, HostMessage, ProcedureSummary } from "../protocol";
+import type {
+  CArmPicture,
+  CaseDescription,
+  CaseList,
+  HostMessage,
+  ProcedureSummary,
+} from "../protocol";
 import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
@@ -18,6 +25,7 @@ import { DeviceHands } from "./device_hands";
 import { startFrameLoop } from "./frame_loop";
 import { Hand } from "./hand";
 import { HandPointer } from "./hand_pointer";
+import { headsetRoom } from "./headset_room";
 import { listenToKeys } from "./keys";
 import { layOut } from "./layout";
 import { makePanels, type Panels } from "./panels";
@@ -40,6 +48,8 @@ export class TrainPage {
   private readonly pointer: HandPointer;
   private readonly sound: Sound;
   private readonly gamepad: GamepadHand;
+  private readonly headset: Headset;
+  private newestPicture: CArmPicture | undefined;
   private readonly deviceHands: DeviceHands;
   private readonly part: TakingPart;
   private readonly actions: Actions;
@@ -81,6 +91,7 @@ export class TrainPage {
     this.sound = this.makeSound();
     this.actions = this.makeActions();
     this.gamepad = new GamepadHand(padRoom(this.panels, this.hand, this.actions, this.part));
+    this.headset = this.makeHeadset(frames);
     this.deviceHands = new DeviceHands(this.theatre, (message) => this.connection.tell(message));
     this.panels.help.onOpen = (isOpen) => {
       this.part.showHelp(isOpen);
@@ -95,7 +106,7 @@ export class TrainPage {
     this.panels.start.setReady(false, "Connecting to the host…");
     this.panels.start.open();
     this.connection = this.connect();
-    this.stops = [showToTests(this.theatre, this.seen, this.sound), this.startLoop()];
+    this.stops = [showToTests(this.theatre, this.seen, this.sound, this.headset), this.startLoop()];
   }
 
   private makeAppearance(stage: HTMLElement): AppearancePanel {
@@ -135,6 +146,7 @@ export class TrainPage {
 
   dispose(): void {
     for (const stop of this.stops) stop();
+    this.headset.dispose();
     this.panels.notice.dispose();
     this.sound.dispose();
     this.panels.arm.pedal.releaseAll();
@@ -226,6 +238,9 @@ export class TrainPage {
           this.connection.tell({ type: "calibrate", hand, step });
         },
       },
+      headset: () => {
+        void this.headset.toggle();
+      },
       showDevices: () => {
         this.panels.devices.open();
       },
@@ -291,6 +306,18 @@ export class TrainPage {
         this.panels.tray.instruments.some((one) => one.id === id && one.is_joystick),
       snapshot: () => this.seen.latest,
     });
+  }
+
+  /** Its button is there only where the browser has one. */
+  private makeHeadset(frames: FrameMap): Headset {
+    const { panels, hand, seen, part, theatre } = this;
+    void headsetIsThere().then((isThere) => {
+      panels.top.offerHeadset(isThere);
+    });
+    const actions = (): Actions => this.actions;
+    const picture = (): CArmPicture | undefined => this.newestPicture;
+    const room = headsetRoom({ panels, hand, seen, part, theatre, actions, picture });
+    return new Headset(room, frames);
   }
 
   private makeSound(): Sound {
@@ -362,6 +389,7 @@ export class TrainPage {
         this.receive(message);
       },
       onPicture: (picture) => {
+        this.newestPicture = picture;
         this.panels.arm.add(picture);
       },
       say: (text) => {
@@ -401,6 +429,7 @@ export class TrainPage {
         this.part.showWaiting();
         break;
       case "exercise":
+        this.newestPicture = undefined;
         this.seen.begin(message);
         if (this.part.operates && this.seen.doing?.mode !== "assessed")
           this.panels.firstTouch.offer();
