@@ -17,6 +17,7 @@ import { withPictures } from "./c_arm.mjs";
 import { firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
+import { wearsHeadset } from "./headset.mjs";
 import { followFromElsewhere, printedLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
@@ -614,6 +615,7 @@ try {
   await holdsDevices(browser, station);
   await withPictures(browser, station);
   await changesTheLook(browser, station);
+  await wearsHeadset(browser, station);
   await operateAssessed(browser, station);
   await firstMinutes(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
