@@ -310,6 +310,32 @@ tinygltf::Node add_tube(tinygltf::Model& model, const cases::Structure& s) {
   return node;
 }
 
+template <typename T>
+int add_scalars(tinygltf::Model& model, const std::vector<T>& values) {
+  std::vector<float> floats;
+  for (const T& value : values) floats.push_back(static_cast<float>(value));
+  return add_accessor(model, floats, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR,
+                      TINYGLTF_TARGET_ARRAY_BUFFER);
+}
+
+tinygltf::Node add_joint(tinygltf::Model& model, const arthroscopy::JointWall& joint) {
+  const int mesh = add_mesh(model, {"joint_wall", &joint.surface, {}});
+  auto& attributes = model.meshes.back().primitives.front().attributes;
+  attributes["_LINING"] = add_scalars(model, joint.lining);
+  attributes["_FIBRE"] = add_accessor(model, as_floats(joint.fibre), TINYGLTF_COMPONENT_TYPE_FLOAT,
+                                      TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+  attributes["_PROXIMAL"] = add_scalars(model, joint.proximal);
+  attributes["_DISTAL"] = add_scalars(model, joint.distal);
+  attributes["_DISTAL_SHARE"] = add_scalars(model, joint.distal_share);
+  tinygltf::Node node;
+  node.name = "joint_wall";
+  node.mesh = mesh;
+  tinygltf::Value::Object extras;
+  extras["generated"] = tinygltf::Value(true);
+  node.extras = tinygltf::Value(extras);
+  return node;
+}
+
 }  // namespace
 
 std::vector<Vec3> smooth_normals(const TriangleMesh& mesh) {
@@ -323,7 +349,9 @@ std::vector<Vec3> smooth_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-std::string make_glb(std::span<const NamedMesh> meshes, std::span<const NamedTube> tubes) {
+std::string make_glb(std::span<const NamedMesh> meshes,
+                     std::span<const NamedTube> tubes,
+                     const arthroscopy::JointWall* joint) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "carpus";
@@ -341,6 +369,11 @@ std::string make_glb(std::span<const NamedMesh> meshes, std::span<const NamedTub
     scene.nodes.push_back(static_cast<int>(model.nodes.size()));
     model.nodes.push_back(std::move(node));
   }
+  if (joint != nullptr && !joint->surface.facets.empty()) {
+    tinygltf::Node node = add_joint(model, *joint);
+    scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(std::move(node));
+  }
   if (model.nodes.empty()) model.buffers.clear();  // the standard knows no empty buffer
   model.scenes.push_back(std::move(scene));
   model.defaultScene = 0;
@@ -352,7 +385,7 @@ std::string make_glb(std::span<const NamedMesh> meshes, std::span<const NamedTub
   return out.str();
 }
 
-std::string make_case_glb(const cases::CaseData& data) {
+std::string make_case_glb(const cases::CaseData& data, const arthroscopy::JointWall* joint) {
   std::vector<NamedMesh> meshes;
   std::deque<BoneBitmap> bitmaps;
   for (const cases::Bone& bone : data.bones) {
@@ -366,7 +399,7 @@ std::string make_case_glb(const cases::CaseData& data) {
   meshes.push_back({"skin", &data.skin, {}, anatomy::Tissue::Skin});
   std::vector<NamedTube> tubes;
   for (const cases::Structure& structure : data.structures) tubes.push_back({&structure});
-  return make_glb(meshes, tubes);
+  return make_glb(meshes, tubes, joint);
 }
 
 }  // namespace carpus::case_io

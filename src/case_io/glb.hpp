@@ -10,6 +10,7 @@
 
 #include "anatomy/material_table.hpp"
 #include "case_io/bone_bitmap.hpp"
+#include "arthroscopy/joint_wall.hpp"
 #include "cases/case_data.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -39,11 +40,17 @@ struct NamedTube {
 /// its six fields as they are in `extras`; a bitmap is a PNG within the file, its charts' borders
 /// split vertices, whose normals stay those of the whole surface.
 [[nodiscard]] std::string make_glb(std::span<const NamedMesh> meshes,
-                                   std::span<const NamedTube> tubes = {});
+                                   std::span<const NamedTube> tubes = {},
+                                   const arthroscopy::JointWall* joint = nullptr);
 
 /// Bones (where they are now, each with its bitmap), skin and structures of a case, named as in the
 /// case.
-[[nodiscard]] std::string make_case_glb(const cases::CaseData& data);
+/// @param joint  where there is one, a node `joint_wall` more: `extras` {generated: true}, and by
+/// vertex
+///     `_LINING` (soft_tissue::Lining), `_FIBRE`, `_PROXIMAL` and `_DISTAL` (place of a bone in the
+///     case), `_DISTAL_SHARE`.
+[[nodiscard]] std::string make_case_glb(const cases::CaseData& data,
+                                        const arthroscopy::JointWall* joint = nullptr);
 
 /// Vertex normals: the mean of the facets' normals, weighted by their area.
 [[nodiscard]] std::vector<Vec3> smooth_normals(const TriangleMesh& mesh);

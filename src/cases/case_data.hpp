@@ -6,11 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "anatomy/bone_id.hpp"
+#include "cases/arthroscopic_map.hpp"
 #include "cases/hand_motion.hpp"
 #include "cases/lesson.hpp"
 #include "cases/structures.hpp"
@@ -83,6 +85,9 @@ struct CaseData {
   HandMotion hand_motion;
   /// Tendons, arteries and nerves, generated; none in a case of an older program.
   std::vector<Structure> structures;
+  /// Portals, tour and walls of the joint, made of the generated soft tissue when a case is opened;
+  /// none in a case without it.
+  std::shared_ptr<const ArthroscopicMap> arthroscopy;
 };
 
 /// The bone or part with this name, or nullptr.

@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "arthroscopy/make_map.hpp"
 #include "case_io/case_folder.hpp"
+#include "case_io/soft_tissue_folder.hpp"
 #include "cases/make_hand_motion.hpp"
 #include "core/error.hpp"
 #include "procedures/built_in.hpp"
@@ -42,6 +44,10 @@ cases::CaseData load_case(const std::filesystem::path& folder) {
   cases::CaseData data = case_io::read_case(folder);
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   cases::ensure_hand_motion(data);
+  if (const auto tissue = case_io::read_soft_tissue(folder)) {
+    data.arthroscopy =
+        std::make_shared<const cases::ArthroscopicMap>(arthroscopy::make_map(data, *tissue));
+  }
   return data;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "case_io/glb.hpp"
+#include "case_io/soft_tissue_folder.hpp"
 #include "cli/find_cases.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
@@ -197,8 +198,19 @@ void offer_devices(server::Station& station, const server::Log& log_line) {
   }
 }
 
+/// With the inside of the joint where the case has soft tissue.
+std::string scene_of(const cases::CaseData& data, const fs::path& folder) {
+  const auto tissue = case_io::read_soft_tissue(folder);
+  if (!tissue) return case_io::make_case_glb(data);
+  const arthroscopy::JointWall wall = arthroscopy::make_joint_wall(data, *tissue);
+  return case_io::make_case_glb(data, &wall);
+}
+
 /// Serves the open case until it is stopped, or another is chosen: returns that one's id, or "".
-std::string serve_one(Station& s, const server::CaseShelf& shelf, const cases::CaseData& data) {
+std::string serve_one(Station& s,
+                      const server::CaseShelf& shelf,
+                      const cases::CaseData& data,
+                      const fs::path& folder) {
   const procedure::ProcedureList& procedures = procedures::built_in();
   std::string chosen;
   std::function<void()> stop;
@@ -211,7 +223,7 @@ std::string serve_one(Station& s, const server::CaseShelf& shelf, const cases::C
   server::Station station(data, procedures, s.records, s.log_line, {},
                           {choose, s.owners, s.quiz_owners, s.truth});
   if (!s.arguments.no_devices) offer_devices(station, s.log_line);
-  const server::StationHttp http(data, procedures, case_io::make_case_glb(data), s.records,
+  const server::StationHttp http(data, procedures, scene_of(data, folder), s.records,
                                  {station.owners(), station.quiz_owners()}, s.web, shelf, s.truth);
   server::NetworkServer network(
       s.options, [&http](const server::HttpRequest& request) { return http.answer(request); },
@@ -241,7 +253,7 @@ void run(const ServeArguments& arguments) {
   Station station{arguments, options, records, log_line, web};
   cases::CaseData data = load_case(open.folder());
   while (true) {
-    const std::string chosen = serve_one(station, found.shelf, data);
+    const std::string chosen = serve_one(station, found.shelf, data, open.folder());
     if (chosen.empty()) break;
     try {
       data = load_case(found.folders.at(chosen));

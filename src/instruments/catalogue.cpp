@@ -11,6 +11,7 @@
 namespace carpus::data {
 std::string_view instruments();
 std::string_view screws();
+std::string_view arthroscopes();
 }  // namespace carpus::data
 
 namespace carpus::instruments {
@@ -20,12 +21,14 @@ std::vector<Instrument> built_in() {
   std::vector<Instrument> all = read_instruments(data::instruments(), "instruments.json");
   std::vector<Instrument> screws = read_instruments(data::screws(), "screws.json");
   std::move(screws.begin(), screws.end(), std::back_inserter(all));
+  std::vector<Instrument> scopes = read_instruments(data::arthroscopes(), "arthroscopes.json");
+  std::move(scopes.begin(), scopes.end(), std::back_inserter(all));
   if (all.size() >= kNoInstrument)
     throw InvalidInput("instruments.json: more than 254 instruments");
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (all[i].id == all[j].id) {
-        throw InvalidInput("instruments.json, screws.json: " + all[i].id + ": there are two of it");
+        throw InvalidInput("instruments.json, screws.json, arthroscopes.json: " + all[i].id + ": there are two of it");
       }
     }
   }

@@ -73,6 +73,12 @@ struct BeamRod {
   bool only_in_hand = false;
 };
 
+/// Of a scope.
+struct Optic {
+  double view_angle_deg = 30.0;  ///< of its line of sight from the shaft
+  double field_deg = 80.0;       ///< across its round picture
+};
+
 struct Instrument {
   std::string id;                         ///< stable, snake_case: "guide_wire", "acutrak_2_mini_24"
   std::string name;                       ///< for people: "Guide wire 1.14 mm"
@@ -91,6 +97,8 @@ struct Instrument {
   bool is_gauge = false;            ///< reads how much of a wire is beyond its foot
   bool stays = false;               ///< let go in bone, it stays there
   bool is_joystick = false;         ///< a fragment goes where a hand takes it by this
+  bool enters_joints = false;       ///< through a portal, where it pivots; nowhere else
+  std::optional<Optic> optic;       ///< of a scope
   bool is_double_pointed = false;   ///< may be held and drawn by either end
   double gauge_step_mm = 0.0;       ///< of its scale
   std::vector<DrawnPart> parts;

@@ -268,6 +268,13 @@ Instrument read_instrument(JsonFields& fields, const Holders& holders) {
   }
   instrument.stays = fields.boolean_or("stays", false);
   instrument.is_joystick = fields.boolean_or("joystick", false);
+  instrument.enters_joints = fields.boolean_or("enters_joints", false);
+  if (fields.has("optic")) {
+    JsonFields optic = fields.object("optic");
+    instrument.optic =
+        Optic{optic.number("view_angle_deg", 0, 90), optic.number("field_deg", 10, 150)};
+    optic.refuse_unknown_fields();
+  }
   instrument.is_double_pointed = fields.boolean_or("double_pointed", false);
   instrument.parts = read_parts(fields);
   instrument.rods = read_rods(fields);

@@ -4,8 +4,10 @@
 // What was done, as far as any score needs it: plain values that the simulation hands over.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,32 @@ struct NearStructure {
   bool operator==(const NearStructure&) const = default;
 };
 
+/// Where a scope looked from, when that changed.
+struct ScopeLook {
+  Vec3 eye;   ///< frame Patient [mm]
+  Vec3 axis;  ///< unit
+  double traction_n = 0;
+  double flexion_rad = 0;
+  double radial_deviation_rad = 0;
+  double pronation_rad = 0;
+  bool operator==(const ScopeLook&) const = default;
+};
+
+/// What an arthroscopy left to be judged.
+struct ScopeRecord {
+  ScopeFacts facts;                      ///< at the end
+  std::array<double, kHands> path_mm{};  ///< of the scope's tip and the other's, in the joint
+  std::uint32_t entries = 0;             ///< of the scope into the joint
+  std::uint32_t pull_outs = 0;           ///< times that the scope came out of it
+  Tick looking_ticks = 0;                ///< with the scope in the joint
+  Tick tilted_ticks = 0;                 ///< of these, with the horizon off by more than 15 degrees
+  Tick warn_ticks = 0;                   ///< pressed with more than 3 N in the joint
+  Tick injury_ticks = 0;                 ///< more than 8 N
+  double most_force_n = 0;
+  double least_cosine = 1;  ///< of half the scope's field
+  std::vector<ScopeLook> looks;
+};
+
 /// One operation, finished or not.
 struct OperationRecord {
   std::vector<LineFacts> lines;  ///< that lie in bone at the end, in hand or not
@@ -50,9 +78,10 @@ struct OperationRecord {
   FractureFacts fracture;      ///< at the end
   /// By body, where it lies beside where the wrist's motion takes it; empty while none was moved.
   std::vector<Pose<frame::Bone, frame::Bone>> displacements;
-  double compression_n = 0.0;  ///< of the pieces on each other, by the screw
-  bool is_stripped = false;    ///< its thread gave way
-  double most_bend_rad = 0.0;  ///< by which any wire was bent for good
+  double compression_n = 0.0;        ///< of the pieces on each other, by the screw
+  bool is_stripped = false;          ///< its thread gave way
+  std::optional<ScopeRecord> scope;  ///< of an arthroscopy
+  double most_bend_rad = 0.0;        ///< by which any wire was bent for good
   std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;
   std::uint8_t aids = 0;              ///< bit i: Aid i was used

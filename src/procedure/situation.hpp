@@ -101,6 +101,16 @@ struct FractureFacts {
   bool operator==(const FractureFacts&) const = default;
 };
 
+/// What has been done by arthroscopy. A point's bit is its number in the tour.
+struct ScopeFacts {
+  /// By hand: in CaseData::arthroscopy the portal through which its instrument goes.
+  std::array<std::uint8_t, kHands> portal{kNoBody, kNoBody};
+  std::array<bool, kHands> is_in_joint{};
+  std::uint32_t points_seen = 0;    ///< for a second at a useful distance, nothing before them
+  std::uint32_t points_probed = 0;  ///< touched by the probe
+  bool operator==(const ScopeFacts&) const = default;
+};
+
 /// Everything so far; spans live as long as the call. Predicates are noexcept, allocate nothing and
 /// use only + - * / and sqrt: they run in every tick.
 struct Situation {
@@ -118,6 +128,7 @@ struct Situation {
   WristPose wrist;
   FractureFacts fracture;
   Aim aim;
+  ScopeFacts scope;
   bool is_finishing = false;  ///< this is the tick of Finish
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "cases/make_hand_motion.hpp"
 #include "cases/synthetic_case_test_support.hpp"
@@ -17,18 +18,34 @@
 namespace carpus::procedures {
 namespace {
 
+/// Two portals dorsal of the radius and nothing else.
+cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
+  cases::ArthroscopicMap map;
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone != BoneId::Radius) continue;
+    const auto body = static_cast<std::uint8_t>(b);
+    const Vec3 dorsal = (data.wrist_from_patient.inverse() * Direction<frame::Wrist>{{0, 0, -1}}).v;
+    const Vec3 skin = data.bones[b].surface.vertices.front() + dorsal * 30.0;
+    map.portals.push_back({"3-4", "3-4 portal", "", "radiocarpal", skin, -dorsal, 12, 1, body});
+    map.portals.push_back({"4-5", "4-5 portal", "", "radiocarpal", skin, -dorsal, 12, 1, body});
+  }
+  return map;
+}
+
 /// With the motion of its hand, made as for any case.
 const cases::CaseData& wrist() {
   static const cases::CaseData data = [] {
     cases::CaseData made = cases::test::synthetic_case();
     cases::ensure_hand_motion(made);
+    made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(portals_of(made));
     return made;
   }();
   return data;
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 2U);
+  ASSERT_EQ(built_in().all().size(), 3U);
+  EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
   EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);
   EXPECT_EQ(built_in().find("four_corner_fusion"), nullptr);

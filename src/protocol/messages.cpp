@@ -161,6 +161,17 @@ void write(FieldWriter& out, const CArm& in) {
   out.name("reference", name_of(in.reference));
 }
 
+void read(FieldReader& in, TurnScope& out) {
+  out.shaft_deg = in.number("shaft_deg", -180.0, 180.0);
+  out.camera_deg = in.number("camera_deg", -180.0, 180.0);
+}
+
+void write(FieldWriter& out, const TurnScope& in) {
+  out.name("type", "turn_scope");
+  out.value("shaft_deg", in.shaft_deg);
+  out.value("camera_deg", in.camera_deg);
+}
+
 void read(FieldReader& in, Pedal& out) { out.down = in.boolean("down"); }
 
 void write(FieldWriter& out, const Pedal& in) {
@@ -284,6 +295,7 @@ void read(FieldReader& in, Exercise& out) {
   in.records("bodies", 0, 32, out.bodies);
   in.record("wrist_limits", out.wrist_limits);
   if (in.has("ideal")) in.record("ideal", out.ideal.emplace());
+  if (in.has("arthroscopy")) in.record("arthroscopy", out.arthroscopy.emplace());
   in.records("decline_reasons", 0, 8, out.decline_reasons);
 }
 
@@ -301,6 +313,11 @@ void write(FieldWriter& out, const Exercise& in) {
     out.record("ideal", *in.ideal);
   } else {
     out.null("ideal");
+  }
+  if (in.arthroscopy) {
+    out.record("arthroscopy", *in.arthroscopy);
+  } else {
+    out.null("arthroscopy");
   }
   out.records("decline_reasons", in.decline_reasons);
 }
@@ -371,6 +388,35 @@ void write(FieldWriter& out, const Tissue& in) {
   out.name("type", "tissue");
   out.value("revision", in.revision);
   out.records("tracks", in.tracks);
+}
+
+void read(FieldReader& in, Scope& out) {
+  out.hand = in.integer("hand", 0, 1);
+  out.shaft_deg = in.number("shaft_deg", -180.0, 180.0);
+  out.camera_deg = in.number("camera_deg", -180.0, 180.0);
+  out.axis = in.vec3("axis", 2.0, 0.0);
+  out.up = in.vec3("up", 2.0, 0.0);
+  in.list("portals", 0, 2, 16, out.portals);
+  in.list("in_joint", 0, 2, 0, 1, out.in_joint);
+  in.list("points_seen", 0, 32, 1, 31, out.points_seen);
+  in.list("points_probed", 0, 32, 1, 31, out.points_probed);
+  in.list("points_in_view", 0, 32, 1, 31, out.points_in_view);
+  out.pull_outs = in.integer("pull_outs", 0, 4294967295);
+}
+
+void write(FieldWriter& out, const Scope& in) {
+  out.name("type", "scope");
+  out.value("hand", in.hand);
+  out.value("shaft_deg", in.shaft_deg);
+  out.value("camera_deg", in.camera_deg);
+  out.vec3("axis", in.axis);
+  out.vec3("up", in.up);
+  out.list("portals", in.portals, 16);
+  out.list("in_joint", in.in_joint);
+  out.list("points_seen", in.points_seen);
+  out.list("points_probed", in.points_probed);
+  out.list("points_in_view", in.points_in_view);
+  out.value("pull_outs", in.pull_outs);
 }
 
 void read(FieldReader& in, Actions& out) { in.records("actions", 0, 512, out.actions); }
@@ -514,7 +560,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 20> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 21> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -525,6 +571,7 @@ constexpr std::array<MessageKind<PageMessage>, 20> kPageMessageKinds{
      {"take_shot", &read_as<PageMessage, TakeShot>},
      {"tube", &read_as<PageMessage, Tube>},
      {"c_arm", &read_as<PageMessage, CArm>},
+     {"turn_scope", &read_as<PageMessage, TurnScope>},
      {"pedal", &read_as<PageMessage, Pedal>},
      {"find_devices", &read_as<PageMessage, FindDevices>},
      {"use_device", &read_as<PageMessage, UseDevice>},
@@ -536,11 +583,12 @@ constexpr std::array<MessageKind<PageMessage>, 20> kPageMessageKinds{
      {"quiz_answer", &read_as<PageMessage, QuizAnswer>},
      {"pause", &read_as<PageMessage, Pause>}}};
 
-constexpr std::array<MessageKind<HostMessage>, 12> kHostMessageKinds{
+constexpr std::array<MessageKind<HostMessage>, 13> kHostMessageKinds{
     {{"welcome", &read_as<HostMessage, Welcome>},
      {"exercise", &read_as<HostMessage, Exercise>},
      {"snapshot", &read_as<HostMessage, Snapshot>},
      {"tissue", &read_as<HostMessage, Tissue>},
+     {"scope", &read_as<HostMessage, Scope>},
      {"actions", &read_as<HostMessage, Actions>},
      {"event", &read_as<HostMessage, Event>},
      {"score", &read_as<HostMessage, Score>},

@@ -130,6 +130,16 @@ struct CArm {
   bool operator==(const CArm&) const = default;
 };
 
+/// How the scope is turned in the hand that holds it: its shaft, and apart from it the camera head;
+/// 0 looks and is up towards distal.
+struct TurnScope {
+  /// [deg] -180 to 180
+  double shaft_deg = 0.0;
+  /// [deg] -180 to 180
+  double camera_deg = 0.0;
+  bool operator==(const TurnScope&) const = default;
+};
+
 /// The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said
 /// to be held, so say it again meanwhile.
 struct Pedal {
@@ -218,6 +228,7 @@ using PageMessage = std::variant<Hello,
                                  TakeShot,
                                  Tube,
                                  CArm,
+                                 TurnScope,
                                  Pedal,
                                  FindDevices,
                                  UseDevice,
@@ -264,6 +275,8 @@ struct Exercise {
   WristLimits wrist_limits;
   /// in practice only, to be shown on request
   std::optional<Ideal> ideal;
+  /// where a scope is on the tray
+  std::optional<Arthroscopy> arthroscopy;
   /// none: it cannot be declined
   std::vector<DeclineReason> decline_reasons;
   bool operator==(const Exercise&) const = default;
@@ -315,6 +328,32 @@ struct Tissue {
   std::int64_t revision = 0;
   std::vector<Track> tracks;
   bool operator==(const Tissue&) const = default;
+};
+
+/// A scope in a hand; comes when any of it changed, after the snapshot that it belongs to.
+struct Scope {
+  /// 0 to 1
+  std::int64_t hand = 0;
+  /// [deg] -180 to 180
+  double shaft_deg = 0.0;
+  /// [deg] -180 to 180
+  double camera_deg = 0.0;
+  /// unit, where it looks
+  Vec3 axis;
+  /// unit, of the picture
+  Vec3 up;
+  /// by hand: through which its instrument goes; empty: none
+  std::vector<std::string> portals;
+  /// by hand
+  std::vector<std::int64_t> in_joint;
+  /// numbers
+  std::vector<std::int64_t> points_seen;
+  std::vector<std::int64_t> points_probed;
+  /// in practice only
+  std::vector<std::int64_t> points_in_view;
+  /// 0 to 4294967295
+  std::int64_t pull_outs = 0;
+  bool operator==(const Scope&) const = default;
 };
 
 /// All that can be asked for, and whether it would be done; comes when any of it changed.
@@ -401,6 +440,7 @@ using HostMessage = std::variant<Welcome,
                                  Exercise,
                                  Snapshot,
                                  Tissue,
+                                 Scope,
                                  Actions,
                                  Event,
                                  Score,

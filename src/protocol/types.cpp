@@ -311,6 +311,62 @@ void write(FieldWriter& out, const Instrument& in) {
   out.records("parts", in.parts);
 }
 
+void read(FieldReader& in, Portal& out) {
+  out.id = in.string("id", 16);
+  out.name = in.string("name", 64);
+  out.landmarks = in.string("landmarks", 256);
+  out.skin_mm = in.vec3("skin_mm", 10000.0, 0.0);
+  out.inwards = in.vec3("inwards", 2.0, 0.0);
+  out.capsule_mm = in.number("capsule_mm", 0.0, 100.0);
+  out.body = in.string("body", 32);
+}
+
+void write(FieldWriter& out, const Portal& in) {
+  out.text("id", in.id, 16);
+  out.text("name", in.name, 64);
+  out.text("landmarks", in.landmarks, 256);
+  out.vec3("skin_mm", in.skin_mm);
+  out.vec3("inwards", in.inwards);
+  out.value("capsule_mm", in.capsule_mm);
+  out.text("body", in.body, 32);
+}
+
+void read(FieldReader& in, TourPoint& out) {
+  out.number = in.integer("number", 1, 31);
+  out.name = in.string("name", 128);
+  out.found_by = in.string("found_by", 256);
+  out.is_probed = in.boolean("is_probed");
+  out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
+  out.body = in.string("body", 32);
+}
+
+void write(FieldWriter& out, const TourPoint& in) {
+  out.value("number", in.number);
+  out.text("name", in.name, 128);
+  out.text("found_by", in.found_by, 256);
+  out.value("is_probed", in.is_probed);
+  out.vec3("at_mm", in.at_mm);
+  out.text("body", in.body, 32);
+}
+
+void read(FieldReader& in, Arthroscopy& out) {
+  out.scope = in.string("scope", 64);
+  out.view_angle_deg = in.number("view_angle_deg", 0.0, 90.0);
+  out.field_deg = in.number("field_deg", 10.0, 150.0);
+  out.distal = in.vec3("distal", 2.0, 0.0);
+  in.records("portals", 0, 16, out.portals);
+  in.records("points", 0, 32, out.points);
+}
+
+void write(FieldWriter& out, const Arthroscopy& in) {
+  out.text("scope", in.scope, 64);
+  out.value("view_angle_deg", in.view_angle_deg);
+  out.value("field_deg", in.field_deg);
+  out.vec3("distal", in.distal);
+  out.records("portals", in.portals);
+  out.records("points", in.points);
+}
+
 void read(FieldReader& in, Body& out) {
   out.name = in.string("name", 32);
   out.label = in.string("label", 64);

@@ -444,6 +444,51 @@ struct Instrument {
   bool operator==(const Instrument&) const = default;
 };
 
+/// A way through skin and capsule into a joint, as scanned; generated.
+struct Portal {
+  std::string id;
+  std::string name;
+  /// how it is found
+  std::string landmarks;
+  Vec3 skin_mm;
+  /// unit
+  Vec3 inwards;
+  /// from the skin [mm] 0 to 100
+  double capsule_mm = 0.0;
+  /// that takes it along
+  std::string body;
+  bool operator==(const Portal&) const = default;
+};
+
+/// A place of the diagnostic tour.
+struct TourPoint {
+  /// 1 to 31
+  std::int64_t number = 0;
+  std::string name;
+  std::string found_by;
+  /// to be touched, not only seen
+  bool is_probed = false;
+  Vec3 at_mm;
+  /// that takes it along
+  std::string body;
+  bool operator==(const TourPoint&) const = default;
+};
+
+/// What an arthroscopy goes by; all of it generated, not seen in the CT.
+struct Arthroscopy {
+  /// id of the first scope on the tray
+  std::string scope;
+  /// [deg] 0 to 90
+  double view_angle_deg = 0.0;
+  /// [deg] 10 to 150
+  double field_deg = 0.0;
+  /// unit; up in a level picture
+  Vec3 distal;
+  std::vector<Portal> portals;
+  std::vector<TourPoint> points;
+  bool operator==(const Arthroscopy&) const = default;
+};
+
 /// A body that moves as one: a bone or a fragment. Its pose takes places as they were scanned (and
 /// as /api/scene.glb has them) to where they are now.
 struct Body {

@@ -186,6 +186,10 @@ void Station::on_message(const protocol::Tube& tube) {
   if (has_exercise()) command(session::Session::take(tube));
 }
 
+void Station::on_message(const protocol::TurnScope& turn) {
+  if (has_exercise()) command(session::Session::take(turn));
+}
+
 void Station::on_message(const protocol::CArm& c_arm) {
   if (has_exercise()) exercise_->loop().hold(exercise_->session().take(c_arm));
 }

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,10 @@ class BodyNames {
   [[nodiscard]] const std::string& words(std::size_t body) const noexcept;
   /// "extensor pollicis longus"; "structure" where there is no such one.
   [[nodiscard]] const std::string& structure(std::size_t index) const noexcept;
+  /// "3-4 portal"; "a portal" where there is no such one.
+  [[nodiscard]] const std::string& portal(std::size_t index) const noexcept;
+  /// "radial styloid", by its number in the tour; "a point" where there is no such one.
+  [[nodiscard]] const std::string& tour_point(std::int32_t number) const noexcept;
 
  private:
   struct Body {
@@ -32,6 +38,8 @@ class BodyNames {
   };
   std::vector<Body> bodies_;
   std::vector<std::string> structures_;
+  std::vector<std::string> portals_;
+  std::map<std::int32_t, std::string> tour_;
 };
 
 }  // namespace carpus::session

@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "instruments/instrument.hpp"
 #include "session/body_names.hpp"
+#include "session/scope_message.hpp"
 
 namespace carpus::session {
 
@@ -160,6 +161,7 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
         {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
   }
   if (mode == procedure::Mode::Practice) message.ideal = ideal_of(procedure.opening(data).aim);
+  message.arthroscopy = arthroscopy_of(data, procedure);
   message.wrist_limits = message_of(data.hand_motion.limits);
   for (const procedure::DeclineReason& reason : procedure.decline.reasons) {
     message.decline_reasons.push_back({reason.id, reason.label});

@@ -87,6 +87,14 @@ class Sentence {
         return subject() + " turned in the " +
                bodies_.structure(static_cast<std::size_t>(event_.detail)) +
                ": spread the way with the needle sleeve first";
+      case EventKind::EnteredJoint:
+        return subject() + " is in the joint, by " + bodies_.portal(place());
+      case EventKind::LeftJoint:
+        return subject() + " came out of the joint";
+      case EventKind::PointSeen:
+        return "Seen: " + bodies_.tour_point(event_.detail);
+      case EventKind::PointProbed:
+        return "Probed: " + bodies_.tour_point(event_.detail);
       case EventKind::None:
         break;
     }
@@ -98,6 +106,7 @@ class Sentence {
   [[nodiscard]] const std::string& bone() const {
     return bodies_.words(static_cast<std::size_t>(event_.detail));
   }
+  [[nodiscard]] std::size_t place() const { return static_cast<std::size_t>(event_.detail); }
   [[nodiscard]] std::string seconds() const {
     const auto tenths = static_cast<long>(event_.value * 10 + 0.5);
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
@@ -129,12 +138,14 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 23> kNames{
-    "none",           "touched_bone",  "entered_bone",    "left_far_side", "withdrawn",
-    "shot_taken",     "gauge_read",    "taken",           "put_down",      "seated",
-    "step_completed", "undone",        "finished",        "refused",       "wrong_bone",
-    "slipped",        "wrist_stopped", "live_ended",      "wire_bent",     "wire_broke",
-    "screw_stripped", "aid_used",      "structure_struck"};
+constexpr std::array<std::string_view, 27> kNames{
+    "none",           "touched_bone", "entered_bone",     "left_far_side",
+    "withdrawn",      "shot_taken",   "gauge_read",       "taken",
+    "put_down",       "seated",       "step_completed",   "undone",
+    "finished",       "refused",      "wrong_bone",       "slipped",
+    "wrist_stopped",  "live_ended",   "wire_bent",        "wire_broke",
+    "screw_stripped", "aid_used",     "structure_struck", "entered_joint",
+    "left_joint",     "point_seen",   "point_probed"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {

@@ -159,6 +159,14 @@ Command command_of(const protocol::Tube& message) noexcept {
   return command;
 }
 
+Command command_of(const protocol::TurnScope& message) noexcept {
+  Command command;
+  command.kind = CommandKind::TurnScope;
+  command.rotation_deg = message.shaft_deg;
+  command.tilt_deg = message.camera_deg;
+  return command;
+}
+
 Command command_of(const protocol::TakeShot& message, const simulation::WristPose& wrist) noexcept {
   Command command;
   command.kind = CommandKind::TakeShot;

@@ -31,6 +31,7 @@ void hold(HeldInput& held, const protocol::Pedal& message) noexcept;
                                                      const procedure::Procedure& procedure);
 /// The nearest voltage that the tube has.
 [[nodiscard]] simulation::Command command_of(const protocol::Tube& message) noexcept;
+[[nodiscard]] simulation::Command command_of(const protocol::TurnScope& message) noexcept;
 /// @param wrist  as it is held now: angles may be counted from it.
 [[nodiscard]] simulation::Command command_of(const protocol::TakeShot& message,
                                              const simulation::WristPose& wrist) noexcept;

@@ -10,6 +10,7 @@
 #include "session/descriptions.hpp"
 #include "session/entry_hint.hpp"
 #include "session/event_text.hpp"
+#include "session/scope_message.hpp"
 
 namespace carpus::session {
 
@@ -44,6 +45,10 @@ simulation::Command Session::take(const protocol::TakeShot& message) noexcept {
 }
 
 simulation::Command Session::take(const protocol::Tube& message) noexcept {
+  return command_of(message);
+}
+
+simulation::Command Session::take(const protocol::TurnScope& message) noexcept {
   return command_of(message);
 }
 
@@ -89,6 +94,9 @@ std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& n
     sent_poses_ = poses;
   }
   messages.emplace_back(std::move(snapshot));
+  std::optional<protocol::Scope> scope = scope_message(data_, now);
+  if (scope && scope != sent_scope_) messages.emplace_back(*scope);
+  sent_scope_ = std::move(scope);
   return messages;
 }
 
@@ -96,6 +104,7 @@ void Session::forget_what_was_sent() noexcept {
   sent_tissue_.reset();
   sent_poses_.clear();
   sent_actions_.actions.clear();
+  sent_scope_.reset();
 }
 
 protocol::LoggedEvent Session::describe(const simulation::Event& event) const {

@@ -37,6 +37,7 @@ class Session {
   /// Moves the C-arm there, too.
   [[nodiscard]] simulation::Command take(const protocol::TakeShot& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::Tube& message) noexcept;
+  [[nodiscard]] static simulation::Command take(const protocol::TurnScope& message) noexcept;
   const HeldInput& take(const protocol::CArm& message) noexcept;
   const HeldInput& take(const protocol::Pedal& message) noexcept;
   [[nodiscard]] const HeldInput& held() const noexcept { return held_; }
@@ -75,6 +76,7 @@ class Session {
   std::optional<std::uint32_t> sent_tissue_;
   std::vector<BonePose> sent_poses_;
   protocol::Actions sent_actions_;
+  std::optional<protocol::Scope> sent_scope_;
 };
 
 }  // namespace carpus::session

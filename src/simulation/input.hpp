@@ -34,11 +34,12 @@ enum class CommandKind : std::uint8_t {
   Finish = 7,     ///< end the operation
   ForgetCheckpoints = 8,  ///< a host went on from a keyframe: undo does not reach back before now
   PickUpFarEnd = 9,       ///< `hand` takes hold of item `index` at its other end, beyond the bone
-  Decline = 10,  ///< end it without a fixation; bit i of `index`: for the procedure's reason i
-  UseAid = 11,   ///< `index`: which procedure::Aid; practice only
-  SetTube = 12,  ///< `index`: a procedure::TubeSetting, from the next pulse on
+  Decline = 10,    ///< end it without a fixation; bit i of `index`: for the procedure's reason i
+  UseAid = 11,     ///< `index`: which procedure::Aid; practice only
+  SetTube = 12,    ///< `index`: a procedure::TubeSetting, from the next pulse on
+  TurnScope = 13,  ///< the scope's shaft is turned to `rotation_deg`, its camera head to `tilt_deg`
 };
-inline constexpr std::uint8_t kCommandKinds = 13;
+inline constexpr std::uint8_t kCommandKinds = 14;
 
 struct Command {
   CommandKind kind = CommandKind::None;

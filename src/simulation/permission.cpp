@@ -149,6 +149,12 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::UseAid:
       if (command.index >= procedure::kAidCount) return Refusal::UnknownCommand;
       return now.mode == procedure::Mode::Assessed ? Refusal::NoAidsWhenAssessed : Refusal::None;
+    case CommandKind::TurnScope: {
+      const bool is_turn = command.rotation_deg >= -180.0 && command.rotation_deg <= 180.0 &&
+                           command.tilt_deg >= -180.0 && command.tilt_deg <= 180.0;
+      if (!is_turn) return Refusal::UnknownCommand;
+      return now.scope.hand < kHands ? Refusal::None : Refusal::NothingInHand;
+    }
     case CommandKind::SetTube:
       return command.index < procedure::kTubeSettings ? Refusal::None : Refusal::UnknownCommand;
     case CommandKind::Finish:

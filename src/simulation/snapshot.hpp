@@ -75,6 +75,19 @@ struct HandView {
   bool operator==(const HandView&) const = default;
 };
 
+/// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
+struct ScopeView {
+  std::uint8_t hand = kNoHand;  ///< that holds one
+  double shaft_turn_deg = 0.0;
+  double camera_turn_deg = 0.0;
+  Vec3 axis_in_patient{0, 0, -1};  ///< where it looks
+  Vec3 up_in_patient{0, 1, 0};     ///< of the picture
+  procedure::ScopeFacts facts;
+  std::uint32_t points_in_view = 0;  ///< now, by their numbers
+  std::uint32_t pull_outs = 0;
+  bool operator==(const ScopeView&) const = default;
+};
+
 /// Bone that was removed: a round way, tapered, frame Bone of `body`.
 struct TrackView {
   std::uint8_t body = kNoBody;
@@ -111,6 +124,10 @@ enum class EventKind : std::uint8_t {
   AidUsed = 21,        ///< item: in the hand that asked; detail: procedure::Aid
   /// Something turned in a tendon, artery or nerve; detail: its place in the case.
   StructureStruck = 22,
+  EnteredJoint = 23,  ///< through a portal; detail: its place in the case's list
+  LeftJoint = 24,     ///< likewise
+  PointSeen = 25,     ///< detail: its number in the tour
+  PointProbed = 26,   ///< likewise
 };
 
 struct Event {
@@ -149,6 +166,7 @@ struct Snapshot {
   std::uint32_t pulses = 0;           ///< of the tube in all
   std::uint64_t dose_units = 0;       ///< procedure::dose_units of them
   procedure::TubeSetting tube = procedure::kUsualTube;
+  ScopeView scope;
   std::uint8_t aids = 0;  ///< bit i: procedure::Aid i was used
   std::uint32_t undos = 0;
   bool can_undo = false;

@@ -67,6 +67,9 @@ World::Model::Model(const cases::CaseData& case_data,
     centres.push_back(count > 0 ? sum * (1.0 / count) : Vec3{});
   }
   fracture = detail::fracture_in(case_data, kinds);
+  for (const InstrumentIndex index : declared.tray) {
+    if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
+  }
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
     throw InvalidInput("simulation: the procedure " + declared.id +
@@ -196,6 +199,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     }
   }
   watch_structures(model);
+  watch_scopes(model);
   tick_off_steps(model);
   if (is_finishing) {
     spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);
@@ -258,6 +262,7 @@ procedure::OperationRecord World::operation_record() const {
   }
   record.compression_n = state.now.compression_n;
   record.is_stripped = state.now.is_stripped;
+  if (model_->map != nullptr) record.scope = state.scope_record(*model_);
   record.most_bend_rad = state_->spent.most_bend_rad;
   record.broken_wires = state_->spent.broken_wires;
   record.undos = state.spent.undos;

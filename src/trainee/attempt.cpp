@@ -4,18 +4,21 @@
 
 #include "simulation/keyframe_due.hpp"
 #include "simulation/world.hpp"
+#include "trainee/arthroscopist.hpp"
 #include "trainee/scripted_trainee.hpp"
 
 namespace carpus::trainee {
 
-Attempt operate(const cases::CaseData& data,
-                const procedure::Procedure& procedure,
-                Skill skill,
-                std::uint64_t seed,
-                const std::string& program_version) {
+namespace {
+
+template <typename Trainee>
+Attempt operate_as(Trainee trainee,
+                   const cases::CaseData& data,
+                   const procedure::Procedure& procedure,
+                   std::uint64_t seed,
+                   const std::string& program_version) {
   simulation::World world(data, procedure, seed);
   simulation::Recorder recorder(program_version, simulation::fingerprint_of(data), procedure, seed);
-  ScriptedTrainee trainee(data, procedure, skill, seed);
   Attempt attempt;
   while (!world.now().finished) {
     const simulation::Input input = trainee.next(world.now());
@@ -33,15 +36,40 @@ Attempt operate(const cases::CaseData& data,
   return attempt;
 }
 
+template <typename Trainee>
+procedure::ScoreReport score_as(Trainee trainee,
+                                const cases::CaseData& data,
+                                const procedure::Procedure& procedure,
+                                std::uint64_t seed) {
+  simulation::World world(data, procedure, seed);
+  world.leave_out_hashes();
+  while (!world.now().finished) world.step(trainee.next(world.now()));
+  return procedure.score(data, world.operation_record());
+}
+
+}  // namespace
+
+Attempt operate(const cases::CaseData& data,
+                const procedure::Procedure& procedure,
+                Skill skill,
+                std::uint64_t seed,
+                const std::string& program_version) {
+  if (is_arthroscopy(procedure)) {
+    return operate_as(ScriptedArthroscopist(data, procedure, skill, seed), data, procedure, seed,
+                      program_version);
+  }
+  return operate_as(ScriptedTrainee(data, procedure, skill, seed), data, procedure, seed,
+                    program_version);
+}
+
 procedure::ScoreReport score_of_operation(const cases::CaseData& data,
                                           const procedure::Procedure& procedure,
                                           Skill skill,
                                           std::uint64_t seed) {
-  simulation::World world(data, procedure, seed);
-  world.leave_out_hashes();
-  ScriptedTrainee trainee(data, procedure, skill, seed);
-  while (!world.now().finished) world.step(trainee.next(world.now()));
-  return procedure.score(data, world.operation_record());
+  if (is_arthroscopy(procedure)) {
+    return score_as(ScriptedArthroscopist(data, procedure, skill, seed), data, procedure, seed);
+  }
+  return score_as(ScriptedTrainee(data, procedure, skill, seed), data, procedure, seed);
 }
 
 }  // namespace carpus::trainee

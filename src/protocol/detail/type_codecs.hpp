@@ -56,6 +56,15 @@ void write(FieldWriter& out, const InstrumentPart& in);
 void read(FieldReader& in, Instrument& out);
 void write(FieldWriter& out, const Instrument& in);
 
+void read(FieldReader& in, Portal& out);
+void write(FieldWriter& out, const Portal& in);
+
+void read(FieldReader& in, TourPoint& out);
+void write(FieldWriter& out, const TourPoint& in);
+
+void read(FieldReader& in, Arthroscopy& out);
+void write(FieldWriter& out, const Arthroscopy& in);
+
 void read(FieldReader& in, Body& out);
 void write(FieldWriter& out, const Body& in);
 

@@ -42,6 +42,10 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::SetTube:
       spent.tube = command.index;
       return;
+    case CommandKind::TurnScope:
+      scope_state.shaft_turn_deg = command.rotation_deg;
+      scope_state.camera_turn_deg = command.tilt_deg;
+      return;
     case CommandKind::Decline:
       spent.ended = static_cast<std::uint8_t>(command.index << 1U);
       is_finishing = true;

@@ -37,8 +37,10 @@ void World::State::look(std::uint8_t hand, const Vec3& tip, const Vec3& shaft) n
   scene.update_instrument(hand, tool_pose(tip, shaft), inverses);
 }
 
-/// Pushes the instrument, without turning it, out of every bone that it penetrates.
-World::State::Resolved World::State::push_out(std::uint8_t hand,
+/// Pushes the instrument, without turning it, out of every bone that it penetrates, and its tip out
+/// of what else does not yield to it.
+World::State::Resolved World::State::push_out(const Model& model,
+                                              std::uint8_t hand,
                                               Vec3 tip,
                                               const Vec3& shaft) noexcept {
   Resolved result{tip, true, false};
@@ -52,6 +54,10 @@ World::State::Resolved World::State::push_out(std::uint8_t hand,
       if (!(squared_length(contact.normal.v) > 0.0)) continue;
       deepest_mm = -contact.gap_mm;
       normal = (poses[pair.bone] * contact.normal).v;
+    }
+    if (const Wall wall = wall_at(model, hand, tip); wall.depth_mm > deepest_mm) {
+      deepest_mm = wall.depth_mm;
+      normal = wall.out;
     }
     if (!(deepest_mm > kToleranceMm)) {
       result.tip = tip;
@@ -91,13 +97,13 @@ void World::State::move_free(const Model& model, std::uint8_t hand) noexcept {
   Item& item = *in_hand(hand);
   if (lead_through_sleeve(model, hand)) return rest_or_engage(model, hand);
   const Vec3 before = item.shaft;
-  turn_towards(item, spent.hands[hand].plan.shaft);
+  turn_towards(item, led_by_portal(model, hand, item.tip, spent.hands[hand].plan.shaft));
   // Bones may have moved into it, or it turned into them.
-  Resolved turned = push_out(hand, item.tip, item.shaft);
+  Resolved turned = push_out(model, hand, item.tip, item.shaft);
   if (turned.is_wedged) {  // no room to turn
     ++faults.unresolved_contacts;
     item.shaft = before;
-    turned = push_out(hand, item.tip, item.shaft);
+    turned = push_out(model, hand, item.tip, item.shaft);
   }
   if (turned.is_wedged) {  // between bones that close on it: it holds them
     stop_wrist(model);
@@ -110,7 +116,7 @@ void World::State::move_free(const Model& model, std::uint8_t hand) noexcept {
 
 /// Moves the tip towards the target in steps too short to pass through anything, pushing the
 /// instrument out of bone after each: so it slides along surfaces.
-void World::State::chase(const Model& /*model*/, std::uint8_t hand, const Vec3& target) noexcept {
+void World::State::chase(const Model& model, std::uint8_t hand, const Vec3& target) noexcept {
   constexpr double kArrivedMm = 1e-9;
   constexpr double kNoProgressMm = 1e-4;
   Item& item = *in_hand(hand);
@@ -119,7 +125,7 @@ void World::State::chase(const Model& /*model*/, std::uint8_t hand, const Vec3& 
     const Vec3 wanted = target - item.tip;
     const double far = length(wanted);
     const Vec3 next = far > kSubstepMm ? item.tip + wanted * (kSubstepMm / far) : target;
-    const Resolved resolved = push_out(hand, next, item.shaft);
+    const Resolved resolved = push_out(model, hand, next, item.shaft);
     if (resolved.is_wedged) {
       ++faults.unresolved_contacts;
       return;
@@ -130,7 +136,7 @@ void World::State::chase(const Model& /*model*/, std::uint8_t hand, const Vec3& 
       const double pressed = -dot(target - item.tip, held.contact_normal);
       const Vec3 along = target - item.tip + held.contact_normal * pressed;
       if (pressed > 0 && length(along) <= instruments::kTipFriction * pressed &&
-          push_out(hand, item.tip, item.shaft).is_free) {
+          push_out(model, hand, item.tip, item.shaft).is_free) {
         return;
       }
     }

@@ -122,6 +122,7 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.pulses = spent.pulses;
   snapshot.dose_units = spent.dose_units;
   snapshot.tube = spent.tube;
+  publish_scope(model);
   snapshot.aids = spent.aids;
   snapshot.undos = spent.undos;
   snapshot.can_undo = checkpoint_count > 0 && spent.ended == 0;
@@ -142,6 +143,11 @@ void World::State::update_hash(const Model& model) noexcept {
   visit(spent, fields);
   // A case without structures keeps the hashes that it had before there were any.
   if (structure_state.count > 0) visit(structure_state, fields);
+  // Nor do procedures in which nothing enters joints.
+  if (model.map != nullptr) {
+    visit(scope_state, fields);
+    if (scope_state.look_count > 0) detail::visit_look(looks[scope_state.look_count - 1], fields);
+  }
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
   tissue.cuts().add_to(hash);
   for (const HandView& hand : snapshot.hands) fields(hand.force_in_patient);

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A world's state as bytes, for keyframes: every field in the order of its struct's visit(), all
-// little-endian (of structures only where the case has any), then the tissue's changes, then a
-// checksum. Undo does not reach back before one.
+// little-endian (of structures only where the case has any, of a scope only in an arthroscopy),
+// then the tissue's changes, then a checksum. Undo does not reach back before one.
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <memory>
@@ -66,6 +67,12 @@ std::vector<std::byte> World::write_state() const {
   visit(state.now, fields);
   visit(state.spent, fields);
   if (state.structures.size() > 0) visit(state.structure_state, fields);
+  if (model_->map != nullptr) {
+    visit(state.scope_state, fields);
+    for (std::size_t i = 0; i < state.scope_state.look_count; ++i) {
+      detail::visit_look(state.looks[i], fields);
+    }
+  }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
   }
@@ -96,6 +103,14 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   visit(*spent, fields);
   detail::StructureState structures;
   if (state_->structures.size() > 0) visit(structures, fields);
+  detail::ScopeState scope;
+  std::vector<procedure::ScopeLook> looks;
+  if (model_->map != nullptr) {
+    visit(scope, fields);
+    is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size());
+    if (is_sound) looks.resize(scope.look_count);
+    for (procedure::ScopeLook& look : looks) detail::visit_look(look, fields);
+  }
   const detail::StateBounds bounds{model_->data.bones.size(),
                                    model_->catalogue.size(),
                                    model_->procedure.steps.size(),
@@ -110,6 +125,8 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->now = *now;
   next->spent = *spent;
   next->structure_state = structures;
+  next->scope_state = scope;
+  std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);
   }

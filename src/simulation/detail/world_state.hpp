@@ -14,12 +14,14 @@
 
 #include "anatomy/bone_solid.hpp"
 #include "anatomy/carpal_kinematics.hpp"
+#include "arthroscopy/optics.hpp"
 #include "contact/instrument_scene.hpp"
 #include "fields/contact_field.hpp"
 #include "haptics/virtual_coupling.hpp"
 #include "instruments/instrument.hpp"
 #include "simulation/detail/bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
+#include "simulation/detail/scope_watch.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
 #include "simulation/permission.hpp"
@@ -45,6 +47,8 @@ struct World::Model {
   std::vector<Vec3> centres;                      ///< of the bodies' surfaces, frame Bone
   std::vector<BoneSolid> target;  ///< one: the target's fragments as scanned, gap bridged
   procedure::Opening opening;
+  /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
+  const cases::ArthroscopicMap* map = nullptr;
 };
 
 /// Everything that changes.
@@ -54,6 +58,8 @@ struct World::State {
   detail::Operated now;
   detail::Spent spent;
   detail::StructureState structure_state;
+  detail::ScopeState scope_state;
+  std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   detail::StructureWatch structures;
   detail::Tissue tissue;
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
@@ -147,7 +153,10 @@ struct World::State {
     bool is_free = true;     ///< nothing was touched
     bool is_wedged = false;  ///< could not be pushed out within the bound
   };
-  [[nodiscard]] Resolved push_out(std::uint8_t hand, Vec3 tip, const Vec3& shaft) noexcept;
+  [[nodiscard]] Resolved push_out(const Model& model,
+                                  std::uint8_t hand,
+                                  Vec3 tip,
+                                  const Vec3& shaft) noexcept;
   void look(std::uint8_t hand, const Vec3& tip, const Vec3& shaft) noexcept;
   struct Touched {
     std::uint8_t body = kNoBody;
@@ -221,6 +230,39 @@ struct World::State {
   void watch_structures(const Model& model) noexcept;
   void note_sleeves(const Model& model) noexcept;
   [[nodiscard]] BareParts bare_parts(std::uint8_t index, double radius_mm) const noexcept;
+
+  // scopes.cpp
+  struct WayIn {
+    Vec3 skin;
+    Vec3 inwards;
+    double capsule_mm = 0.0;
+  };
+  struct Wall {
+    double depth_mm = 0.0;
+    Vec3 out;
+  };
+  [[nodiscard]] bool enters_joints(const Model& model, const detail::Item& item) const noexcept;
+  [[nodiscard]] WayIn way_in(const Model& model, std::uint8_t portal) const noexcept;
+  [[nodiscard]] Vec3 led_by_portal(const Model& model,
+                                   std::uint8_t hand,
+                                   const Vec3& tip,
+                                   const Vec3& shaft) const noexcept;
+  [[nodiscard]] Wall wall_at(const Model& model,
+                             std::uint8_t hand,
+                             const Vec3& tip) const noexcept;
+  void follow_portal(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  [[nodiscard]] bool is_in_sight(const Model& model,
+                                 const Vec3& eye,
+                                 const Vec3& point) const noexcept;
+  void look_at_points(const Model& model, const arthroscopy::Sight& sight) noexcept;
+  void note_scope_look(const arthroscopy::Sight& sight) noexcept;
+  void note_probing(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,
+                                                           const detail::Item& item) const noexcept;
+  void watch_scopes(const Model& model) noexcept;
+  [[nodiscard]] procedure::ScopeFacts scope_facts() const noexcept;
+  void publish_scope(const Model& model) noexcept;
+  [[nodiscard]] procedure::ScopeRecord scope_record(const Model& model) const;
 
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;

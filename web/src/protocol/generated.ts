@@ -305,6 +305,48 @@ export interface Instrument {
   readonly parts: readonly InstrumentPart[];
 }
 
+/** A way through skin and capsule into a joint, as scanned; generated. */
+export interface Portal {
+  readonly id: string;
+  readonly name: string;
+  /** how it is found */
+  readonly landmarks: string;
+  readonly skin_mm: Vec3;
+  /** unit */
+  readonly inwards: Vec3;
+  /** from the skin [mm] 0 to 100 */
+  readonly capsule_mm: number;
+  /** that takes it along */
+  readonly body: string;
+}
+
+/** A place of the diagnostic tour. */
+export interface TourPoint {
+  /** 1 to 31 */
+  readonly number: number;
+  readonly name: string;
+  readonly found_by: string;
+  /** to be touched, not only seen */
+  readonly is_probed: boolean;
+  readonly at_mm: Vec3;
+  /** that takes it along */
+  readonly body: string;
+}
+
+/** What an arthroscopy goes by; all of it generated, not seen in the CT. */
+export interface Arthroscopy {
+  /** id of the first scope on the tray */
+  readonly scope: string;
+  /** [deg] 0 to 90 */
+  readonly view_angle_deg: number;
+  /** [deg] 10 to 150 */
+  readonly field_deg: number;
+  /** unit; up in a level picture */
+  readonly distal: Vec3;
+  readonly portals: readonly Portal[];
+  readonly points: readonly TourPoint[];
+}
+
 /** A body that moves as one: a bone or a fragment. Its pose takes places as they were scanned (and as /api/scene.glb has them) to where they are now. */
 export interface Body {
   /** of its node in /api/scene.glb */
@@ -755,6 +797,15 @@ export interface CArmMessage {
   readonly reference: AngleReference;
 }
 
+/** How the scope is turned in the hand that holds it: its shaft, and apart from it the camera head; 0 looks and is up towards distal. */
+export interface TurnScopeMessage {
+  readonly type: "turn_scope";
+  /** [deg] -180 to 180 */
+  readonly shaft_deg: number;
+  /** [deg] -180 to 180 */
+  readonly camera_deg: number;
+}
+
 /** The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said to be held, so say it again meanwhile. */
 export interface PedalMessage {
   readonly type: "pedal";
@@ -839,6 +890,7 @@ export type PageMessage =
   | TakeShotMessage
   | TubeMessage
   | CArmMessage
+  | TurnScopeMessage
   | PedalMessage
   | FindDevicesMessage
   | UseDeviceMessage
@@ -880,6 +932,8 @@ export interface ExerciseMessage {
   readonly wrist_limits: WristLimits;
   /** in practice only, to be shown on request */
   readonly ideal: Ideal | null;
+  /** where a scope is on the tray */
+  readonly arthroscopy: Arthroscopy | null;
   /** none: it cannot be declined */
   readonly decline_reasons: readonly DeclineReason[];
 }
@@ -930,6 +984,32 @@ export interface TissueMessage {
   /** 0 to 4294967295 */
   readonly revision: number;
   readonly tracks: readonly Track[];
+}
+
+/** A scope in a hand; comes when any of it changed, after the snapshot that it belongs to. */
+export interface ScopeMessage {
+  readonly type: "scope";
+  /** 0 to 1 */
+  readonly hand: number;
+  /** [deg] -180 to 180 */
+  readonly shaft_deg: number;
+  /** [deg] -180 to 180 */
+  readonly camera_deg: number;
+  /** unit, where it looks */
+  readonly axis: Vec3;
+  /** unit, of the picture */
+  readonly up: Vec3;
+  /** by hand: through which its instrument goes; empty: none */
+  readonly portals: readonly string[];
+  /** by hand */
+  readonly in_joint: readonly number[];
+  /** numbers */
+  readonly points_seen: readonly number[];
+  readonly points_probed: readonly number[];
+  /** in practice only */
+  readonly points_in_view: readonly number[];
+  /** 0 to 4294967295 */
+  readonly pull_outs: number;
 }
 
 /** All that can be asked for, and whether it would be done; comes when any of it changed. */
@@ -1015,6 +1095,7 @@ export type HostMessage =
   | ExerciseMessage
   | SnapshotMessage
   | TissueMessage
+  | ScopeMessage
   | ActionsMessage
   | EventMessage
   | ScoreMessage

@@ -157,6 +157,31 @@ export const SCHEMA: Schema = {
       is_confirmed: {"type": "boolean"},
       parts: {"type": "array", "of": {"type": "instrument_part"}, "max_items": 64},
     } },
+    portal: { fields: {
+      id: {"type": "string", "max_length": 16},
+      name: {"type": "string", "max_length": 64},
+      landmarks: {"type": "string", "max_length": 256},
+      skin_mm: {"type": "vec3", "limit": 10000},
+      inwards: {"type": "vec3", "limit": 2},
+      capsule_mm: {"type": "number", "min": 0, "max": 100},
+      body: {"type": "string", "max_length": 32},
+    } },
+    tour_point: { fields: {
+      number: {"type": "integer", "min": 1, "max": 31},
+      name: {"type": "string", "max_length": 128},
+      found_by: {"type": "string", "max_length": 256},
+      is_probed: {"type": "boolean"},
+      at_mm: {"type": "vec3", "limit": 10000},
+      body: {"type": "string", "max_length": 32},
+    } },
+    arthroscopy: { fields: {
+      scope: {"type": "string", "max_length": 64},
+      view_angle_deg: {"type": "number", "min": 0, "max": 90},
+      field_deg: {"type": "number", "min": 10, "max": 150},
+      distal: {"type": "vec3", "limit": 2},
+      portals: {"type": "array", "of": {"type": "portal"}, "max_items": 16},
+      points: {"type": "array", "of": {"type": "tour_point"}, "max_items": 32},
+    } },
     body: { fields: {
       name: {"type": "string", "max_length": 32},
       label: {"type": "string", "max_length": 64},
@@ -412,6 +437,10 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     tilt_deg: {"type": "number", "min": -60, "max": 60},
     reference: {"type": "angle_reference"},
   },
+  turn_scope: {
+    shaft_deg: {"type": "number", "min": -180, "max": 180},
+    camera_deg: {"type": "number", "min": -180, "max": 180},
+  },
   pedal: {
     down: {"type": "boolean"},
   },
@@ -467,6 +496,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     bodies: {"type": "array", "of": {"type": "body"}, "max_items": 32},
     wrist_limits: {"type": "wrist_limits"},
     ideal: {"type": "ideal", "optional": true},
+    arthroscopy: {"type": "arthroscopy", "optional": true},
     decline_reasons: {"type": "array", "of": {"type": "decline_reason"}, "max_items": 8},
   },
   snapshot: {
@@ -495,6 +525,19 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
   tissue: {
     revision: {"type": "integer", "min": 0, "max": 4294967295},
     tracks: {"type": "array", "of": {"type": "track"}, "max_items": 64},
+  },
+  scope: {
+    hand: {"type": "integer", "min": 0, "max": 1},
+    shaft_deg: {"type": "number", "min": -180, "max": 180},
+    camera_deg: {"type": "number", "min": -180, "max": 180},
+    axis: {"type": "vec3", "limit": 2},
+    up: {"type": "vec3", "limit": 2},
+    portals: {"type": "array", "of": {"type": "string", "max_length": 16}, "max_items": 2},
+    in_joint: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 2},
+    points_seen: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
+    points_probed: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
+    points_in_view: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
+    pull_outs: {"type": "integer", "min": 0, "max": 4294967295},
   },
   actions: {
     actions: {"type": "array", "of": {"type": "action"}, "max_items": 512},

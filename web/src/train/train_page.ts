@@ -17,6 +17,7 @@ import type {
   HostMessage,
   ProcedureSummary,
 } from "../protocol";
+import { jointWallOf, ScopeDesk } from "../scope";
 import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
@@ -51,6 +52,7 @@ export class TrainPage {
   private readonly headset: Headset;
   private newestPicture: CArmPicture | undefined;
   private readonly deviceHands: DeviceHands;
+  private readonly scope: ScopeDesk;
   private readonly part: TakingPart;
   private readonly actions: Actions;
   private readonly connection: Connection;
@@ -93,6 +95,7 @@ export class TrainPage {
     this.gamepad = new GamepadHand(padRoom(this.panels, this.hand, this.actions, this.part));
     this.headset = this.makeHeadset(frames);
     this.deviceHands = new DeviceHands(this.theatre, (message) => this.connection.tell(message));
+    this.scope = this.makeScope(stage, scene);
     this.panels.help.onOpen = (isOpen) => {
       this.part.showHelp(isOpen);
     };
@@ -153,6 +156,7 @@ export class TrainPage {
     this.abort.abort();
     this.connection.dispose();
     this.hand.dispose();
+    this.scope.dispose();
     this.theatre.dispose();
   }
 
@@ -281,6 +285,35 @@ export class TrainPage {
     });
   }
 
+  private makeScope(stage: HTMLElement, scene: CaseScene): ScopeDesk {
+    const wall = scene.jointWall === undefined ? undefined : jointWallOf(scene.jointWall);
+    const desk = new ScopeDesk(
+      {
+        stage,
+        operates: () => this.part.operates,
+        send: (hand) => {
+          this.connection.sendHand(hand);
+        },
+        turn: (shaftDeg, cameraDeg) => {
+          this.connection.tell({ type: "turn_scope", shaft_deg: shaftDeg, camera_deg: cameraDeg });
+        },
+        take: (instrument, hand) => {
+          this.actions.ask({ id: "take", hand, instrument });
+        },
+        say: (text) => {
+          this.panels.notice.say(text);
+        },
+        showHand: (hand) => {
+          this.theatre.setActiveHand(hand);
+        },
+      },
+      wall,
+      this.abort.signal,
+    );
+    stage.after(desk.element);
+    return desk;
+  }
+
   private moveCArm(type: "take_shot" | "c_arm", rotationDeg: number, tiltDeg: number): void {
     this.connection.tell({
       type,
@@ -401,15 +434,21 @@ export class TrainPage {
   private startLoop(): () => void {
     return startFrameLoop({
       hand: (nowMs) => {
+        if (this.scope.isOn) {
+          this.scope.frame(nowMs);
+          return;
+        }
         this.gamepad.frame(nowMs);
         this.hand.frame(nowMs);
       },
       draw: () => {
         this.theatre.draw();
+        this.scope.draw();
       },
       readings: () => {
         this.sound.watch(performance.now());
         this.deviceHands.watch(this.panels.devices.hands, performance.now());
+        this.scope.showReadings();
         this.seen.showReadings(this.hand, this.actions.closedWays(), this.part.operates);
       },
     });
@@ -420,6 +459,7 @@ export class TrainPage {
     switch (message.type) {
       case "snapshot":
         this.seen.take(message, this.hand);
+        this.scope.see(message);
         if (this.part.operates) {
           const now = performance.now();
           this.sound.hear(whatIsHeard(message, this.seen.doing, this.hand, now));
@@ -431,11 +471,15 @@ export class TrainPage {
       case "exercise":
         this.newestPicture = undefined;
         this.seen.begin(message);
+        this.scope.begin(message);
         if (this.part.operates && this.seen.doing?.mode !== "assessed")
           this.panels.firstTouch.offer();
         break;
       case "tissue":
         this.seen.takeTissue(message);
+        break;
+      case "scope":
+        this.scope.seeScope(message);
         break;
       case "actions":
         this.seen.takeActions(message);

@@ -1,0 +1,30 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The inside of the joint as a scope's picture draws it: one closed wall, what lines it, which way
+// its fibres run, and how it goes with the bones when they are pulled apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cases/case_data.hpp"
+#include "soft_tissue/soft_tissue.hpp"
+
+namespace carpus::arthroscopy {
+
+struct JointWall {
+  TriangleMesh surface;  ///< outward from the joint's space, frame Patient as scanned [mm]
+  // By vertex:
+  std::vector<soft_tissue::Lining> lining;
+  std::vector<Vec3> fibre;             ///< unit, along the ligament; zero where there is none
+  std::vector<std::uint8_t> proximal;  ///< body that it goes with: forearm ...
+  std::vector<std::uint8_t> distal;    ///< ... and proximal row
+  std::vector<float> distal_share;     ///< of that one's motion, 0 to 1
+};
+
+/// Of the radiocarpal joint; empty where its space could not be made.
+[[nodiscard]] JointWall make_joint_wall(const cases::CaseData& data,
+                                        const soft_tissue::SoftTissue& tissue);
+
+}  // namespace carpus::arthroscopy

@@ -1,0 +1,76 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/scope_message.hpp"
+
+#include <string>
+#include <vector>
+
+#include "session/body_names.hpp"
+
+namespace carpus::session {
+namespace {
+
+constexpr int kNumbers = 32;
+
+std::vector<std::int64_t> numbers_in(std::uint32_t bits) {
+  std::vector<std::int64_t> numbers;
+  for (int i = 0; i < kNumbers; ++i) {
+    if ((bits >> i & 1U) != 0) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
+                                                    const procedure::Procedure& procedure) {
+  if (data.arthroscopy == nullptr) return std::nullopt;
+  const auto all = instruments::catalogue();
+  protocol::Arthroscopy message;
+  for (const instruments::InstrumentIndex index : procedure.tray) {
+    if (!all[index].optic) continue;
+    message.scope = all[index].id;
+    message.view_angle_deg = all[index].optic->view_angle_deg;
+    message.field_deg = all[index].optic->field_deg;
+    break;
+  }
+  if (message.scope.empty()) return std::nullopt;
+  message.distal = data.arthroscopy->distal;
+  const BodyNames names(data);
+  for (const cases::Portal& portal : data.arthroscopy->portals) {
+    message.portals.push_back({portal.id, portal.name, portal.landmarks, portal.skin,
+                               portal.inwards, portal.capsule_mm, names.name(portal.body)});
+  }
+  for (const cases::TourPoint& point : data.arthroscopy->points) {
+    message.points.push_back({point.number, point.name, point.found_by, point.is_probed, point.at,
+                              names.name(point.body)});
+  }
+  return message;
+}
+
+std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
+                                             const simulation::Snapshot& now) {
+  const simulation::ScopeView& scope = now.scope;
+  if (data.arthroscopy == nullptr || scope.hand >= simulation::kHands) return std::nullopt;
+  protocol::Scope message;
+  message.hand = scope.hand;
+  message.shaft_deg = scope.shaft_turn_deg;
+  message.camera_deg = scope.camera_turn_deg;
+  message.axis = scope.axis_in_patient;
+  message.up = scope.up_in_patient;
+  const std::vector<cases::Portal>& portals = data.arthroscopy->portals;
+  for (std::size_t h = 0; h < simulation::kHands; ++h) {
+    const std::size_t portal = scope.facts.portal[h];
+    message.portals.push_back(portal < portals.size() ? portals[portal].id : std::string());
+    message.in_joint.push_back(scope.facts.is_in_joint[h] ? 1 : 0);
+  }
+  message.points_seen = numbers_in(scope.facts.points_seen);
+  message.points_probed = numbers_in(scope.facts.points_probed);
+  if (now.mode == procedure::Mode::Practice) {
+    message.points_in_view = numbers_in(scope.points_in_view);
+  }
+  message.pull_outs = scope.pull_outs;
+  return message;
+}
+
+}  // namespace carpus::session

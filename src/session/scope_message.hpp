@@ -1,0 +1,25 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a page is told of an arthroscopy: once what it goes by, then the scope as it is.
+#pragma once
+
+#include <optional>
+
+#include "cases/case_data.hpp"
+#include "procedure/procedure.hpp"
+#include "protocol/messages.hpp"
+#include "simulation/snapshot.hpp"
+
+namespace carpus::session {
+
+/// None where no scope is on the tray or the case has no map.
+[[nodiscard]] std::optional<protocol::Arthroscopy> arthroscopy_of(
+    const cases::CaseData& data,
+    const procedure::Procedure& procedure);
+
+/// None where no hand holds a scope. What is in view now is told in practice alone.
+[[nodiscard]] std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
+                                                           const simulation::Snapshot& now);
+
+}  // namespace carpus::session

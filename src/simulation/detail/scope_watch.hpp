@@ -1,0 +1,90 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An arthroscopy in the tick: what goes through which portal, what the scope has seen, how it was
+// led. Nothing of it is there while no instrument on the tray enters joints.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "cases/arthroscopic_map.hpp"
+#include "procedure/operation_record.hpp"
+#include "simulation/detail/operation_state.hpp"
+
+namespace carpus::simulation::detail {
+
+inline constexpr std::uint8_t kNoPortal = procedure::kNoBody;
+inline constexpr std::size_t kMaxLooks = 2048;
+/// A point is seen once it was in view for so long without a break [E].
+inline constexpr std::uint32_t kSeenTicks = 1000;
+
+struct ScopeState {
+  double shaft_turn_deg = 0.0;
+  double camera_turn_deg = 0.0;
+  std::array<std::uint8_t, kHands> portal{kNoPortal, kNoPortal};
+  std::array<bool, kHands> is_in_joint{};
+  std::array<Vec3, kHands> last_tip{};
+  std::array<double, 2> path_mm{};  ///< of the scope, of what works beside it
+  std::array<std::uint32_t, cases::kMaxTourPoints> in_view_ticks{};  ///< since it came into view
+  std::uint32_t points_in_view = 0;                                  ///< by their numbers
+  std::uint32_t points_seen = 0;
+  std::uint32_t points_probed = 0;
+  std::uint32_t entries = 0;
+  std::uint32_t pull_outs = 0;
+  std::uint32_t looking_ticks = 0;
+  std::uint32_t tilted_ticks = 0;
+  std::uint32_t warn_ticks = 0;
+  std::uint32_t injury_ticks = 0;
+  double most_force_n = 0.0;
+  std::uint32_t look_count = 0;
+};
+
+template <Is<ScopeState> SomeState, typename Visitor>
+void visit(SomeState& state, Visitor&& v) noexcept {
+  v(state.shaft_turn_deg);
+  v(state.camera_turn_deg);
+  for (std::size_t h = 0; h < kHands; ++h) {
+    v(state.portal[h]);
+    v(state.is_in_joint[h]);
+    v(state.last_tip[h]);
+    v(state.path_mm[h]);
+  }
+  for (auto& ticks : state.in_view_ticks) v(ticks);
+  v(state.points_in_view);
+  v(state.points_seen);
+  v(state.points_probed);
+  v(state.entries);
+  v(state.pull_outs);
+  v(state.looking_ticks);
+  v(state.tilted_ticks);
+  v(state.warn_ticks);
+  v(state.injury_ticks);
+  v(state.most_force_n);
+  v(state.look_count);
+}
+
+template <typename SomeLook, typename Visitor>
+void visit_look(SomeLook& look, Visitor&& v) noexcept {
+  v(look.eye);
+  v(look.axis);
+  v(look.traction_n);
+  v(look.flexion_rad);
+  v(look.radial_deviation_rad);
+  v(look.pronation_rad);
+}
+
+/// Whether a tick could have left it in a case with so many portals.
+[[nodiscard]] inline bool is_possible(const ScopeState& state, std::size_t portals) noexcept {
+  bool is_sound = state.look_count <= kMaxLooks && state.shaft_turn_deg >= -180.0 &&
+                  state.shaft_turn_deg <= 180.0 && state.camera_turn_deg >= -180.0 &&
+                  state.camera_turn_deg <= 180.0 && state.most_force_n >= 0.0;
+  for (std::size_t h = 0; h < kHands; ++h) {
+    is_sound = is_sound && (state.portal[h] == kNoPortal || state.portal[h] < portals) &&
+               state.path_mm[h] >= 0.0;
+  }
+  return is_sound;
+}
+
+}  // namespace carpus::simulation::detail

@@ -1,0 +1,289 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What enters joints: it goes in by a portal, whose hole in the skin it pivots in, and stops at the
+// walls of the joint's space, which are rigid. What the scope shows for how long; how it was led.
+#include <algorithm>
+#include <cstdint>
+
+#include "arthroscopy/optics.hpp"
+#include "arthroscopy/seen_share.hpp"
+#include "fields/distance_field.hpp"
+#include "simulation/detail/world_state.hpp"
+
+namespace carpus::simulation {
+
+using detail::Item;
+using detail::kNoPortal;
+
+namespace {
+
+constexpr double kHoleMm = 2.5;        // so near to a portal's way a tip slips into it
+constexpr double kFunnelMm = 3.0;      // ... from before the skin to so deep
+constexpr double kFacingCosine = 0.5;  // a shaft within 60 degrees of the way in
+constexpr double kPivotMm = 3.0;       // deeper than this the hole leads the shaft
+constexpr double kTunnelMm = 2.0;      // soft tissue gives so much aside of the way to the capsule
+constexpr double kWallMm = 0.3;        // a rigid wall, less the roughness of its grid
+constexpr double kKeptOutMm = 3.0;     // skin and fat keep a tip so far from the joint elsewhere
+constexpr double kLeftMm = 1.0;        // so far back through the capsule it has come out
+constexpr double kSightStepMm = 0.5;
+constexpr double kSightShortMm = 0.8;  // before the point: it lies on the wall itself
+constexpr double kBehindWallMm = 1.0;  // the space is of the scan; pulled bones open it more
+constexpr double kHiddenMm = 0.05;     // this deep in bone a line of sight is cut
+constexpr double kProbedMm = 2.5;
+constexpr double kNewLookMm = 0.5;
+constexpr double kNewLookCosine = 0.9976;  // 4 degrees
+constexpr double kLevelCosine = 0.9659;    // 15 degrees
+constexpr double kWarnN = 3.0;             // [E, B11] from published probing forces
+constexpr double kInjuryN = 8.0;
+
+bool has_bit(std::uint32_t bits, int at) noexcept { return (bits >> at & 1U) != 0; }
+
+}  // namespace
+
+bool World::State::enters_joints(const Model& model, const Item& item) const noexcept {
+  return model.map != nullptr && !item.is_fixed() && kind_of(model, item).enters_joints;
+}
+
+World::State::WayIn World::State::way_in(const Model& model, std::uint8_t portal) const noexcept {
+  const cases::Portal& at = model.map->portals[portal];
+  const detail::BodyPose& pose = poses[at.body];
+  return {(pose * Point<frame::Bone>{at.skin}).v, (pose * Direction<frame::Bone>{at.inwards}).v,
+          at.capsule_mm};
+}
+
+/// The shaft runs through the hole in the skin once the tip is well in.
+Vec3 World::State::led_by_portal(const Model& model,
+                                 std::uint8_t hand,
+                                 const Vec3& tip,
+                                 const Vec3& shaft) const noexcept {
+  const std::uint8_t portal = scope_state.portal[hand];
+  if (model.map == nullptr || portal == kNoPortal) return shaft;
+  const Vec3 to_hole = way_in(model, portal).skin - tip;
+  return length(to_hole) > kPivotMm ? normalized_or(to_hole, shaft) : shaft;
+}
+
+/// How deep a tip is in what does not yield, and which way is out; depth 0 where it is in none.
+World::State::Wall World::State::wall_at(const Model& model,
+                                         std::uint8_t hand,
+                                         const Vec3& tip) const noexcept {
+  const Item& item = now.items[now.held[hand]];
+  if (!enters_joints(model, item)) return {};
+  const std::size_t body = model.map->space_body;
+  const fields::DistanceSample space =
+      fields::sample_distance(model.map->space, (inverses[body] * Point<frame::Patient>{tip}).v);
+  const Vec3 outwards =
+      (poses[body] * Direction<frame::Bone>{normalized_or(space.gradient, {0, 0, 0})}).v;
+  const std::uint8_t portal = scope_state.portal[hand];
+  if (portal == kNoPortal) {
+    const bool is_near = space.is_inside_grid && space.distance_mm < kKeptOutMm;
+    if (!is_near) return {};
+    return {kKeptOutMm - space.distance_mm, outwards};
+  }
+  const WayIn way = way_in(model, portal);
+  const double deep = dot(tip - way.skin, way.inwards);
+  const Vec3 aside = tip - way.skin - way.inwards * deep;
+  if (deep <= way.capsule_mm) {
+    const double off = length(aside);
+    if (off <= kTunnelMm) return {};
+    return {off - kTunnelMm, aside * (-1.0 / off)};
+  }
+  if (!space.is_inside_grid || space.distance_mm <= kWallMm) return {};
+  if (squared_length(outwards) > 0.5) return {space.distance_mm - kWallMm, -outwards};
+  return {deep - way.capsule_mm, -way.inwards};  // far behind a wall: back the way it came
+}
+
+/// Through which portal it goes, and whether it is in the joint.
+void World::State::follow_portal(const Model& model, std::uint8_t hand, const Item& item) noexcept {
+  detail::ScopeState& state = scope_state;
+  std::uint8_t& portal = state.portal[hand];
+  if (portal == kNoPortal) {
+    for (std::uint8_t p = 0; p < model.map->portals.size(); ++p) {
+      const WayIn way = way_in(model, p);
+      const double deep = dot(item.tip - way.skin, way.inwards);
+      const Vec3 aside = item.tip - way.skin - way.inwards * deep;
+      const bool is_taken = state.portal[1U - hand] == p;
+      if (!is_taken && deep >= 0.0 && deep <= kFunnelMm && length(aside) <= kHoleMm &&
+          -dot(item.shaft, way.inwards) >= kFacingCosine) {
+        portal = p;
+      }
+    }
+    return;
+  }
+  const WayIn way = way_in(model, portal);
+  const double deep = dot(item.tip - way.skin, way.inwards);
+  bool& is_in = state.is_in_joint[hand];
+  const bool is_scope = kind_of(model, item).optic.has_value();
+  if (!is_in && deep > way.capsule_mm) {
+    is_in = true;
+    state.last_tip[hand] = item.tip;
+    if (is_scope) ++state.entries;
+    emit(EventKind::EnteredJoint, now.held[hand], portal, 0.0);
+  } else if (is_in && deep < way.capsule_mm - kLeftMm) {
+    is_in = false;
+    if (is_scope) ++state.pull_outs;
+    emit(EventKind::LeftJoint, now.held[hand], portal, 0.0);
+  }
+  if (deep < 0.0) portal = kNoPortal;
+}
+
+/// Whether nothing stands before the point: the line of sight stays in the joint and out of bone.
+bool World::State::is_in_sight(const Model& model,
+                               const Vec3& eye,
+                               const Vec3& point) const noexcept {
+  const Vec3 way = point - eye;
+  const double far = length(way);
+  const std::size_t body = model.map->space_body;
+  for (double s = kSightStepMm; s < far - kSightShortMm; s += kSightStepMm) {
+    const Vec3 at = eye + way * (s / far);
+    const fields::DistanceSample space =
+        fields::sample_distance(model.map->space, (inverses[body] * Point<frame::Patient>{at}).v);
+    if (!space.is_inside_grid || space.distance_mm > kBehindWallMm) return false;
+    const Touched bone = surface_at(at);
+    if (bone.body != kNoBody && bone.distance_mm < -kHiddenMm) return false;
+  }
+  return true;
+}
+
+/// One of the points a tick: all of them many times a second.
+void World::State::look_at_points(const Model& model, const arthroscopy::Sight& sight) noexcept {
+  const auto& points = model.map->points;
+  if (points.empty()) return;
+  const auto count = static_cast<std::uint32_t>(points.size());
+  const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
+  const cases::TourPoint& point = points[turn];
+  const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
+  const bool is_seen = arthroscopy::is_in_field(sight, at) &&
+                       distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
+                       is_in_sight(model, sight.eye, at);
+  detail::ScopeState& state = scope_state;
+  const std::uint32_t bit = 1U << point.number;
+  state.in_view_ticks[turn] = is_seen ? state.in_view_ticks[turn] + count : 0;
+  state.points_in_view = is_seen ? state.points_in_view | bit : state.points_in_view & ~bit;
+  if (state.in_view_ticks[turn] >= detail::kSeenTicks &&
+      !has_bit(state.points_seen, point.number)) {
+    state.points_seen |= bit;
+    emit(EventKind::PointSeen, kNoItem, point.number, 0.0);
+  }
+}
+
+void World::State::note_scope_look(const arthroscopy::Sight& sight) noexcept {
+  detail::ScopeState& state = scope_state;
+  if (state.look_count >= detail::kMaxLooks) return;
+  if (state.look_count > 0) {
+    const procedure::ScopeLook& last = looks[state.look_count - 1];
+    const double moved = distance(last.eye, sight.eye);
+    if (moved < kNewLookMm && dot(last.axis, sight.axis) > kNewLookCosine) return;
+  }
+  looks[state.look_count++] = {sight.eye,
+                               sight.axis,
+                               spent.wrist.traction_n,
+                               spent.wrist.flexion_rad,
+                               spent.wrist.radial_deviation_rad,
+                               spent.wrist.pronation_rad};
+}
+
+void World::State::note_probing(const Model& model, std::uint8_t hand, const Item& item) noexcept {
+  const bool touches =
+      spent.hands[hand].touched_body != kNoBody ||
+      distance(item.tip, spent.hands[hand].plan.tip) > kWallMm;  // a wall holds it back
+  if (!touches) return;
+  for (const cases::TourPoint& point : model.map->points) {
+    if (!point.is_probed || has_bit(scope_state.points_probed, point.number)) continue;
+    const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
+    if (distance(at, item.tip) > kProbedMm) continue;
+    scope_state.points_probed |= 1U << point.number;
+    emit(EventKind::PointProbed, now.held[hand], point.number, 0.0);
+  }
+}
+
+std::optional<arthroscopy::Sight> World::State::sight_of(const Model& model,
+                                                         const Item& item) const noexcept {
+  const instruments::Instrument& kind = kind_of(model, item);
+  if (!kind.optic || model.map == nullptr) return std::nullopt;
+  const Vec3 level = (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
+  return arthroscopy::sight_of(
+      {kind.optic->view_angle_deg, kind.optic->field_deg},
+      {item.tip, item.shaft, scope_state.shaft_turn_deg, scope_state.camera_turn_deg}, level);
+}
+
+void World::State::watch_scopes(const Model& model) noexcept {
+  if (model.map == nullptr) return;
+  detail::ScopeState& state = scope_state;
+  for (std::uint8_t h = 0; h < kHands; ++h) {
+    const Item* item = in_hand(h);
+    if (item == nullptr || !enters_joints(model, *item)) {
+      state.portal[h] = kNoPortal;
+      state.is_in_joint[h] = false;
+      continue;
+    }
+    follow_portal(model, h, *item);
+    if (!state.is_in_joint[h]) continue;
+    const std::size_t what = kind_of(model, *item).optic ? 0 : 1;
+    state.path_mm[what] += distance(state.last_tip[h], item->tip);
+    state.last_tip[h] = item->tip;
+    const double force = length(snapshot.hands[h].force_in_patient);  // of the tick before
+    if (force > kWarnN) ++state.warn_ticks;
+    if (force > kInjuryN) ++state.injury_ticks;
+    state.most_force_n = std::max(state.most_force_n, force);
+    if (const auto sight = sight_of(model, *item)) {
+      ++state.looking_ticks;
+      const Vec3 level =
+          (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
+      if (arthroscopy::horizon_cosine(*sight, level) < kLevelCosine) ++state.tilted_ticks;
+      look_at_points(model, *sight);
+      note_scope_look(*sight);
+    } else {
+      note_probing(model, h, *item);
+    }
+  }
+}
+
+procedure::ScopeFacts World::State::scope_facts() const noexcept {
+  return {scope_state.portal, scope_state.is_in_joint, scope_state.points_seen,
+          scope_state.points_probed};
+}
+
+procedure::ScopeRecord World::State::scope_record(const Model& model) const {
+  const detail::ScopeState& state = scope_state;
+  procedure::ScopeRecord record;
+  record.facts = scope_facts();
+  record.path_mm = state.path_mm;
+  record.entries = state.entries;
+  record.pull_outs = state.pull_outs;
+  record.looking_ticks = state.looking_ticks;
+  record.tilted_ticks = state.tilted_ticks;
+  record.warn_ticks = state.warn_ticks;
+  record.injury_ticks = state.injury_ticks;
+  record.most_force_n = state.most_force_n;
+  for (const InstrumentIndex index : model.procedure.tray) {
+    const auto& optic = model.catalogue[index].optic;
+    if (!optic) continue;
+    record.least_cosine = arthroscopy::cos_sin_deg(optic->field_deg / 2)[0];
+    break;
+  }
+  record.looks.assign(looks.begin(), looks.begin() + state.look_count);
+  return record;
+}
+
+void World::State::publish_scope(const Model& model) noexcept {
+  ScopeView& view = snapshot.scope;
+  view = ScopeView{};
+  if (model.map == nullptr) return;
+  view.shaft_turn_deg = scope_state.shaft_turn_deg;
+  view.camera_turn_deg = scope_state.camera_turn_deg;
+  view.facts = scope_facts();
+  view.points_in_view = scope_state.points_in_view;
+  view.pull_outs = scope_state.pull_outs;
+  for (std::uint8_t h = 0; h < kHands; ++h) {
+    const Item* item = in_hand(h);
+    if (item == nullptr) continue;
+    if (const auto sight = sight_of(model, *item)) {
+      view.hand = h;
+      view.axis_in_patient = sight->axis;
+      view.up_in_patient = sight->up;
+    }
+  }
+}
+
+}  // namespace carpus::simulation

@@ -1,0 +1,114 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scripted operator of a diagnostic arthroscopy: pulls, goes in by both portals, looks for each
+// place of the tour in turn and probes what is to be probed, through the same input as a person.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "arthroscopy/optics.hpp"
+#include "cases/case_data.hpp"
+#include "core/rng.hpp"
+#include "procedure/procedure.hpp"
+#include "simulation/input.hpp"
+#include "simulation/snapshot.hpp"
+#include "trainee/hand_motion.hpp"
+#include "trainee/skill.hpp"
+
+namespace carpus::trainee {
+
+/// Whether the procedure is one that this operator knows: a scope lies first on its tray.
+[[nodiscard]] bool is_arthroscopy(const procedure::Procedure& procedure);
+
+/// What sets them apart [E]: nothing here says how people perform.
+struct ScopeSkill {
+  double traction_n = 69.0;
+  double speed_mm_per_s = 12.0;
+  double tremor_mm = 0.05;
+  double aim_error_mm = 0.1;    ///< of where the tip is led to
+  double turn_error_deg = 4.0;  ///< of the shaft
+  double tilt_deg = 4.0;        ///< by which the camera head is off
+  double dwell_s = 1.4;         ///< on a place before going on
+  int wanderings = 0;           ///< tries elsewhere before a place is found
+  double falls_out = 0.0;       ///< chance of drawing back too far between two places
+  double presses_mm = 1.3;      ///< with which the probe goes beyond what it touches
+  double yields_n = 2.0;        ///< pressed more, the hand gives way
+  double reaction_s = 0.4;
+};
+[[nodiscard]] ScopeSkill scope_skill_of(Skill skill) noexcept;
+
+class ScriptedArthroscopist {
+ public:
+  /// @throws InvalidInput  when it cannot be done on this case (the procedure's opening).
+  ScriptedArthroscopist(const cases::CaseData& data,
+                        const procedure::Procedure& procedure,
+                        Skill skill,
+                        std::uint64_t seed);
+
+  /// The input for the next tick, from the state that the last one left.
+  [[nodiscard]] simulation::Input next(const simulation::Snapshot& now);
+  [[nodiscard]] bool is_done() const noexcept { return is_finished_; }
+
+ private:
+  /// One thing to do, with the hand that does it.
+  struct Task {
+    std::uint8_t hand = 0;
+    HandPose to;
+    double shaft_turn_deg = 0.0;
+    Tick dwell = 0;
+    bool takes_probe = false;
+    bool turns = false;
+    bool finishes = false;
+  };
+  struct View {
+    Vec3 tip;
+    double turn_deg = 0.0;
+    bool is_found = false;
+  };
+
+  void plan(const simulation::Snapshot& now);
+  void begin(const simulation::Snapshot& now);
+  [[nodiscard]] HandPose through(std::uint8_t portal, const Vec3& tip) const;
+  [[nodiscard]] Vec3 in_portal(std::uint8_t portal, double beyond_capsule_mm) const;
+  [[nodiscard]] View view_of(const Vec3& point, const Vec3& from) const;
+  [[nodiscard]] bool has_room(const Vec3& tip, double room_mm) const;
+  [[nodiscard]] bool goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const;
+  [[nodiscard]] bool is_free(const Vec3& from, const Vec3& to) const;
+  void give_way(const simulation::Snapshot& now);
+  void go(std::uint8_t hand, const HandPose& to, double dwell_s);
+  void look(const View& view);
+  [[nodiscard]] Vec3 error(double mm);
+
+  const cases::CaseData& data_;
+  const procedure::Procedure& procedure_;
+  const cases::ArthroscopicMap& map_;
+  arthroscopy::Lens lens_;
+  ScopeSkill skill_;
+  Rng rng_;
+  Tremor tremor_;
+  procedure::Opening opening_;
+  simulation::WristPose wrist_;
+  /// Of the bones about the joint, as the wrist is pulled.
+  std::vector<std::pair<const cases::Bone*, Pose<frame::Bone, frame::Patient>>> bones_;
+  std::vector<Task> tasks_;
+  std::size_t at_ = 0;
+  bool has_planned_ = false;
+  bool has_begun_ = false;
+  bool is_finished_ = false;
+  std::array<HandPose, simulation::kHands> hands_{};
+  MinimumJerkMove move_;
+  std::array<Vec3, simulation::kHands> given_{};  ///< by which the hands gave way
+  Tick in_task_ = 0;
+  Tick move_ticks_ = 1;
+  double turn_deg_ = 0.0;
+  double tilt_deg_ = 0.0;
+  std::array<Vec3, simulation::kHands> planned_{};  ///< where the plan so far leaves each tip
+  double planned_turn_deg_ = 0.0;
+};
+
+}  // namespace carpus::trainee

@@ -1,0 +1,100 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
+// a touch, the score. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+import { join } from "node:path";
+import { newPage } from "./browser.mjs";
+import { check, expect } from "./checks.mjs";
+import { atRest } from "./hands.mjs";
+import { Operator } from "./operator.mjs";
+
+const TRAINEE = "Browser test, scope";
+/** At most so much is drawn for the scope's picture. */
+const MOST_CALLS = 4;
+const MOST_TRIANGLES = 15_000;
+
+async function hold(page, key, ms) {
+  await page.keyboard.down(key);
+  await page.waitForTimeout(ms);
+  await page.keyboard.up(key);
+}
+
+/** Holds a key until the desk's words say so. */
+async function holdUntil(page, key, words, what) {
+  await page.keyboard.down(key);
+  try {
+    await page
+      .locator(".scope-status", { hasText: words })
+      .waitFor({ timeout: 60_000 });
+  } catch {
+    throw new Error(
+      `${what}: ${await page.locator(".scope-status").innerText()}`,
+    );
+  } finally {
+    await page.keyboard.up(key);
+  }
+}
+
+export async function arthroscopy(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  let shown = 0;
+  const picture = async (name) => {
+    if (pictures === undefined) return;
+    shown += 1;
+    await page.waitForTimeout(600);
+    await page.screenshot({ path: join(pictures, `${shown}_${name}.png`) });
+  };
+  await check(page, "a scope goes in by 3-4, a probe by 4-5", async () => {
+    await operator.start(station.url, TRAINEE, "diagnostic_arthroscopy");
+    await atRest(operator);
+    for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
+    await operator.until((s) => s.wrist.traction_n >= 34, "traction");
+    await picture("before");
+    await holdUntil(page, "a", "Scope in the joint by 3-4", "the scope");
+    await hold(page, "a", 300);
+    await picture("inside");
+    await page.keyboard.press("h");
+    await operator.until((s) => Operator.held(s, 1) !== undefined, "the probe");
+    await holdUntil(page, "a", "probe in the joint by 4-5", "the probe");
+    await picture("probe");
+  });
+  await check(page, "turning it shows places of the tour", async () => {
+    await page.keyboard.press("h");
+    for (let turn = 0; turn < 8; ++turn) {
+      const seen = await page.locator(".scope-points .is-seen").count();
+      if (seen >= 2 && pictures === undefined) break;
+      await hold(page, ",", 600);
+      await page.waitForTimeout(1300);
+      await picture(`turn_${turn}`);
+    }
+    const seen = await page.locator(".scope-points .is-seen").count();
+    expect(seen >= 2, `${seen} places were seen`);
+    const [calls, triangles] = await page
+      .locator(".scope")
+      .evaluate((e) => [Number(e.dataset.calls), Number(e.dataset.triangles)]);
+    process.stdout.write(
+      `  scope: ${calls} calls, ${triangles} triangles\n`,
+    );
+    expect(calls > 0 && calls <= MOST_CALLS, `${calls} draw calls`);
+    expect(triangles <= MOST_TRIANGLES, `${triangles} triangles`);
+  });
+  await check(page, "the probe presses, and the end is scored", async () => {
+    await page.keyboard.press("h");
+    await page.keyboard.down("a");
+    await operator.until(
+      (s) => Math.hypot(...(s.hands[1].force_n ?? [0])) > 0.3,
+      "a force on the probe",
+    );
+    await page.keyboard.up("a");
+    await picture("touch");
+    await page.keyboard.press("f");
+    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.waitForURL(/#\/attempts\/\d+/);
+    await page.getByText("Cartilage seen").first().waitFor();
+    await picture("score");
+  });
+  await page.context().close();
+}

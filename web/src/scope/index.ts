@@ -1,0 +1,6 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The arthroscope: its picture, and the two hands that lead what goes into the joint.
+export { ScopeDesk, type ScopeRoom } from "./scope_desk";
+export { jointWallOf, type JointWall } from "./joint_wall";

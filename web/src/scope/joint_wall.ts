@@ -1,0 +1,106 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The inside of the joint: one closed wall of the host's scene, moved with the bones that it lies on.
+// Generated, not seen in the CT.
+import * as THREE from "three";
+import type { BodyPose } from "../protocol";
+
+/** Its node in /api/scene.glb. */
+export const JOINT_WALL = "joint_wall";
+
+/** As soft_tissue::Lining counts: synovium, bone, cartilage, disc, ligament. */
+const LININGS = 5;
+const SMOOTHINGS = 2;
+
+export interface JointWall {
+  readonly geometry: THREE.BufferGeometry;
+  readonly triangles: number;
+  /** Lays it where the bones are now. @param poses  of the bodies, in the case's order */
+  pose(poses: readonly BodyPose[]): void;
+}
+
+/** @param surface  of the node, in Patient [mm]. undefined where it is no joint's wall. */
+export function jointWallOf(surface: THREE.BufferGeometry): JointWall | undefined {
+  const lining = surface.getAttribute("_lining");
+  const [proximal, distal, share] = ["_proximal", "_distal", "_distal_share"].map((name) =>
+    surface.getAttribute(name),
+  );
+  if (
+    lining === undefined ||
+    proximal === undefined ||
+    distal === undefined ||
+    share === undefined
+  ) {
+    return undefined;
+  }
+  const geometry = surface.clone();
+  const count = lining.count;
+  const weights = liningWeights(lining, surface.getIndex(), count);
+  geometry.setAttribute("lining", new THREE.BufferAttribute(weights, 4));
+  const fibre = surface.getAttribute("_fibre");
+  geometry.setAttribute(
+    "fibre",
+    fibre === undefined ? new THREE.BufferAttribute(new Float32Array(3 * count), 3) : fibre.clone(),
+  );
+  for (const name of ["_lining", "_proximal", "_distal", "_distal_share", "_fibre"])
+    geometry.deleteAttribute(name);
+  const rest = new Float32Array(surface.getAttribute("position").array);
+  const position = new THREE.BufferAttribute(new Float32Array(rest), 3);
+  position.setUsage(THREE.DynamicDrawUsage);
+  geometry.setAttribute("position", position);
+  const moved = [new THREE.Vector3(), new THREE.Vector3()] as const;
+  const turn = new THREE.Quaternion();
+  const at = (pose: BodyPose | undefined, v: number, into: THREE.Vector3): void => {
+    into.fromArray(rest, 3 * v);
+    if (pose === undefined) return;
+    const [w, x, y, z] = pose.quaternion;
+    into.applyQuaternion(turn.set(x, y, z, w));
+    into.x += pose.translation_mm[0];
+    into.y += pose.translation_mm[1];
+    into.z += pose.translation_mm[2];
+  };
+  return {
+    geometry,
+    triangles: (surface.getIndex()?.count ?? 0) / 3,
+    pose: (poses) => {
+      for (let v = 0; v < count; ++v) {
+        at(poses[proximal.getX(v)], v, moved[0]);
+        at(poses[distal.getX(v)], v, moved[1]);
+        moved[0].lerp(moved[1], share.getX(v)).toArray(position.array, 3 * v);
+      }
+      position.needsUpdate = true;
+      geometry.computeVertexNormals();
+      geometry.computeBoundingSphere();
+    },
+  };
+}
+
+/** Cartilage, disc, ligament, bone; what is left is synovium. Smoothed, so that one runs into another. */
+function liningWeights(
+  lining: THREE.BufferAttribute | THREE.InterleavedBufferAttribute,
+  index: THREE.BufferAttribute | null,
+  count: number,
+): Float32Array {
+  const slot = [-1, 3, 0, 1, 2];
+  let weights = new Float32Array(4 * count);
+  for (let v = 0; v < count; ++v) {
+    const at = slot[Math.min(LININGS - 1, Math.max(0, Math.round(lining.getX(v))))] ?? -1;
+    if (at >= 0) weights[4 * v + at] = 1;
+  }
+  if (index === null) return weights;
+  for (let pass = 0; pass < SMOOTHINGS; ++pass) {
+    const sum = new Float32Array(weights);
+    const of = new Float32Array(count).fill(1);
+    for (let i = 0; i < index.count; i += 3) {
+      for (let k = 0; k < 3; ++k) {
+        const [a, b] = [index.getX(i + k), index.getX(i + ((k + 1) % 3))];
+        of[a] = (of[a] ?? 0) + 1;
+        for (let c = 0; c < 4; ++c)
+          sum[4 * a + c] = (sum[4 * a + c] ?? 0) + (weights[4 * b + c] ?? 0);
+      }
+    }
+    weights = sum.map((value, i) => value / (of[Math.floor(i / 4)] ?? 1));
+  }
+  return weights;
+}

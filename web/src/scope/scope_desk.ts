@@ -1,0 +1,453 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An arthroscopy on the page: the scope's picture as the main monitor with the theatre beside it as a
+// panorama, and keys and mouse that lead what is in the portals. The host owns the truth: where a tip
+// really is, where the scope looks and what was seen, it says.
+import { make, setText } from "../dom";
+import type {
+  BodyPose,
+  ExerciseMessage,
+  HandMessage,
+  ScopeMessage,
+  SnapshotMessage,
+  Vec3,
+} from "../protocol";
+import { add, rotated } from "../tool_placement";
+import type { JointWall } from "./joint_wall";
+import {
+  advanced,
+  heldBack,
+  leanAt,
+  leaned,
+  OUTSIDE,
+  wishOf,
+  wrappedDeg,
+  type Lean,
+  type PortalNow,
+} from "./scope_hand_model";
+import {
+  KEYS_IN_WORDS,
+  scopeAct,
+  scopeMotion,
+  type ScopeAct,
+  type ScopeMotion,
+} from "./scope_keys";
+import { ScopePicture } from "./scope_picture";
+import "./scope.css";
+
+type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
+type HandIndex = 0 | 1;
+
+export interface ScopeRoom {
+  /** Where the picture goes: over the theatre. */
+  readonly stage: HTMLElement;
+  operates(): boolean;
+  send(hand: Omit<HandMessage, "type" | "sequence">): void;
+  turn(shaftDeg: number, cameraDeg: number): void;
+  take(instrument: string, hand: HandIndex): void;
+  say(text: string): void;
+  /** Mouse and keys move this hand from now on. */
+  showHand(hand: HandIndex): void;
+}
+
+const LEAN_RAD_PER_S = (28 * Math.PI) / 180;
+const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
+const IN_JOINT_MM_PER_S = 6;
+const OUTSIDE_MM_PER_S = 25;
+const WHEEL_MM = 0.6;
+const TURN_DEG_PER_S = 75;
+const TURN_DEG_PER_PX = 0.6;
+const REPEAT_MS = 200;
+
+interface Held {
+  readonly portal: number;
+  readonly lean: Lean;
+}
+
+export class ScopeDesk {
+  readonly element = make("section.scope", { "aria-label": "Arthroscope" });
+  private readonly status = make("p.scope-status", { role: "status" });
+  private readonly list = make("ol.scope-points");
+  private picture: ScopePicture | undefined;
+  private plan: Plan | undefined;
+  private exercise: ExerciseMessage | undefined;
+  private scope: ScopeMessage | undefined;
+  private snapshot: SnapshotMessage | undefined;
+  private poses: readonly BodyPose[] = [];
+  private readonly hands: [Held, Held] = [
+    { portal: 0, lean: OUTSIDE },
+    { portal: 1, lean: OUTSIDE },
+  ];
+  private moved: HandIndex = 0;
+  private shaftDeg = 0;
+  private cameraDeg = 0;
+  private isPlaced = false;
+  private changed = true;
+  private turned = false;
+  private lastMs = 0;
+  private lastSentMs = -Infinity;
+  private readonly keys = new Map<string, ScopeMotion>();
+  private hasPanorama = true;
+
+  constructor(
+    private readonly room: ScopeRoom,
+    private readonly wall: JointWall | undefined,
+    signal: AbortSignal,
+  ) {
+    const panorama = make("button", { type: "button", title: "7" }, "Panorama");
+    panorama.addEventListener("click", () => {
+      this.act("panorama");
+    });
+    this.element.append(
+      make("div.scope-head", {}, this.status, panorama),
+      make("p.scope-keys", {}, KEYS_IN_WORDS),
+      this.list,
+    );
+    this.element.hidden = true;
+    this.listen(signal);
+  }
+
+  /** Whether the exercise is led from here. */
+  get isOn(): boolean {
+    return this.plan !== undefined;
+  }
+
+  begin(exercise: ExerciseMessage): void {
+    this.exercise = exercise;
+    this.plan = exercise.arthroscopy ?? undefined;
+    this.isPlaced = false;
+    this.scope = undefined;
+    this.snapshot = undefined;
+    this.hands[0] = { portal: 0, lean: OUTSIDE };
+    this.hands[1] = { portal: 1, lean: OUTSIDE };
+    this.moved = 0;
+    this.shaftDeg = this.cameraDeg = 0;
+    this.keys.clear();
+    const isOn = this.plan !== undefined && this.wall !== undefined;
+    this.element.hidden = !isOn;
+    this.room.stage.classList.toggle("is-panorama", isOn);
+    this.room.stage.hidden = isOn && !this.hasPanorama;
+    if (!isOn || this.wall === undefined || this.plan === undefined) return;
+    if (this.picture === undefined) {
+      this.picture = new ScopePicture(this.wall);
+      this.element.prepend(this.picture.canvas);
+    }
+    this.picture.setField(this.plan.field_deg);
+    this.showPoints();
+  }
+
+  see(snapshot: SnapshotMessage): void {
+    if (this.plan === undefined) return;
+    this.snapshot = snapshot;
+    if (snapshot.bodies !== null) {
+      this.poses = snapshot.bodies;
+      this.wall?.pose(this.poses);
+    }
+    this.holdBack();
+  }
+
+  seeScope(message: ScopeMessage): void {
+    const before = this.scope;
+    this.scope = message;
+    if (before?.points_seen.length !== message.points_seen.length || before === undefined)
+      this.showPoints();
+  }
+
+  /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */
+  frame(nowMs: number): void {
+    const seconds = Math.min(0.1, Math.max(0, (nowMs - this.lastMs) / 1000));
+    this.lastMs = nowMs;
+    if (this.plan === undefined || !this.room.operates()) return;
+    this.place();
+    for (const motion of this.keys.values()) this.move(motion, seconds);
+    if (this.turned) {
+      this.turned = false;
+      this.room.turn(this.shaftDeg, this.cameraDeg);
+    }
+    if (!this.isPlaced || (!this.changed && nowMs - this.lastSentMs < REPEAT_MS)) return;
+    this.changed = false;
+    this.lastSentMs = nowMs;
+    const held = this.hands[this.moved];
+    const portal = this.portalNow(held.portal);
+    if (portal === undefined) return;
+    const wish = wishOf(held.lean, portal);
+    this.room.send({
+      hand: this.moved,
+      tip_mm: wish.tipMm,
+      shaft: wish.shaft,
+      thrust_n: 0,
+      driver: "off",
+      guidance: "direct",
+    });
+  }
+
+  draw(): void {
+    const { picture, plan, scope, snapshot } = this;
+    if (picture === undefined || plan === undefined || snapshot === undefined) return;
+    const item = snapshot.items.find((one) => one.hand === (scope?.hand ?? 0));
+    if (item === undefined || scope === undefined) return;
+    const other = snapshot.items.find((one) => one.hand === 1 - scope.hand);
+    const box = picture.canvas.getBoundingClientRect();
+    picture.draw(
+      { eyeMm: item.tip_mm, axis: scope.axis, up: scope.up },
+      other === undefined ? undefined : { tipMm: other.tip_mm, shaft: other.shaft },
+      Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
+    );
+  }
+
+  /** Readings, ten times a second. */
+  showReadings(): void {
+    const { scope, plan } = this;
+    if (plan === undefined) return;
+    const where = (hand: HandIndex): string => {
+      const portal = scope?.portals[hand] ?? "";
+      if (portal === "") return "outside";
+      return scope?.in_joint[hand] === 1 ? `in the joint by ${portal}` : `in portal ${portal}`;
+    };
+    const budget = this.picture?.budget;
+    this.element.dataset["calls"] = String(budget?.calls ?? 0);
+    this.element.dataset["triangles"] = String(budget?.triangles ?? 0);
+    setText(
+      this.status,
+      `Scope ${where(0)} · probe ${where(1)} · moving the ${this.moved === 0 ? "scope" : "probe"} · ` +
+        `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · pull-outs ${scope?.pull_outs ?? 0} · ` +
+        "generated tissue",
+    );
+  }
+
+  dispose(): void {
+    this.picture?.dispose();
+  }
+
+  private portalNow(index: number): PortalNow | undefined {
+    const { plan, exercise } = this;
+    const portal = plan?.portals[index];
+    if (plan === undefined || portal === undefined) return undefined;
+    const body = exercise?.bodies.findIndex((one) => one.name === portal.body) ?? -1;
+    const pose = this.poses[body];
+    return {
+      skinMm: moved(portal.skin_mm, pose, true),
+      inwards: moved(portal.inwards, pose, false),
+      up: moved(plan.distal, pose, false),
+      capsuleMm: portal.capsule_mm,
+    };
+  }
+
+  /** The hand begins where the host has the scope. */
+  private place(): void {
+    if (this.isPlaced || this.snapshot === undefined || this.poses.length === 0) return;
+    this.snapshot.items.forEach((item) => {
+      if (item.hand !== 0 && item.hand !== 1) return;
+      const portal = this.portalNow(this.hands[item.hand].portal);
+      if (portal === undefined) return;
+      this.hands[item.hand] = {
+        ...this.hands[item.hand],
+        lean: leanAt(item.tip_mm, portal),
+      };
+    });
+    if (this.scope !== undefined) {
+      this.shaftDeg = this.scope.shaft_deg;
+      this.cameraDeg = this.scope.camera_deg;
+    }
+    this.isPlaced = true;
+  }
+
+  private holdBack(): void {
+    if (!this.isPlaced || this.snapshot === undefined) return;
+    const item = this.snapshot.items.find((one) => one.hand === this.moved);
+    const held = this.hands[this.moved];
+    const portal = this.portalNow(held.portal);
+    if (item === undefined || portal === undefined || held.lean.depthMm < 5) return;
+    this.hands[this.moved] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal) };
+  }
+
+  private move(motion: ScopeMotion, seconds: number): void {
+    const held = this.hands[this.moved];
+    const portal = this.portalNow(held.portal);
+    if (portal === undefined) return;
+    switch (motion.kind) {
+      case "lean": {
+        // The hand goes the other way than the tip.
+        const by = LEAN_RAD_PER_S * seconds;
+        this.lean(motion.yaw * by, motion.pitch * by);
+        return;
+      }
+      case "advance": {
+        const isIn = held.lean.depthMm > portal.capsuleMm - 3;
+        const speed = isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S;
+        this.advance(motion.by * speed * seconds);
+        return;
+      }
+      case "turn_shaft":
+        this.turnBy(motion.by * TURN_DEG_PER_S * seconds, 0);
+        return;
+      case "turn_camera":
+        this.turnBy(0, motion.by * TURN_DEG_PER_S * seconds);
+    }
+  }
+
+  private lean(yaw: number, pitch: number): void {
+    const held = this.hands[this.moved];
+    this.hands[this.moved] = { ...held, lean: leaned(held.lean, yaw, pitch) };
+    this.changed = true;
+  }
+
+  private advance(mm: number): void {
+    const held = this.hands[this.moved];
+    const portal = this.portalNow(held.portal);
+    if (portal === undefined) return;
+    this.hands[this.moved] = { ...held, lean: advanced(held.lean, mm, portal) };
+    this.changed = true;
+  }
+
+  private turnBy(shaftDeg: number, cameraDeg: number): void {
+    this.shaftDeg = wrappedDeg(this.shaftDeg + shaftDeg);
+    this.cameraDeg = wrappedDeg(this.cameraDeg + cameraDeg);
+    this.turned = true;
+  }
+
+  private act(act: ScopeAct): void {
+    const { plan, snapshot } = this;
+    if (plan === undefined) return;
+    switch (act) {
+      case "panorama":
+        this.hasPanorama = !this.hasPanorama;
+        this.room.stage.hidden = !this.hasPanorama;
+        return;
+      case "next_portal": {
+        const held = this.hands[this.moved];
+        if (held.lean.depthMm > 0) {
+          this.room.say("Draw it out of this portal first.");
+          return;
+        }
+        const taken = this.hands[this.moved === 0 ? 1 : 0].portal;
+        let next = (held.portal + 1) % plan.portals.length;
+        if (next === taken) next = (next + 1) % plan.portals.length;
+        this.hands[this.moved] = { portal: next, lean: OUTSIDE };
+        this.changed = true;
+        this.room.say(`${plan.portals[next]?.name ?? ""}: ${plan.portals[next]?.landmarks ?? ""}.`);
+        return;
+      }
+      case "switch_hand": {
+        this.keys.clear();
+        this.moved = this.moved === 0 ? 1 : 0;
+        this.room.showHand(this.moved);
+        this.changed = true;
+        const isEmpty = !(snapshot?.items.some((one) => one.hand === this.moved) ?? false);
+        const probe = this.exercise?.tray.at(-1);
+        if (this.moved === 1 && isEmpty && probe !== undefined) {
+          this.room.take(probe, 1);
+          const portal = plan.portals[this.hands[1].portal];
+          this.room.say(`Probe at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.`);
+        }
+      }
+    }
+  }
+
+  private listen(signal: AbortSignal): void {
+    window.addEventListener(
+      "keydown",
+      (event) => {
+        if (!this.takesKeys(event)) return;
+        const motion = scopeMotion(event.code, event.shiftKey);
+        const act = scopeAct(event.code);
+        if (motion === undefined && act === undefined) return;
+        event.preventDefault();
+        event.stopImmediatePropagation();
+        if (motion !== undefined) this.keys.set(event.code, motion);
+        else if (act !== undefined && !event.repeat) this.act(act);
+      },
+      { signal, capture: true },
+    );
+    window.addEventListener(
+      "keyup",
+      (event) => {
+        this.keys.delete(event.code);
+      },
+      { signal, capture: true },
+    );
+    window.addEventListener(
+      "blur",
+      () => {
+        this.keys.clear();
+      },
+      { signal },
+    );
+    this.listenToMouse(signal);
+  }
+
+  private takesKeys(event: KeyboardEvent): boolean {
+    if (this.plan === undefined || !this.room.operates()) return false;
+    if (event.altKey || event.metaKey || event.ctrlKey) return false;
+    if (document.querySelector("dialog[open]") !== null) return false;
+    return !(event.target instanceof HTMLInputElement);
+  }
+
+  private listenToMouse(signal: AbortSignal): void {
+    let drag: number | undefined;
+    this.element.addEventListener(
+      "pointerdown",
+      (event) => {
+        if (!(event.target instanceof HTMLCanvasElement)) return;
+        drag = event.button;
+        event.target.setPointerCapture(event.pointerId);
+      },
+      { signal },
+    );
+    this.element.addEventListener(
+      "pointermove",
+      (event) => {
+        if (drag === undefined || event.buttons === 0) return;
+        if (drag === 2 || event.shiftKey) this.turnBy(-event.movementX * TURN_DEG_PER_PX, 0);
+        else this.lean(event.movementX * LEAN_RAD_PER_PX, -event.movementY * LEAN_RAD_PER_PX);
+      },
+      { signal },
+    );
+    this.element.addEventListener(
+      "pointerup",
+      () => {
+        drag = undefined;
+      },
+      { signal },
+    );
+    this.element.addEventListener(
+      "contextmenu",
+      (event) => {
+        event.preventDefault();
+      },
+      { signal },
+    );
+    this.element.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.advance(-Math.sign(event.deltaY) * WHEEL_MM);
+      },
+      { signal, passive: false },
+    );
+  }
+
+  private showPoints(): void {
+    const { plan, scope } = this;
+    if (plan === undefined) return;
+    this.list.replaceChildren(
+      ...plan.points.map((point) => {
+        const isSeen = scope?.points_seen.includes(point.number) ?? false;
+        const item = make("li", { title: point.found_by }, `${isSeen ? "✓ " : ""}${point.name}`);
+        item.classList.toggle("is-seen", isSeen);
+        return item;
+      }),
+    );
+  }
+}
+
+/** Where a place or a direction as scanned is now. */
+function moved(v: Vec3, pose: BodyPose | undefined, isPoint: boolean): Vec3 {
+  if (pose === undefined) return v;
+  const [w, x, y, z] = pose.quaternion;
+  const sine = Math.hypot(x, y, z);
+  const turned =
+    sine < 1e-9 ? v : rotated(v, [x / sine, y / sine, z / sine], 2 * Math.atan2(sine, w));
+  return isPoint ? add(turned, pose.translation_mm) : turned;
+}

@@ -1,0 +1,60 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { add, dot, length, scaled, subtract } from "../tool_placement";
+import {
+  advanced,
+  heldBack,
+  leanAt,
+  leaned,
+  wishOf,
+  wrappedDeg,
+  type PortalNow,
+} from "./scope_hand_model";
+
+const PORTAL: PortalNow = { skinMm: [1, 2, 3], inwards: [0, 0, -1], up: [0, 1, 0], capsuleMm: 12 };
+
+describe("an instrument in its portal", () => {
+  it("keeps its shaft through the hole however it leans", () => {
+    for (const yaw of [-0.6, 0, 0.3]) {
+      for (const pitch of [-0.4, 0, 0.5]) {
+        const { tipMm, shaft } = wishOf({ depthMm: 15, yawRad: yaw, pitchRad: pitch }, PORTAL);
+        const hole = add(tipMm, scaled(shaft, 15));
+        expect(length(subtract(hole, PORTAL.skinMm))).toBeLessThan(1e-9);
+        expect(length(shaft)).toBeCloseTo(1, 9);
+      }
+    }
+  });
+
+  it("finds the lean again from where the tip is", () => {
+    const lean = { depthMm: 14, yawRad: 0.3, pitchRad: -0.2 };
+    const again = leanAt(wishOf(lean, PORTAL).tipMm, PORTAL);
+    expect(again.depthMm).toBeCloseTo(lean.depthMm, 9);
+    expect(again.yawRad).toBeCloseTo(lean.yawRad, 9);
+    expect(again.pitchRad).toBeCloseTo(lean.pitchRad, 9);
+  });
+
+  it("goes in along the way in and leans only within", () => {
+    const outside = leaned({ depthMm: -10, yawRad: 0, pitchRad: 0 }, 0.3, 0.3);
+    expect(outside.yawRad).toBe(0);
+    const inside = advanced(outside, 25, PORTAL);
+    expect(inside.depthMm).toBe(15);
+    expect(dot(wishOf(inside, PORTAL).shaft, PORTAL.inwards)).toBeCloseTo(-1, 9);
+    expect(advanced(inside, 1000, PORTAL).depthMm).toBeLessThanOrEqual(42);
+  });
+
+  it("presses no farther than a hand does", () => {
+    const deep = { depthMm: 30, yawRad: 0, pitchRad: 0 };
+    const tip = wishOf({ ...deep, depthMm: 16 }, PORTAL).tipMm;
+    const back = heldBack(deep, tip, PORTAL);
+    expect(back.depthMm).toBeCloseTo(18.5, 6);
+    const near = { ...deep, depthMm: 17 };
+    expect(heldBack(near, tip, PORTAL)).toBe(near);
+  });
+
+  it("turns round and round", () => {
+    expect(wrappedDeg(190)).toBe(-170);
+    expect(wrappedDeg(-190)).toBe(170);
+    expect(wrappedDeg(540)).toBe(-180);
+  });
+});

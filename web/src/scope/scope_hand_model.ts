@@ -1,0 +1,91 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What goes into a joint pivots in the hole of its portal: where a hand wants its tip, from how deep it
+// is and how it leans. Pure.
+import type { Vec3 } from "../protocol";
+import { add, cross, dot, length, normalized, scaled, subtract } from "../tool_placement";
+
+/** A portal as it lies now, Patient [mm]. */
+export interface PortalNow {
+  readonly skinMm: Vec3;
+  readonly inwards: Vec3;
+  /** What leaning up goes towards: distal. */
+  readonly up: Vec3;
+  readonly capsuleMm: number;
+}
+
+/** How an instrument is held in its portal. */
+export interface Lean {
+  readonly depthMm: number;
+  /** Of the hand, to the sides and up, from the way in. */
+  readonly yawRad: number;
+  readonly pitchRad: number;
+}
+
+export const OUTSIDE: Lean = { depthMm: -30, yawRad: 0, pitchRad: 0 };
+
+const MOST_LEAN_RAD = (50 * Math.PI) / 180;
+const FARTHEST_OUT_MM = -60;
+const FARTHEST_IN_MM = 30;
+/** A wish goes no farther beyond where the tip really is: enough to be felt [mm]. */
+const MOST_PRESSED_MM = 2.5;
+
+const clamp = (v: number, low: number, high: number): number => Math.min(high, Math.max(low, v));
+
+/** Leaned by so much more, within what a portal allows; outside it lies along the way in. */
+export function leaned(lean: Lean, byYaw: number, byPitch: number): Lean {
+  if (lean.depthMm <= 3) return { ...lean, yawRad: 0, pitchRad: 0 };
+  return {
+    ...lean,
+    yawRad: clamp(lean.yawRad + byYaw, -MOST_LEAN_RAD, MOST_LEAN_RAD),
+    pitchRad: clamp(lean.pitchRad + byPitch, -MOST_LEAN_RAD, MOST_LEAN_RAD),
+  };
+}
+
+export function advanced(lean: Lean, byMm: number, portal: PortalNow): Lean {
+  const depthMm = clamp(lean.depthMm + byMm, FARTHEST_OUT_MM, portal.capsuleMm + FARTHEST_IN_MM);
+  return leaned({ ...lean, depthMm }, 0, 0);
+}
+
+export interface Wish {
+  readonly tipMm: Vec3;
+  readonly shaft: Vec3;
+}
+
+export function wishOf(lean: Lean, portal: PortalNow): Wish {
+  const side = normalized(cross(portal.inwards, portal.up));
+  const up = cross(side, portal.inwards);
+  const way = normalized(
+    add(
+      portal.inwards,
+      add(scaled(side, Math.tan(lean.yawRad)), scaled(up, Math.tan(lean.pitchRad))),
+    ),
+  );
+  return { tipMm: add(portal.skinMm, scaled(way, lean.depthMm)), shaft: scaled(way, -1) };
+}
+
+/** The lean that holds a tip there; the inverse of wishOf. */
+export function leanAt(tipMm: Vec3, portal: PortalNow): Lean {
+  const side = normalized(cross(portal.inwards, portal.up));
+  const up = cross(side, portal.inwards);
+  const to = subtract(tipMm, portal.skinMm);
+  const along = dot(to, portal.inwards);
+  if (along <= 3) return { depthMm: along, yawRad: 0, pitchRad: 0 };
+  return {
+    depthMm: length(to),
+    yawRad: Math.atan2(dot(to, side), along),
+    pitchRad: Math.atan2(dot(to, up), along),
+  };
+}
+
+/** A hand that presses against what does not yield: it goes no deeper than a little beyond the tip. */
+export function heldBack(lean: Lean, tipMm: Vec3, portal: PortalNow): Lean {
+  const most = length(subtract(tipMm, portal.skinMm)) + MOST_PRESSED_MM;
+  return lean.depthMm <= most ? lean : { ...lean, depthMm: most };
+}
+
+/** To -180 to 180. */
+export function wrappedDeg(deg: number): number {
+  return ((((deg + 180) % 360) + 360) % 360) - 180;
+}

@@ -1,0 +1,21 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { scopeAct, scopeMotion } from "./scope_keys";
+
+describe("keys of the scope", () => {
+  it("turn the shaft apart from the camera head", () => {
+    expect(scopeMotion("Comma", false)).toEqual({ kind: "turn_shaft", by: 1 });
+    expect(scopeMotion("Comma", true)).toEqual({ kind: "turn_camera", by: 1 });
+    expect(scopeMotion("ArrowRight", true)).toEqual({ kind: "turn_shaft", by: -1 });
+  });
+  it("lean, advance and draw back", () => {
+    expect(scopeMotion("ArrowUp", false)).toEqual({ kind: "lean", yaw: 0, pitch: 1 });
+    expect(scopeMotion("KeyD", false)).toEqual({ kind: "advance", by: -1 });
+    expect(scopeMotion("KeyJ", false)).toBeUndefined();
+  });
+  it("leave the other keys to the room", () => {
+    expect(scopeAct("KeyH")).toBe("switch_hand");
+    expect(scopeAct("KeyF")).toBeUndefined();
+  });
+});

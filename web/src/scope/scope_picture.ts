@@ -1,0 +1,107 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws the scope's round picture: the joint's wall and what the other hand holds in it.
+import * as THREE from "three";
+import type { Vec3 } from "../protocol";
+import type { JointWall } from "./joint_wall";
+import { lensUniforms, wetMaterial } from "./scope_shader";
+
+export interface ScopeSight {
+  readonly eyeMm: Vec3;
+  readonly axis: Vec3;
+  readonly up: Vec3;
+}
+
+export interface Rod {
+  readonly tipMm: Vec3;
+  readonly shaft: Vec3;
+}
+
+/** The lamp's fibres lie beside the lens [mm]. */
+const LAMP_UP_MM = 0.9;
+const LAMP_RIGHT_MM = 0.35;
+const ROD_LENGTH_MM = 40;
+const ROD_RADIUS_MM = 0.5;
+/** Drawn at most so large across, and less where the machine is slow [device px]. */
+const LARGEST_PX = 900;
+
+export class ScopePicture {
+  readonly canvas: HTMLCanvasElement;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.Camera();
+  private readonly lens = lensUniforms();
+  private readonly rod: THREE.Mesh;
+  private readonly wall: THREE.Mesh;
+
+  constructor(wall: JointWall) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(1);
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader does it
+    this.canvas = this.renderer.domElement;
+    this.canvas.className = "scope-picture";
+    this.canvas.setAttribute("aria-label", "The arthroscope's picture");
+    this.wall = new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false));
+    this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
+    for (const mesh of [this.wall, this.rod]) {
+      mesh.frustumCulled = false; // the lens is no frustum
+      this.scene.add(mesh);
+    }
+  }
+
+  /** @param fieldDeg  across the picture */
+  setField(fieldDeg: number): void {
+    this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
+  }
+
+  draw(sight: ScopeSight, rod: Rod | undefined, sizePx: number): void {
+    const size = Math.max(64, Math.min(LARGEST_PX, Math.round(sizePx)));
+    if (this.canvas.width !== size) this.renderer.setSize(size, size, false);
+    const { eye, axis, up, right, lamp } = this.lens;
+    eye.value.set(...sight.eyeMm);
+    axis.value.set(...sight.axis);
+    up.value.set(...sight.up);
+    right.value.crossVectors(axis.value, up.value);
+    lamp.value
+      .copy(eye.value)
+      .addScaledVector(up.value, LAMP_UP_MM)
+      .addScaledVector(right.value, LAMP_RIGHT_MM);
+    this.rod.visible = rod !== undefined;
+    if (rod !== undefined) {
+      this.rod.position.set(...rod.tipMm);
+      this.rod.quaternion.setFromUnitVectors(
+        new THREE.Vector3(0, 0, 1),
+        new THREE.Vector3(...rod.shaft).normalize(),
+      );
+      this.rod.updateMatrixWorld();
+    }
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** What the last picture took. */
+  get budget(): { readonly calls: number; readonly triangles: number } {
+    const { calls, triangles } = this.renderer.info.render;
+    return { calls, triangles };
+  }
+
+  dispose(): void {
+    for (const mesh of [this.wall, this.rod]) {
+      mesh.geometry.dispose();
+      (mesh.material as THREE.Material).dispose();
+    }
+    this.renderer.dispose();
+  }
+}
+
+/** A hooked probe: its tip at the origin, its shaft along +z, many short rings for the wide lens. */
+function rodGeometry(): THREE.BufferGeometry {
+  const points: THREE.Vector2[] = [new THREE.Vector2(0, 0), new THREE.Vector2(0.35, 0.15)];
+  for (let z = 0.5; z <= ROD_LENGTH_MM; z *= 1.18) points.push(new THREE.Vector2(ROD_RADIUS_MM, z));
+  const geometry = new THREE.LatheGeometry(points, 12);
+  geometry.rotateX(Math.PI / 2);
+  const count = geometry.getAttribute("position").count;
+  geometry.setAttribute("lining", new THREE.BufferAttribute(new Float32Array(4 * count), 4));
+  geometry.setAttribute("fibre", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  return geometry;
+}

@@ -1,0 +1,168 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scope's picture of what is wet: an equidistant lens in the vertex shader (equal angles are equally
+// long, as arthroscopy/optics.hpp has it), light that comes from beside the lens and falls off, and
+// what lines the joint told apart by colour, gloss and grain, all procedural.
+import * as THREE from "three";
+
+export interface LensUniforms {
+  readonly eye: THREE.IUniform<THREE.Vector3>;
+  readonly axis: THREE.IUniform<THREE.Vector3>;
+  readonly up: THREE.IUniform<THREE.Vector3>;
+  readonly right: THREE.IUniform<THREE.Vector3>;
+  readonly lamp: THREE.IUniform<THREE.Vector3>;
+  readonly halfField: THREE.IUniform<number>;
+  readonly [name: string]: THREE.IUniform;
+}
+
+export function lensUniforms(): LensUniforms {
+  const v = (): THREE.IUniform<THREE.Vector3> => ({ value: new THREE.Vector3() });
+  return { eye: v(), axis: v(), up: v(), right: v(), lamp: v(), halfField: { value: 0.7 } };
+}
+
+const VERTEX = /* glsl */ `
+uniform vec3 eye, axis, up, right;
+uniform float halfField;
+attribute vec4 lining;
+attribute vec3 fibre;
+varying vec3 vAt;
+varying vec3 vNormal;
+varying vec4 vLining;
+varying vec3 vFibre;
+void main() {
+  vec3 at = (modelMatrix * vec4(position, 1.0)).xyz;
+  vec3 to = at - eye;
+  vec3 seen = vec3(dot(to, right), dot(to, up), dot(to, axis));
+  float aside = length(seen.xy);
+  float angle = atan(aside, seen.z);
+  vec2 round = aside > 1e-6 ? seen.xy / aside * (angle / halfField) : vec2(0.0);
+  float far = length(to);
+  gl_Position = vec4(round * far, (2.0 * far / 60.0 - 1.0) * far, far);
+  vAt = at;
+  vNormal = mat3(modelMatrix) * normal;
+  vLining = lining;
+  vFibre = fibre;
+}`;
+
+const FRAGMENT = /* glsl */ `
+precision highp float;
+uniform vec3 eye, axis, lamp;
+uniform float halfField;
+uniform float isMetal;
+varying vec3 vAt;
+varying vec3 vNormal;
+varying vec4 vLining;
+varying vec3 vFibre;
+
+float hash(vec3 p) {
+  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+  p += dot(p, p.yxz + 33.33);
+  return fract((p.x + p.y) * p.z);
+}
+float noise(vec3 p) {
+  vec3 i = floor(p);
+  vec3 f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  return mix(mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
+                 mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y),
+             mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
+                 mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y), f.z);
+}
+float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
+
+void main() {
+  vec3 to = vAt - eye;
+  float far = length(to);
+  vec3 view = -to / far;
+  float cosine = dot(-view, axis);
+  if (cosine < cos(halfField * 1.03)) discard;
+  vec3 n = normalize(vNormal);
+  if (dot(n, view) < 0.0) n = -n;
+
+  float soft = cloudy(vAt * 0.9);
+  float grain = noise(vAt * 6.0);
+  // What lines it, sharpened: edges are some tenths of a millimetre wide, and ragged.
+  vec4 w = vLining + (soft - 0.5) * 0.16 * step(0.02, vLining) ;
+  w = smoothstep(0.22, 0.78, w);
+  float known = clamp(w.x + w.y + w.z + w.w, 0.0, 1.0);
+  float red = 1.0 - known;
+
+  vec3 cartilage = mix(vec3(0.74, 0.77, 0.76), vec3(0.88, 0.84, 0.75), soft);
+  vec3 disc = mix(vec3(0.80, 0.72, 0.56), vec3(0.93, 0.88, 0.76), cloudy(vAt * 1.7));
+  vec3 bone = mix(vec3(0.80, 0.68, 0.50), vec3(0.86, 0.76, 0.60), soft);
+  // Fibres: fine along, coarse across.
+  vec3 f = length(vFibre) > 0.1 ? normalize(vFibre) : vec3(0.0, 0.0, 1.0);
+  vec3 across = vAt - f * dot(vAt, f);
+  float strand = noise(across * 4.2 + f * dot(vAt, f) * 0.35);
+  float strand2 = noise(across * 9.0 + f * dot(vAt, f) * 0.6 + 3.7);
+  float bundle = 0.6 * strand + 0.4 * strand2;
+  vec3 ligament = mix(vec3(0.62, 0.47, 0.35), vec3(0.94, 0.88, 0.77), smoothstep(0.2, 0.75, bundle));
+  // Synovium with its vessels: thin ridges of noise.
+  float ridge = 1.0 - abs(2.0 * noise(vAt * 1.15 + 2.0 * soft) - 1.0);
+  float twig = 1.0 - abs(2.0 * noise(vAt * 2.9 + 11.0) - 1.0);
+  float vessel = smoothstep(0.90, 0.985, ridge) + 0.7 * smoothstep(0.93, 0.99, twig);
+  float villi = noise(vAt * 3.4);
+  vec3 synovium = mix(vec3(0.66, 0.25, 0.19), vec3(0.90, 0.62, 0.50), 0.55 * soft + 0.45 * villi);
+  synovium = mix(synovium, vec3(0.50, 0.04, 0.04), 0.75 * clamp(vessel, 0.0, 1.0));
+
+  vec3 albedo = synovium * red;
+  float total = red;
+  albedo += cartilage * w.x; total += w.x;
+  albedo += disc * w.y; total += w.y;
+  albedo += ligament * w.z; total += w.z;
+  albedo += bone * w.w; total += w.w;
+  albedo /= max(total, 1e-3);
+  float rough = (0.36 * red + 0.20 * w.x + 0.27 * w.y + 0.40 * w.z + 0.34 * w.w) / max(total, 1e-3);
+  // Relief: shallow bumps of synovium and fibres tilt the normal.
+  float relief = red * 0.55 * (villi - 0.5) + w.z * 0.5 * (bundle - 0.5);
+  vec3 dx = dFdx(vAt), dy = dFdy(vAt);
+  float hx = dFdx(relief), hy = dFdy(relief);
+  vec3 r1 = cross(dy, n), r2 = cross(n, dx);
+  float det = dot(dx, r1);
+  vec3 bent = abs(det) * n - sign(det) * (hx * r1 + hy * r2) * 0.35;
+  n = length(bent) > 1e-9 ? normalize(bent) : n;
+  albedo = mix(albedo, vec3(0.62, 0.64, 0.66), isMetal);
+  rough = mix(rough, 0.16, isMetal);
+
+  vec3 away = lamp - vAt;
+  float d2 = dot(away, away);
+  vec3 l = away * inversesqrt(d2);
+  float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(-l, axis)));
+  float e = 25.0 * (cone / (d2 + 20.0) + 0.0032);
+  float wrap = mix(0.45, 0.0, isMetal);
+  float nl = dot(n, l);
+  float lit = max(0.0, (nl + wrap) / (1.0 + wrap));
+  lit *= lit;
+  vec3 tint = mix(vec3(1.0, 0.8, 0.68), vec3(1.0, 0.5, 0.36), red);
+  vec3 colour = albedo * (e * lit + tint * (0.30 * e + 0.03));
+  // Wet: a sharp highlight, a sheen about it, and a brighter rim.
+  vec3 h = normalize(l + view);
+  float nh = max(dot(n, h), 0.0);
+  float a2 = pow(rough, 4.0);
+  float denominator = nh * nh * (a2 - 1.0) + 1.0;
+  float ggx = a2 / (3.14159 * denominator * denominator);
+  float fresnel = 0.03 + 0.97 * pow(1.0 - max(dot(n, view), 0.0), 5.0);
+  colour += e * step(0.0, nl) * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
+  colour += 0.10 * e * fresnel * vec3(0.93, 0.98, 1.05);
+  // Water between.
+  colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));
+  // The camera: darker at the rim, filmic, a little noise in the dark.
+  float r = acos(clamp(cosine, -1.0, 1.0)) / halfField;
+  colour *= 1.0 - 0.45 * pow(r, 3.5);
+  colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
+  float grey = dot(colour, vec3(0.3, 0.59, 0.11));
+  colour = mix(vec3(grey), colour, 1.22);
+  colour += (grain - 0.5) * mix(0.035, 0.012, grey);
+  colour *= 1.0 - smoothstep(0.985, 1.0, r);
+  gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
+}`;
+
+export function wetMaterial(lens: LensUniforms, isMetal: boolean): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    uniforms: { ...lens, isMetal: { value: isMetal ? 1 : 0 } },
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    side: THREE.DoubleSide,
+  });
+}
