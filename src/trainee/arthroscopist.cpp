@@ -142,14 +142,15 @@ ScriptedArthroscopist::View ScriptedArthroscopist::view_of(const Vec3& point,
     for (double aside = -6.0; aside <= 6.0; aside += 1.0) {
       for (double up = -1.5; up <= 1.5; up += 0.5) {
         const Vec3 tip = in_portal(kLook, deep) + across * aside + map_.distal * up;
-        const double far = distance(tip, point);
+        const Vec3 eye = tip + through(kLook, tip).shaft * scope_radius;
+        const double far = distance(eye, point);
         if (far < 2.0 || far > 13.0) continue;
-        if (!goes_in(tip, kLook, scope_radius + kSpareMm) || !is_free(tip, point)) continue;
+        if (!goes_in(tip, kLook, scope_radius + kSpareMm) || !is_free(eye, point)) continue;
         const HandPose held = through(kLook, tip);
         for (double turn = -180.0; turn < 180.0; turn += 15.0) {
           const arthroscopy::Sight sight =
-              arthroscopy::sight_of(lens_, {tip, held.shaft, turn, 0.0}, map_.distal);
-          const double cosine = dot(point - tip, sight.axis) / far;
+              arthroscopy::sight_of(lens_, {eye, held.shaft, turn, 0.0}, map_.distal);
+          const double cosine = dot(point - eye, sight.axis) / far;
           if (cosine < sight.least_cosine + 0.08) continue;
           const double cost = 1.5 * distance(tip, from) + 6.0 * (1.0 - cosine) / 0.1 +
                               0.01 * std::abs(wrapped(turn - planned_turn_deg_)) + 0.5 * deep;
@@ -207,9 +208,15 @@ void ScriptedArthroscopist::plan(const simulation::Snapshot&) {
     if (view.is_found) look(view);
     if (!point.is_probed) continue;
     const Vec3 way_in = in_portal(kWork, kInsideMm);
-    const Vec3 down = normalized_or(point.at - way_in, map_.distal);
+    const Vec3 down =
+        normalized_or(fields::sample_distance(map_.space, point.at).gradient, map_.distal);
     go(1, through(kWork, point.at + down * skill_.presses_mm), skill_.dwell_s);
     go(1, through(kWork, way_in), skill_.reaction_s);
+  }
+  // Once round, from two depths: what was planned for and missed may be found so.
+  for (const double deep : {2.0, 4.0}) {
+    for (double turn = -180.0; turn < 180.0; turn += 45.0)
+      look({in_portal(kLook, deep), turn, true});
   }
   Task finish;
   finish.to = {planned_[0], {}};

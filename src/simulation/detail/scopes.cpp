@@ -25,7 +25,8 @@ constexpr double kPivotMm = 3.0;       // deeper than this the hole leads the sh
 constexpr double kTunnelMm = 2.0;      // soft tissue gives so much aside of the way to the capsule
 constexpr double kWallMm = 0.3;        // a rigid wall, less the roughness of its grid
 constexpr double kKeptOutMm = 3.0;     // skin and fat keep a tip so far from the joint elsewhere
-constexpr double kLeftMm = 1.0;        // so far back through the capsule it has come out
+constexpr double kFarOutMm = 100.0;
+constexpr double kLeftMm = 1.0;  // so far back through the capsule it has come out
 constexpr double kSightStepMm = 0.5;
 constexpr double kSightShortMm = 0.8;  // before the point: it lies on the wall itself
 constexpr double kBehindWallMm = 1.0;  // the space is of the scan; pulled bones open it more
@@ -80,17 +81,17 @@ World::State::Wall World::State::wall_at(const Model& model,
     if (!is_near) return {};
     return {kKeptOutMm - space.distance_mm, outwards};
   }
+  if (space.is_inside_grid && space.distance_mm <= kWallMm) return {};
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
   const Vec3 aside = tip - way.skin - way.inwards * deep;
-  if (deep <= way.capsule_mm) {
-    const double off = length(aside);
-    if (off <= kTunnelMm) return {};
-    return {off - kTunnelMm, aside * (-1.0 / off)};
-  }
-  if (!space.is_inside_grid || space.distance_mm <= kWallMm) return {};
+  const double off = length(aside);
+  // In the way to the capsule, or the hole in it from within.
+  if (deep <= way.capsule_mm && off <= kTunnelMm) return {};
+  const bool is_in = scope_state.is_in_joint[hand];
+  if (!is_in && deep <= way.capsule_mm) return {off - kTunnelMm, aside * (-1.0 / off)};
   if (squared_length(outwards) > 0.5) return {space.distance_mm - kWallMm, -outwards};
-  return {deep - way.capsule_mm, -way.inwards};  // far behind a wall: back the way it came
+  return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }
 
 /// Through which portal it goes, and whether it is in the joint.
@@ -114,12 +115,16 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   const double deep = dot(item.tip - way.skin, way.inwards);
   bool& is_in = state.is_in_joint[hand];
   const bool is_scope = kind_of(model, item).optic.has_value();
-  if (!is_in && deep > way.capsule_mm) {
+  const std::size_t body = model.map->space_body;
+  const fields::DistanceSample space = fields::sample_distance(
+      model.map->space, (inverses[body] * Point<frame::Patient>{item.tip}).v);
+  const double out_mm = space.is_inside_grid ? space.distance_mm : kFarOutMm;
+  if (!is_in && out_mm < 0.0) {
     is_in = true;
     state.last_tip[hand] = item.tip;
     if (is_scope) ++state.entries;
     emit(EventKind::EnteredJoint, now.held[hand], portal, 0.0);
-  } else if (is_in && deep < way.capsule_mm - kLeftMm) {
+  } else if (is_in && out_mm > kLeftMm && deep < way.capsule_mm) {
     is_in = false;
     if (is_scope) ++state.pull_outs;
     emit(EventKind::LeftJoint, now.held[hand], portal, 0.0);
@@ -197,14 +202,16 @@ void World::State::note_probing(const Model& model, std::uint8_t hand, const Ite
   }
 }
 
+/// The lens lies in the middle of the rounded tip: where that touches, it still sees.
 std::optional<arthroscopy::Sight> World::State::sight_of(const Model& model,
                                                          const Item& item) const noexcept {
   const instruments::Instrument& kind = kind_of(model, item);
   if (!kind.optic || model.map == nullptr) return std::nullopt;
   const Vec3 level = (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
-  return arthroscopy::sight_of(
-      {kind.optic->view_angle_deg, kind.optic->field_deg},
-      {item.tip, item.shaft, scope_state.shaft_turn_deg, scope_state.camera_turn_deg}, level);
+  return arthroscopy::sight_of({kind.optic->view_angle_deg, kind.optic->field_deg},
+                               {item.tip + item.shaft * kind.shape.front_z_mm(), item.shaft,
+                                scope_state.shaft_turn_deg, scope_state.camera_turn_deg},
+                               level);
 }
 
 void World::State::watch_scopes(const Model& model) noexcept {

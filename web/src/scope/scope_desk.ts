@@ -13,7 +13,7 @@ import type {
   SnapshotMessage,
   Vec3,
 } from "../protocol";
-import { add, rotated } from "../tool_placement";
+import { add, rotated, scaled } from "../tool_placement";
 import type { JointWall } from "./joint_wall";
 import {
   advanced,
@@ -89,6 +89,8 @@ export class ScopeDesk {
   private lastSentMs = -Infinity;
   private readonly keys = new Map<string, ScopeMotion>();
   private hasPanorama = true;
+  /** Of the scope's rounded tip. */
+  private radiusMm = 1;
 
   constructor(
     private readonly room: ScopeRoom,
@@ -134,6 +136,8 @@ export class ScopeDesk {
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
+    const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
+    this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.showPoints();
   }
 
@@ -190,7 +194,12 @@ export class ScopeDesk {
     const other = snapshot.items.find((one) => one.hand === 1 - scope.hand);
     const box = picture.canvas.getBoundingClientRect();
     picture.draw(
-      { eyeMm: item.tip_mm, axis: scope.axis, up: scope.up },
+      {
+        // The lens lies in the middle of the rounded tip.
+        eyeMm: add(item.tip_mm, scaled(item.shaft, this.radiusMm)),
+        axis: scope.axis,
+        up: scope.up,
+      },
       other === undefined ? undefined : { tipMm: other.tip_mm, shaft: other.shaft },
       Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
     );

@@ -99,12 +99,12 @@ void main() {
   float bundle = 0.6 * strand + 0.4 * strand2;
   vec3 ligament = mix(vec3(0.62, 0.47, 0.35), vec3(0.94, 0.88, 0.77), smoothstep(0.2, 0.75, bundle));
   // Synovium with its vessels: thin ridges of noise.
-  float ridge = 1.0 - abs(2.0 * noise(vAt * 1.15 + 2.0 * soft) - 1.0);
+  float ridge = 1.0 - abs(2.0 * noise(vAt * 1.5 + 2.0 * soft) - 1.0);
   float twig = 1.0 - abs(2.0 * noise(vAt * 2.9 + 11.0) - 1.0);
-  float vessel = smoothstep(0.90, 0.985, ridge) + 0.7 * smoothstep(0.93, 0.99, twig);
+  float vessel = 0.8 * smoothstep(0.955, 0.998, ridge) + 0.5 * smoothstep(0.94, 0.995, twig);
   float villi = noise(vAt * 3.4);
   vec3 synovium = mix(vec3(0.66, 0.25, 0.19), vec3(0.90, 0.62, 0.50), 0.55 * soft + 0.45 * villi);
-  synovium = mix(synovium, vec3(0.50, 0.04, 0.04), 0.75 * clamp(vessel, 0.0, 1.0));
+  synovium = mix(synovium, vec3(0.50, 0.04, 0.04), 0.6 * clamp(vessel, 0.0, 1.0));
 
   vec3 albedo = synovium * red;
   float total = red;
