@@ -221,7 +221,7 @@ export class ScopeDesk {
       this.status,
       `Scope ${where(0)} · probe ${where(1)} · moving the ${this.moved === 0 ? "scope" : "probe"} · ` +
         `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · pull-outs ${scope?.pull_outs ?? 0} · ` +
-        "generated tissue",
+        "generated",
     );
   }
 

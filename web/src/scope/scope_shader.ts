@@ -94,10 +94,10 @@ void main() {
   // Fibres: fine along, coarse across.
   vec3 f = length(vFibre) > 0.1 ? normalize(vFibre) : vec3(0.0, 0.0, 1.0);
   vec3 across = vAt - f * dot(vAt, f);
-  float strand = noise(across * 4.2 + f * dot(vAt, f) * 0.35);
-  float strand2 = noise(across * 9.0 + f * dot(vAt, f) * 0.6 + 3.7);
+  float strand = noise(across * 2.6 + f * dot(vAt, f) * 0.25);
+  float strand2 = noise(across * 5.2 + f * dot(vAt, f) * 0.4 + 3.7);
   float bundle = 0.6 * strand + 0.4 * strand2;
-  vec3 ligament = mix(vec3(0.62, 0.47, 0.35), vec3(0.94, 0.88, 0.77), smoothstep(0.2, 0.75, bundle));
+  vec3 ligament = mix(vec3(0.70, 0.56, 0.43), vec3(0.94, 0.88, 0.78), smoothstep(0.2, 0.75, bundle));
   // Synovium with its vessels: thin ridges of noise.
   float ridge = 1.0 - abs(2.0 * noise(vAt * 1.5 + 2.0 * soft) - 1.0);
   float twig = 1.0 - abs(2.0 * noise(vAt * 2.9 + 11.0) - 1.0);
@@ -115,7 +115,7 @@ void main() {
   albedo /= max(total, 1e-3);
   float rough = (0.36 * red + 0.20 * w.x + 0.27 * w.y + 0.40 * w.z + 0.34 * w.w) / max(total, 1e-3);
   // Relief: shallow bumps of synovium and fibres tilt the normal.
-  float relief = red * 0.55 * (villi - 0.5) + w.z * 0.5 * (bundle - 0.5);
+  float relief = red * 0.55 * (villi - 0.5) + w.z * 0.28 * (bundle - 0.5);
   vec3 dx = dFdx(vAt), dy = dFdy(vAt);
   float hx = dFdx(relief), hy = dFdy(relief);
   vec3 r1 = cross(dy, n), r2 = cross(n, dx);

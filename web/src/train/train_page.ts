@@ -326,7 +326,8 @@ export class TrainPage {
   private makeHand(): Hand {
     return new Hand(this.theatre, {
       send: (hand) => {
-        this.connection.sendHand(hand);
+        // What is in a portal is led from the scope's desk alone.
+        if (!this.scope.isOn) this.connection.sendHand(hand);
       },
       moveWrist: (axis, by) => {
         this.panels.wrist.move(axis, by);
