@@ -172,6 +172,10 @@ export class ScopeDesk {
     if (!this.isPlaced || (!this.changed && nowMs - this.lastSentMs < REPEAT_MS)) return;
     this.changed = false;
     this.lastSentMs = nowMs;
+    this.sendHand();
+  }
+
+  private sendHand(): void {
     const held = this.hands[this.moved];
     const portal = this.portalNow(held.portal);
     if (portal === undefined) return;
@@ -346,6 +350,8 @@ export class ScopeDesk {
         const isEmpty = !(snapshot?.items.some((one) => one.hand === this.moved) ?? false);
         const probe = this.exercise?.tray.at(-1);
         if (this.moved === 1 && isEmpty && probe !== undefined) {
+          // The hand is there before it takes anything: it comes in from behind, through no bone.
+          this.sendHand();
           this.room.take(probe, 1);
           const portal = plan.portals[this.hands[1].portal];
           this.room.say(`Probe at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.`);
