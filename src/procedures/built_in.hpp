@@ -8,7 +8,8 @@
 
 namespace carpus::procedures {
 
-/// In the alphabetical order of their folders. Read once, on the first call.
+/// In the alphabetical order of their folders; the first is what is operated when none is named.
+/// Read once, on the first call.
 /// @throws InvalidInput naming file and field when a procedure.json is wrong.
 [[nodiscard]] const procedure::ProcedureList& built_in();
 

@@ -43,6 +43,10 @@ const cases::CaseData& wrist() {
   return data;
 }
 
+TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
+  EXPECT_EQ(built_in().all().front()->id, "dorsal_scaphoid_fixation");
+}
+
 TEST(BuiltIn, OffersEveryFolder) {
   ASSERT_EQ(built_in().all().size(), 3U);
   EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
