@@ -14,6 +14,7 @@ import type {
   Vec3,
 } from "../protocol";
 import { add, rotated, scaled } from "../tool_placement";
+import { ForceGauge } from "./force_gauge";
 import type { JointWall } from "./joint_wall";
 import {
   advanced,
@@ -69,6 +70,7 @@ export class ScopeDesk {
   readonly element = make("section.scope", { "aria-label": "Arthroscope" });
   private readonly status = make("p.scope-status", { role: "status" });
   private readonly list = make("ol.scope-points");
+  private readonly gauge = new ForceGauge();
   private picture: ScopePicture | undefined;
   private plan: Plan | undefined;
   private exercise: ExerciseMessage | undefined;
@@ -102,7 +104,7 @@ export class ScopeDesk {
       this.act("panorama");
     });
     this.element.append(
-      make("div.scope-head", {}, this.status, panorama),
+      make("div.scope-head", {}, make("div", {}, this.status, this.gauge.element), panorama),
       make("p.scope-keys", {}, KEYS_IN_WORDS),
       this.list,
     );
@@ -218,6 +220,10 @@ export class ScopeDesk {
       if (portal === "") return "outside";
       return scope?.in_joint[hand] === 1 ? `in the joint by ${portal}` : `in portal ${portal}`;
     };
+    this.gauge.show(
+      this.snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [],
+      performance.now(),
+    );
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
     this.element.dataset["triangles"] = String(budget?.triangles ?? 0);

@@ -1,0 +1,62 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How hard scope and probe press: a bar with the limits of warning and injury. Both hold their peak
+// for a moment, for a blow is shorter than a look.
+import { make, setText } from "../dom";
+
+/** As the host counts them (clinical: B11, proposed from published probing forces). */
+export const WARN_N = 3;
+export const INJURY_N = 8;
+const MOST_N = 12;
+const HELD_MS = 700;
+
+export type ForceGrade = "good" | "warning" | "injury";
+
+export function gradeOf(newtons: number): ForceGrade {
+  if (newtons > INJURY_N) return "injury";
+  return newtons > WARN_N ? "warning" : "good";
+}
+
+/** The greatest of the last moment. */
+export class HeldPeak {
+  private peakN = 0;
+  private atMs = -Infinity;
+
+  at(newtons: number, nowMs: number): number {
+    if (newtons >= this.peakN || nowMs - this.atMs > HELD_MS) {
+      this.peakN = newtons;
+      this.atMs = nowMs;
+    }
+    return this.peakN;
+  }
+}
+
+const WORDS: Readonly<Record<ForceGrade, string>> = {
+  good: "",
+  warning: " · too hard",
+  injury: " · injures cartilage",
+};
+
+export class ForceGauge {
+  readonly element = make("div.scope-force", {});
+  private readonly bars = ["Scope", "Probe"].map((name) => {
+    const fill = make("span.scope-force-fill", {});
+    const text = make("span.scope-force-text", { role: "status" });
+    const bar = make("div.scope-force-bar", { "aria-hidden": "true" }, fill);
+    this.element.append(make("div.scope-force-row", {}, text, bar));
+    return { name, fill, text, bar, peak: new HeldPeak() };
+  });
+
+  /** @param newtons  by hand */
+  show(newtons: readonly number[], nowMs: number): void {
+    this.bars.forEach((one, hand) => {
+      const peak = one.peak.at(newtons[hand] ?? 0, nowMs);
+      const grade = gradeOf(peak);
+      one.bar.dataset["grade"] = grade;
+      one.fill.style.width = `${(100 * Math.min(1, peak / MOST_N)).toFixed(1)}%`;
+      setText(one.text, `${one.name} ${peak.toFixed(1)} N${WORDS[grade]}`);
+      one.text.dataset["grade"] = grade;
+    });
+  }
+}
