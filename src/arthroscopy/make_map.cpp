@@ -12,6 +12,7 @@
 #include <string>
 
 #include "arthroscopy/portal_table.hpp"
+#include "cases/joint_under_block.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/triangle_tree.hpp"
 
@@ -73,7 +74,7 @@ class PulledBones {
     anatomy::HandPose pose = data.hand_motion.scan;
     pose.traction_n = traction_n;
     for (const cases::Bone& bone : data.bones) {
-      from_patient_.push_back(data.hand_motion.pose_of(bone.bone, pose).inverse());
+      from_patient_.push_back(cases::pose_under_block(data.hand_motion, bone.bone, pose).inverse());
     }
   }
   [[nodiscard]] double distance_mm(const Vec3& point) const {

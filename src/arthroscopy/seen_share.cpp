@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arthroscopy/seen_share.hpp"
 
+#include "cases/joint_under_block.hpp"
+
 namespace carpus::arthroscopy {
 namespace {
 
@@ -37,7 +39,7 @@ void SeenCartilage::look(const Sight& sight, const anatomy::HandPose& wrist) {
   std::vector<Pose<frame::Patient, frame::Bone>> poses;
   inverses_.clear();
   for (const cases::Bone& bone : data_.bones) {
-    poses.push_back(data_.hand_motion.pose_of(bone.bone, wrist));
+    poses.push_back(cases::pose_under_block(data_.hand_motion, bone.bone, wrist));
     inverses_.push_back(poses.back().inverse());
   }
   const std::vector<cases::CartilageFacet>& facets = map_.cartilage;

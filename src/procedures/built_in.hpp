@@ -8,7 +8,7 @@
 
 namespace carpus::procedures {
 
-/// In the alphabetical order of their folders; the first is what is operated when none is named.
+/// The dorsal fixation, which is operated when none is named, then by their folders' names.
 /// Read once, on the first call.
 /// @throws InvalidInput naming file and field when a procedure.json is wrong.
 [[nodiscard]] const procedure::ProcedureList& built_in();

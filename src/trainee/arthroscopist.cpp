@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "arthroscopy/make_map.hpp"
+#include "arthroscopy/opened_space.hpp"
+#include "cases/joint_under_block.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
 
@@ -21,8 +23,10 @@ constexpr std::uint8_t kLook = 0;  // portals, in the map's order
 constexpr std::uint8_t kWork = 1;
 constexpr double kOutsideMm = 12.0;
 constexpr double kInsideMm = 2.0;    // beyond the capsule, to begin with
+constexpr double kDeepestMm = 14.0;  // of the working depth [S81]
+constexpr double kAcrossMm = 3.0;
 constexpr double kBackMm = -2.5;     // so far from the capsule a scope has fallen out
-constexpr double kBehindMm = 0.9;    // of the wall: pulled bones open it
+constexpr double kBehindMm = 0.6;    // of the wall: so far its grid is off
 constexpr double kSpareMm = 0.1;     // about the scope
 constexpr double kGivesWay = 0.004;  // of what is pressed, a tick
 constexpr Tick kPullTicks = 2500;
@@ -74,7 +78,11 @@ ScriptedArthroscopist::ScriptedArthroscopist(const cases::CaseData& data,
     const bool is_near = belongs_to_forearm(bone.bone) || bone.bone == BoneId::Scaphoid ||
                          bone.bone == BoneId::Lunate || bone.bone == BoneId::Triquetrum;
     if (!is_near || bone.distance_field.values().empty()) continue;
-    bones_.emplace_back(&bone, data.hand_motion.pose_of(bone.bone, wrist_).inverse());
+    if (bone.bone == BoneId::Lunate) {
+      row_from_patient_ = cases::pose_under_block(data.hand_motion, bone.bone, wrist_).inverse();
+    }
+    bones_.emplace_back(&bone,
+                        cases::pose_under_block(data.hand_motion, bone.bone, wrist_).inverse());
   }
 }
 
@@ -93,10 +101,14 @@ HandPose ScriptedArthroscopist::through(std::uint8_t portal, const Vec3& tip) co
   return {tip, deep > 4.0 ? normalized_or(p.skin - tip, -p.inwards) : -p.inwards};
 }
 
+arthroscopy::OpenedSpace ScriptedArthroscopist::space_at(const Vec3& at) const {
+  return arthroscopy::opened_space_at(map_.space, {}, row_from_patient_, at);
+}
+
 /// Between the pulled bones, and not behind the joint's wall.
 bool ScriptedArthroscopist::has_room(const Vec3& at, double room_mm) const {
-  const fields::DistanceSample wall = fields::sample_distance(map_.space, at);
-  if (!wall.is_inside_grid || wall.distance_mm > kBehindMm) return false;
+  const arthroscopy::OpenedSpace wall = space_at(at);
+  if (!wall.is_near || wall.distance_mm > kBehindMm) return false;
   for (const auto& [bone, from_patient] : bones_) {
     const Vec3 local = (from_patient * Point<frame::Patient>{at}).v;
     const fields::DistanceSample s = fields::sample_distance(bone->distance_field, local);
@@ -107,8 +119,8 @@ bool ScriptedArthroscopist::has_room(const Vec3& at, double room_mm) const {
 
 /// Tip and shaft have room from the capsule on.
 bool ScriptedArthroscopist::goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const {
-  const fields::DistanceSample wall = fields::sample_distance(map_.space, tip);
-  if (!wall.is_inside_grid || wall.distance_mm > 0.1) return false;
+  const arthroscopy::OpenedSpace wall = space_at(tip);
+  if (!wall.is_near || wall.distance_mm > 0.1) return false;
   const HandPose held = through(portal, tip);
   for (double s = 0; s < 12.0; s += 1.0) {
     const Vec3 at = tip + held.shaft * s;
@@ -138,9 +150,9 @@ ScriptedArthroscopist::View ScriptedArthroscopist::view_of(const Vec3& point,
   const Vec3 across = normalized_or(cross(portal.inwards, map_.distal), {1, 0, 0});
   View best;
   double least = 1e9;
-  for (double deep = 1.0; deep <= 7.0; deep += 1.0) {
-    for (double aside = -6.0; aside <= 6.0; aside += 1.0) {
-      for (double up = -1.5; up <= 1.5; up += 0.5) {
+  for (double deep = 1.0; deep <= kDeepestMm; deep += 1.0) {
+    for (double aside = -8.0; aside <= 8.0; aside += 1.0) {
+      for (double up = -2.0; up <= 3.5; up += 0.5) {
         const Vec3 tip = in_portal(kLook, deep) + across * aside + map_.distal * up;
         const Vec3 eye = tip + through(kLook, tip).shaft * scope_radius;
         const double far = distance(eye, point);
@@ -176,6 +188,10 @@ void ScriptedArthroscopist::go(std::uint8_t hand, const HandPose& to, double dwe
 
 void ScriptedArthroscopist::look(const View& view) {
   planned_turn_deg_ = wrapped(view.turn_deg + rng_.normal() * skill_.turn_error_deg);
+  // Not across what lies between: back to the middle of the way in, then in again.
+  if (distance(view.tip, planned_[kLook]) > kAcrossMm) {
+    go(0, through(kLook, in_portal(kLook, kInsideMm)), 0.0);
+  }
   go(0, through(kLook, view.tip + error(skill_.aim_error_mm)), skill_.dwell_s);
   tasks_.back().turns = true;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/optics.hpp"
 #include "cases/case_data.hpp"
 #include "core/rng.hpp"
@@ -76,6 +77,7 @@ class ScriptedArthroscopist {
   [[nodiscard]] HandPose through(std::uint8_t portal, const Vec3& tip) const;
   [[nodiscard]] Vec3 in_portal(std::uint8_t portal, double beyond_capsule_mm) const;
   [[nodiscard]] View view_of(const Vec3& point, const Vec3& from) const;
+  [[nodiscard]] arthroscopy::OpenedSpace space_at(const Vec3& at) const;
   [[nodiscard]] bool has_room(const Vec3& tip, double room_mm) const;
   [[nodiscard]] bool goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const;
   [[nodiscard]] bool is_free(const Vec3& from, const Vec3& to) const;
@@ -95,6 +97,7 @@ class ScriptedArthroscopist {
   simulation::WristPose wrist_;
   /// Of the bones about the joint, as the wrist is pulled.
   std::vector<std::pair<const cases::Bone*, Pose<frame::Bone, frame::Patient>>> bones_;
+  Pose<frame::Bone, frame::Patient> row_from_patient_;
   std::vector<Task> tasks_;
   std::size_t at_ = 0;
   bool has_planned_ = false;

@@ -125,7 +125,12 @@ void World::State::chase(const Model& model, std::uint8_t hand, const Vec3& targ
     const Vec3 wanted = target - item.tip;
     const double far = length(wanted);
     const Vec3 next = far > kSubstepMm ? item.tip + wanted * (kSubstepMm / far) : target;
-    const Resolved resolved = push_out(model, hand, next, item.shaft);
+    Resolved resolved = push_out(model, hand, next, item.shaft);
+    if (resolved.is_wedged && scope_state.portal[hand] != detail::kNoPortal) {
+      // Held fast between two bones, it still goes back along its shaft, the way that it came.
+      const double back = dot(next - item.tip, item.shaft);
+      if (back > 0) resolved = push_out(model, hand, item.tip + item.shaft * back, item.shaft);
+    }
     if (resolved.is_wedged) {
       ++faults.unresolved_contacts;
       return;

@@ -8,7 +8,6 @@
 
 #include "arthroscopy/optics.hpp"
 #include "arthroscopy/seen_share.hpp"
-#include "fields/distance_field.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -29,7 +28,7 @@ constexpr double kFarOutMm = 100.0;
 constexpr double kLeftMm = 1.0;  // so far back through the capsule it has come out
 constexpr double kSightStepMm = 0.5;
 constexpr double kSightShortMm = 0.8;  // before the point: it lies on the wall itself
-constexpr double kBehindWallMm = 1.0;  // the space is of the scan; pulled bones open it more
+constexpr double kBehindWallMm = 0.6;  // so far the wall's grid is off
 constexpr double kHiddenMm = 0.05;     // this deep in bone a line of sight is cut
 constexpr double kProbedMm = 2.5;
 constexpr double kNewLookMm = 0.5;
@@ -64,24 +63,26 @@ Vec3 World::State::led_by_portal(const Model& model,
   return length(to_hole) > kPivotMm ? normalized_or(to_hole, shaft) : shaft;
 }
 
+arthroscopy::OpenedSpace World::State::joint_space_at(const Model& model,
+                                                      const Vec3& point) const noexcept {
+  return arthroscopy::opened_space_at(model.map->space, inverses[model.map->space_body],
+                                      inverses[model.row_body], point);
+}
+
 /// How deep a tip is in what does not yield, and which way is out; depth 0 where it is in none.
 World::State::Wall World::State::wall_at(const Model& model,
                                          std::uint8_t hand,
                                          const Vec3& tip) const noexcept {
   const Item& item = now.items[now.held[hand]];
   if (!enters_joints(model, item)) return {};
-  const std::size_t body = model.map->space_body;
-  const fields::DistanceSample space =
-      fields::sample_distance(model.map->space, (inverses[body] * Point<frame::Patient>{tip}).v);
-  const Vec3 outwards =
-      (poses[body] * Direction<frame::Bone>{normalized_or(space.gradient, {0, 0, 0})}).v;
+  const arthroscopy::OpenedSpace space = joint_space_at(model, tip);
   const std::uint8_t portal = scope_state.portal[hand];
   if (portal == kNoPortal) {
-    const bool is_near = space.is_inside_grid && space.distance_mm < kKeptOutMm;
+    const bool is_near = space.is_near && space.distance_mm < kKeptOutMm;
     if (!is_near) return {};
-    return {kKeptOutMm - space.distance_mm, outwards};
+    return {kKeptOutMm - space.distance_mm, space.outwards};
   }
-  if (space.is_inside_grid && space.distance_mm <= kWallMm) return {};
+  if (space.is_near && space.distance_mm <= kWallMm) return {};
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
   const Vec3 aside = tip - way.skin - way.inwards * deep;
@@ -90,7 +91,9 @@ World::State::Wall World::State::wall_at(const Model& model,
   if (deep <= way.capsule_mm && off <= kTunnelMm) return {};
   const bool is_in = scope_state.is_in_joint[hand];
   if (!is_in && deep <= way.capsule_mm) return {off - kTunnelMm, aside * (-1.0 / off)};
-  if (squared_length(outwards) > 0.5) return {space.distance_mm - kWallMm, -outwards};
+  if (squared_length(space.outwards) > 0.5) {
+    return {space.distance_mm - kWallMm, -space.outwards};
+  }
   return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }
 
@@ -115,10 +118,8 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   const double deep = dot(item.tip - way.skin, way.inwards);
   bool& is_in = state.is_in_joint[hand];
   const bool is_scope = kind_of(model, item).optic.has_value();
-  const std::size_t body = model.map->space_body;
-  const fields::DistanceSample space = fields::sample_distance(
-      model.map->space, (inverses[body] * Point<frame::Patient>{item.tip}).v);
-  const double out_mm = space.is_inside_grid ? space.distance_mm : kFarOutMm;
+  const arthroscopy::OpenedSpace space = joint_space_at(model, item.tip);
+  const double out_mm = space.is_near ? space.distance_mm : kFarOutMm;
   if (!is_in && out_mm < 0.0) {
     is_in = true;
     state.last_tip[hand] = item.tip;
@@ -138,12 +139,10 @@ bool World::State::is_in_sight(const Model& model,
                                const Vec3& point) const noexcept {
   const Vec3 way = point - eye;
   const double far = length(way);
-  const std::size_t body = model.map->space_body;
   for (double s = kSightStepMm; s < far - kSightShortMm; s += kSightStepMm) {
     const Vec3 at = eye + way * (s / far);
-    const fields::DistanceSample space =
-        fields::sample_distance(model.map->space, (inverses[body] * Point<frame::Patient>{at}).v);
-    if (!space.is_inside_grid || space.distance_mm > kBehindWallMm) return false;
+    const arthroscopy::OpenedSpace space = joint_space_at(model, at);
+    if (!space.is_near || space.distance_mm > kBehindWallMm) return false;
     const Touched bone = surface_at(at);
     if (bone.body != kNoBody && bone.distance_mm < -kHiddenMm) return false;
   }

@@ -14,6 +14,7 @@
 
 #include "anatomy/bone_solid.hpp"
 #include "anatomy/carpal_kinematics.hpp"
+#include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/optics.hpp"
 #include "contact/instrument_scene.hpp"
 #include "fields/contact_field.hpp"
@@ -49,6 +50,7 @@ struct World::Model {
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
   const cases::ArthroscopicMap* map = nullptr;
+  std::uint8_t row_body = 0;  ///< with which the joint's distal wall goes
 };
 
 /// Everything that changes.
@@ -247,9 +249,9 @@ struct World::State {
                                    std::uint8_t hand,
                                    const Vec3& tip,
                                    const Vec3& shaft) const noexcept;
-  [[nodiscard]] Wall wall_at(const Model& model,
-                             std::uint8_t hand,
-                             const Vec3& tip) const noexcept;
+  [[nodiscard]] arthroscopy::OpenedSpace joint_space_at(const Model& model,
+                                                        const Vec3& point) const noexcept;
+  [[nodiscard]] Wall wall_at(const Model& model, std::uint8_t hand, const Vec3& tip) const noexcept;
   void follow_portal(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] bool is_in_sight(const Model& model,
                                  const Vec3& eye,

@@ -5,6 +5,7 @@
 // pins its bones together; bodies and all that is fixed in them go along.
 #include <cstdint>
 
+#include "cases/joint_under_block.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -88,7 +89,9 @@ void World::State::stop_wrist(const Model& model) noexcept {
 
 /// The bodies' poses from the wrist, what carries the target, and where fragments were moved.
 void World::State::pose_bodies(const Model& model) noexcept {
-  const auto by_group = model.data.hand_motion.poses_at(spent.wrist);
+  const auto by_group = model.map == nullptr
+                            ? model.data.hand_motion.poses_at(spent.wrist)
+                            : cases::poses_under_block(model.data.hand_motion, spent.wrist);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) {
     bases[b] = by_group[static_cast<std::size_t>(model.groups[b])];
     const bool is_target = (model.kinds.target & detail::bit_of(static_cast<std::uint8_t>(b))) != 0;

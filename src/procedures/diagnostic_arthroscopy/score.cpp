@@ -10,9 +10,9 @@
 #include "arthroscopy/seen_share.hpp"
 #include "procedure/grading.hpp"
 #include "procedure/thrift_measures.hpp"
-#include "procedures/wrist_arthroscopy/declared.hpp"
+#include "procedures/diagnostic_arthroscopy/declared.hpp"
 
-namespace carpus::procedures::wrist_arthroscopy {
+namespace carpus::procedures::diagnostic_arthroscopy {
 namespace {
 
 using procedure::Measure;
@@ -79,4 +79,4 @@ procedure::ScoreReport score(const cases::CaseData& data,
   return report;
 }
 
-}  // namespace carpus::procedures::wrist_arthroscopy
+}  // namespace carpus::procedures::diagnostic_arthroscopy

@@ -9,7 +9,7 @@
 
 #include "procedure/procedure.hpp"
 
-namespace carpus::procedures::wrist_arthroscopy {
+namespace carpus::procedures::diagnostic_arthroscopy {
 
 /// The text of procedure.json, built in by CMakeLists.txt.
 [[nodiscard]] std::string_view json();
@@ -21,4 +21,4 @@ namespace carpus::procedures::wrist_arthroscopy {
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record);
 
-}  // namespace carpus::procedures::wrist_arthroscopy
+}  // namespace carpus::procedures::diagnostic_arthroscopy

@@ -1,13 +1,13 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "procedures/wrist_arthroscopy/declared.hpp"
+#include "procedures/diagnostic_arthroscopy/declared.hpp"
 
 #include <array>
 #include <string>
 
 #include "core/error.hpp"
 
-namespace carpus::procedures::wrist_arthroscopy {
+namespace carpus::procedures::diagnostic_arthroscopy {
 namespace {
 
 using procedure::NamedPredicate;
@@ -94,7 +94,7 @@ const procedure::Procedure& declared() {
                                      NamedPredicate{"has_seen_a_ligament", has_seen_a_ligament},
                                      NamedPredicate{"is_finishing", is_finishing}};
     procedure::Procedure read =
-        procedure::read_procedure(json(), "wrist_arthroscopy/procedure.json", kPredicates);
+        procedure::read_procedure(json(), "diagnostic_arthroscopy/procedure.json", kPredicates);
     read.opening = opening;
     read.score = score;
     return read;
@@ -102,4 +102,4 @@ const procedure::Procedure& declared() {
   return kDeclared;
 }
 
-}  // namespace carpus::procedures::wrist_arthroscopy
+}  // namespace carpus::procedures::diagnostic_arthroscopy
