@@ -104,9 +104,13 @@ export class ScopeDesk {
       this.act("panorama");
     });
     this.element.append(
-      make("div.scope-head", {}, make("div", {}, this.status, this.gauge.element), panorama),
+      make(
+        "div.scope-head",
+        {},
+        make("div.scope-column", {}, this.status, this.gauge.element, this.list),
+        panorama,
+      ),
       make("p.scope-keys", {}, KEYS_IN_WORDS),
-      this.list,
     );
     this.element.hidden = true;
     this.listen(signal);
