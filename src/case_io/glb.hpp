@@ -9,8 +9,8 @@
 #include <string>
 
 #include "anatomy/material_table.hpp"
-#include "case_io/bone_bitmap.hpp"
 #include "arthroscopy/joint_wall.hpp"
+#include "case_io/bone_bitmap.hpp"
 #include "cases/case_data.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/triangle_mesh.hpp"
