@@ -28,7 +28,8 @@ std::vector<Instrument> built_in() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (all[i].id == all[j].id) {
-        throw InvalidInput("instruments.json, screws.json, arthroscopes.json: " + all[i].id + ": there are two of it");
+        throw InvalidInput("instruments.json, screws.json, arthroscopes.json: " + all[i].id +
+                           ": there are two of it");
       }
     }
   }

@@ -86,14 +86,16 @@ TEST(Catalogue, WhatRunsOnTheWireTakesIt) {
   EXPECT_LT(one("acutrak_2_mini_24").bore_radius_mm, one("joystick_wire").cut_tip_radius_mm);
 }
 
-TEST(Catalogue, ScrewsComeLastByFamilyAndLengthAsTrueSizesSay) {
+TEST(Catalogue, ScrewsComeByFamilyAndLengthAsTrueSizesSayThenArthroscopy) {
   const auto all = catalogue();
   std::size_t first = 0;
   while (all[first].family.empty()) ++first;
-  EXPECT_EQ(all.size() - first, 16U);
-  for (std::size_t i = first; i < all.size(); ++i) {
+  std::size_t end = first;
+  while (end < all.size() && all[end].work == Work::Thread) ++end;
+  EXPECT_EQ(end - first, 16U);
+  for (std::size_t i = end; i < all.size(); ++i) EXPECT_TRUE(all[i].enters_joints);
+  for (std::size_t i = first; i < end; ++i) {
     const Instrument& screw = all[i];
-    EXPECT_EQ(screw.work, Work::Thread);
     EXPECT_EQ(screw.rods.front().to_mm, screw.length_mm);
     EXPECT_EQ(screw.rods.front().material, Material::Titanium);
     EXPECT_LT(screw.cut_tip_radius_mm, screw.tip_diameter_mm / 2);
