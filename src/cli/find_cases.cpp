@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCases = 200;
 constexpr std::size_t kLongestId = 64;
 constexpr double kWithoutLesson = 101;  // after all that have one
 
@@ -61,24 +60,6 @@ std::vector<std::string> flagged_in(const fs::path& folder) {
   return bones;
 }
 
-server::ShelvedCase shelved(const fs::path& folder) {
-  server::ShelvedCase result;
-  result.id = id_of(folder);
-  result.folder = folder;
-  result.title = case_io::read_pseudonym(folder).value_or(result.id);
-  result.flagged = flagged_in(folder);
-  const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
-  if (!lesson) return result;
-  result.title = lesson->title;
-  result.history = lesson->history;
-  result.goal = lesson->goal;
-  result.difficulty = lesson->difficulty.overall;
-  if (std::optional<std::string> preview = case_io::read_preview(folder)) {
-    result.preview = std::make_shared<const std::string>(std::move(*preview));
-  }
-  return result;
-}
-
 void sort_by_difficulty(std::vector<server::ShelvedCase>& all) {
   std::stable_sort(
       all.begin(), all.end(), [](const server::ShelvedCase& a, const server::ShelvedCase& b) {
@@ -88,12 +69,30 @@ void sort_by_difficulty(std::vector<server::ShelvedCase>& all) {
 
 }  // namespace
 
+server::ShelvedCase shelved_case(const fs::path& folder) {
+  server::ShelvedCase result;
+  result.id = id_of(folder);
+  result.folder = folder;
+  result.title = case_io::read_pseudonym(folder).value_or(result.id);
+  result.flagged = flagged_in(folder);
+  if (std::optional<std::string> preview = case_io::read_preview(folder)) {
+    result.preview = std::make_shared<const std::string>(std::move(*preview));
+  }
+  const std::optional<cases::Lesson> lesson = case_io::read_lesson(folder);
+  if (!lesson) return result;
+  result.title = lesson->title;
+  result.history = lesson->history;
+  result.goal = lesson->goal;
+  result.difficulty = lesson->difficulty.overall;
+  return result;
+}
+
 FoundCases find_cases(const std::vector<std::string>& places) {
   FoundCases found;
   for (const std::string& place : places) {
     const std::size_t before = found.shelf.cases.size();
     for (const fs::path& folder : cases_in(place)) {
-      server::ShelvedCase one = shelved(folder);
+      server::ShelvedCase one = shelved_case(folder);
       if (!found.folders.emplace(one.id, folder).second) {
         throw InvalidInput("two cases are called '" + one.id +
                            "'; rename the folder of one, or serve one of them");

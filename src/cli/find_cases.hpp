@@ -18,6 +18,12 @@ struct FoundCases {
   std::map<std::string, std::filesystem::path> folders;  ///< by id
 };
 
+/// More a page does not show.
+inline constexpr std::size_t kMostCases = 200;
+
+/// What a list shows of the case in this folder.
+[[nodiscard]] server::ShelvedCase shelved_case(const std::filesystem::path& folder);
+
 /// Each of `places` is a case folder or a folder of them. Reads lessons and pictures, not cases.
 /// @throws IoError  for a place without a case;
 /// @throws InvalidInput  for two of the same name, more than a page shows, or a lesson that is

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +20,9 @@
 
 #include "case_io/glb.hpp"
 #include "case_io/soft_tissue_folder.hpp"
+#include "cli/child_program.hpp"
 #include "cli/find_cases.hpp"
+#include "cli/new_case_maker.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "devices/device_catalogue.hpp"
@@ -28,6 +32,7 @@
 #include "server/access_links.hpp"
 #include "server/log_writer.hpp"
 #include "server/network_server.hpp"
+#include "server/new_case_desk.hpp"
 #include "server/station.hpp"
 #include "server/station_http.hpp"
 
@@ -86,7 +91,6 @@ server::NetworkOptions network_options(const ServeArguments& arguments) {
   options.certificate = arguments.certificate;
   options.key = arguments.key;
   options.public_url = arguments.public_url;
-  options.lane_of = server::StationHttp::lane_of;
   if (arguments.open) {
     if (is_for_this_machine(arguments)) return options;
     throw UsageError(
@@ -160,22 +164,44 @@ void say_ready(const ServeArguments& arguments,
 /// Which case was open last, beside the records: what a killed station left is of that one.
 class OpenCase {
  public:
-  OpenCase(FoundCases& found, const fs::path& records)
-      : found_(found), file_(fs::path(records).replace_extension(".case")) {
+  OpenCase(std::shared_ptr<server::SharedShelf> shelf, const fs::path& records)
+      : shelf_(std::move(shelf)), file_(fs::path(records).replace_extension(".case")) {
     std::ifstream in(file_);
     std::string id;
-    if (std::getline(in, id) && found_.shelf.find(id) != nullptr) found_.shelf.open = id;
+    if (std::getline(in, id) && shelf_->now()->find(id) != nullptr) open(id);
   }
   void choose(const std::string& id) {
     records::write_file_atomically(file_, id + "\n");
-    found_.shelf.open = id;
+    open(id);
   }
-  [[nodiscard]] const fs::path& folder() const { return found_.folders.at(found_.shelf.open); }
+  [[nodiscard]] fs::path folder() const {
+    const auto shelf = shelf_->now();
+    return shelf->find(shelf->open)->folder;
+  }
 
  private:
-  FoundCases& found_;
+  void open(const std::string& id) {
+    shelf_->change([&](server::CaseShelf& shelf) { shelf.open = id; });
+  }
+  std::shared_ptr<server::SharedShelf> shelf_;
   fs::path file_;
 };
+
+/// Those that pages have made, beside the records like all that pages make.
+fs::path made_cases(const ServeArguments& arguments) {
+  return fs::path(arguments.records).replace_extension(".cases");
+}
+
+FoundCases find_all_cases(const ServeArguments& arguments) {
+  std::vector<std::string> places = arguments.cases;
+  const fs::path made = made_cases(arguments);
+  std::error_code error;
+  for (fs::directory_iterator at(made, error), end; !error && at != end; at.increment(error)) {
+    if (fs::is_regular_file(at->path() / "case.json")) places.push_back(at->path());
+  }
+  std::sort(places.begin() + static_cast<std::ptrdiff_t>(arguments.cases.size()), places.end());
+  return find_cases(places);
+}
 
 /// What stays while cases come and go.
 struct Station {
@@ -184,9 +210,11 @@ struct Station {
   records::AttemptKeeper& records;
   const server::Log& log_line;
   fs::path web;
+  std::shared_ptr<server::TruthGate> truth;
+  std::shared_ptr<server::SharedShelf> shelf;
+  server::NewCaseDesk& new_cases;
   std::shared_ptr<server::AttemptOwners> owners = std::make_shared<server::AttemptOwners>();
   std::shared_ptr<server::AttemptOwners> quiz_owners = std::make_shared<server::AttemptOwners>();
-  std::shared_ptr<server::TruthGate> truth = std::make_shared<server::TruthGate>();
 };
 
 /// The operation does not wait for what only devices need.
@@ -207,15 +235,12 @@ std::string scene_of(const cases::CaseData& data, const fs::path& folder) {
 }
 
 /// Serves the open case until it is stopped, or another is chosen: returns that one's id, or "".
-std::string serve_one(Station& s,
-                      const server::CaseShelf& shelf,
-                      const cases::CaseData& data,
-                      const fs::path& folder) {
+std::string serve_one(Station& s, const cases::CaseData& data, const fs::path& folder) {
   const procedure::ProcedureList& procedures = procedures::built_in();
   std::string chosen;
   std::function<void()> stop;
   const auto choose = [&](const std::string& id) {
-    if (shelf.find(id) == nullptr) return false;
+    if (s.shelf->now()->find(id) == nullptr) return false;
     chosen = id;
     stop();
     return true;
@@ -224,10 +249,16 @@ std::string serve_one(Station& s,
                           {choose, s.owners, s.quiz_owners, s.truth});
   if (!s.arguments.no_devices) offer_devices(station, s.log_line);
   const server::StationHttp http(data, procedures, scene_of(data, folder), s.records,
-                                 {station.owners(), station.quiz_owners()}, s.web, shelf, s.truth);
+                                 {station.owners(), station.quiz_owners()}, s.web, s.shelf,
+                                 s.truth);
   server::NetworkServer network(
-      s.options, [&http](const server::HttpRequest& request) { return http.answer(request); },
+      s.options,
+      [&](const server::HttpRequest& request) {
+        return server::NewCaseDesk::is_for(request) ? s.new_cases.answer(request)
+                                                    : http.answer(request);
+      },
       station);
+  network.repeat(std::chrono::seconds(1), [&s] { s.new_cases.tend(); });
   stop = [&network] { network.stop(); };
   network.stop_on_signals();
   station.attach(network);
@@ -245,18 +276,35 @@ void run(const ServeArguments& arguments) {
   const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
   make_parent_folder(arguments.records);
   server::NetworkOptions options = network_options(arguments);
-  FoundCases found = find_cases(arguments.cases);
+  const auto shelf = std::make_shared<server::SharedShelf>(find_all_cases(arguments).shelf);
   server::LogWriter log(STDERR_FILENO);
   const server::Log log_line = [&log](const std::string& line) { log.write("carpus: " + line); };
   records::AttemptKeeper records(arguments.records, log_line);
-  OpenCase open(found, arguments.records);
-  Station station{arguments, options, records, log_line, web};
+  OpenCase open(shelf, arguments.records);
+  const auto truth = std::make_shared<server::TruthGate>();
+  fs::create_directories(made_cases(arguments));
+  const NewCaseMaker maker(own_program(), made_cases(arguments), shelf);
+  server::NewCaseOptions desk_options;
+  desk_options.make = [&maker](const auto& task, const auto& progress, const auto& stop) {
+    return maker.make(task, progress, stop);
+  };
+  desk_options.incoming = fs::path(arguments.records).replace_extension(".incoming");
+  desk_options.truth = truth;
+  server::NewCaseDesk new_cases(std::move(desk_options));
+  options.lane_of = [](const server::HttpRequest& request) {
+    return server::NewCaseDesk::is_for(request) ? server::NetworkOptions::kLanes
+                                                : server::StationHttp::lane_of(request);
+  };
+  options.take_body = [&new_cases](const server::HttpRequest& request, std::uint64_t bytes) {
+    return new_cases.take_body(request, bytes);
+  };
+  Station station{arguments, options, records, log_line, web, truth, shelf, new_cases};
   cases::CaseData data = load_case(open.folder());
   while (true) {
-    const std::string chosen = serve_one(station, found.shelf, data, open.folder());
+    const std::string chosen = serve_one(station, data, open.folder());
     if (chosen.empty()) break;
     try {
-      data = load_case(found.folders.at(chosen));
+      data = load_case(shelf->now()->find(chosen)->folder);
       open.choose(chosen);
     } catch (const Error& error) {
       log_line(std::string("the case stays as it was: ") + error.what());

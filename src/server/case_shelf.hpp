@@ -1,16 +1,18 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cases that a station can open, of which one is open. Which they are is found once, when the
-// station is started; a case itself is loaded when it is chosen.
+// The cases that a station can open, of which one is open. Which they are is found when the station
+// is started, and new ones come while it runs; a case itself is loaded when it is chosen.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "protocol/bodies.hpp"
@@ -40,6 +42,31 @@ struct CaseShelf {
     }
     return nullptr;
   }
+};
+
+/// The shelf that all look at while cases are put on it. From any thread.
+class SharedShelf {
+ public:
+  SharedShelf() = default;
+  explicit SharedShelf(CaseShelf shelf)
+      : shelf_(std::make_shared<const CaseShelf>(std::move(shelf))) {}
+
+  /// As it is now; it does not change any more.
+  [[nodiscard]] std::shared_ptr<const CaseShelf> now() const {
+    const std::lock_guard lock(mutex_);
+    return shelf_;
+  }
+  /// @param change  is given a copy, which takes the shelf's place
+  void change(const std::function<void(CaseShelf&)>& change) {
+    const std::lock_guard lock(mutex_);
+    auto changed = std::make_shared<CaseShelf>(*shelf_);
+    change(*changed);
+    shelf_ = std::move(changed);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const CaseShelf> shelf_ = std::make_shared<const CaseShelf>();
 };
 
 [[nodiscard]] protocol::CaseList message_of(const CaseShelf& shelf);

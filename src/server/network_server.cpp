@@ -251,7 +251,8 @@ struct NetworkServer::Implementation {
   bool stopping = false;
   /// Last: they use what is above.
   std::array<WorkThread, NetworkOptions::kLanes> lanes{
-      WorkThread{kMaxSlowRequests}, WorkThread{kMaxSlowRequests}, WorkThread{kMaxSlowRequests}};
+      WorkThread{kMaxSlowRequests}, WorkThread{kMaxSlowRequests}, WorkThread{kMaxSlowRequests},
+      WorkThread{kMaxSlowRequests}};
 };
 
 NetworkServer::NetworkServer(const NetworkOptions& options, HttpHandler http, PageHandler& pages)

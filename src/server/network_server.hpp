@@ -54,7 +54,7 @@ class PageHandler {
 struct NetworkOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0 lets the system choose
-  /// For a request's head to arrive as a whole, and for a handshake.
+  /// For a request's head to arrive as a whole, for each piece of a body, and for a handshake.
   std::chrono::milliseconds request_timeout{10000};
   /// For an answer to leave: a busy page reads a large scene slowly.
   std::chrono::milliseconds answer_timeout{60000};
@@ -76,7 +76,12 @@ struct NetworkOptions {
   /// 1 to kLanes, for what may have to wait for a disk or takes long to make. 0 is the network's,
   /// as is every request where this is empty.
   std::function<std::size_t(const HttpRequest&)> lane_of;
-  static constexpr std::size_t kLanes = 3;
+  static constexpr std::size_t kLanes = 4;
+  /// Who takes the bodies of requests that may have one (request_head.hpp), from instructors and
+  /// our own page; nobody where it is empty. They are taken in the last lane.
+  BodyHandler take_body;
+  /// A body that comes slower than this on the whole is given up.
+  double least_body_bytes_per_s = 65536;
 
   /// Who may come in: those who have one of these. All, where there are none.
   std::optional<AccessLinks> links;

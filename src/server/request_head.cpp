@@ -86,6 +86,22 @@ void read_version(std::string_view version, RequestHead& head) {
   head.is_http_1_1 = version == "HTTP/1.1";
 }
 
+/// Whether a target is the address, with or without a query.
+bool is_at(std::string_view target, std::string_view address) {
+  return target.substr(0, target.find('?')) == address;
+}
+
+/// Only where what they change is: elsewhere they are refused whatever else they say.
+void refuse_method(const RequestHead& head) {
+  const std::string& method = head.method;
+  if (method == "GET" || method == "HEAD") return;
+  const bool changes_here = (method == "PUT" && is_at(head.target, kNewCaseFilePath)) ||
+                            (method == "DELETE" && is_at(head.target, kNewCasePath)) ||
+                            (method == "POST" && (is_at(head.target, kNewCasePath) ||
+                                                  is_at(head.target, kNewCaseRunPath)));
+  if (!changes_here) refuse(405, "Only GET and HEAD are answered here.");
+}
+
 /// @return the authority of an absolute form; empty of a path
 std::string read_request_line(std::string_view line, RequestHead& head) {
   const std::size_t first = line.find(' ');
@@ -97,7 +113,6 @@ std::string read_request_line(std::string_view line, RequestHead& head) {
   const std::string_view target = line.substr(first + 1, last - first - 1);
   if (!is_token(method)) refuse(400, "The request's method is malformed.");
   read_version(line.substr(last + 1), head);
-  if (method != "GET" && method != "HEAD") refuse(405, "Only GET and HEAD are answered here.");
   if (target.empty() || !std::all_of(target.begin(), target.end(), is_visible) ||
       target.find('#') != std::string_view::npos) {
     refuse(400, "The request's target has characters that none may have.");
@@ -105,11 +120,13 @@ std::string read_request_line(std::string_view line, RequestHead& head) {
   head.method = method;
   if (target.front() == '/') {
     head.target = target;
+    refuse_method(head);
     return {};
   }
   auto [authority, path] = split_absolute_form(target);
   if (authority.empty()) refuse(400, "The request's target names no host.");
   head.target = std::move(path);
+  refuse_method(head);
   return std::string(authority);
 }
 
@@ -153,7 +170,18 @@ void read_authority(const std::string& absolute, RequestHead& head) {
   head.authority = *host;
 }
 
-void refuse_body(const RequestHead& head) {
+/// Of a PUT: its length, which must be said in plain digits and be neither none nor too much.
+std::uint64_t read_length(std::string_view digits) {
+  constexpr std::size_t kMostDigits = 10;
+  std::uint64_t length = 0;
+  if (digits.size() > kMostDigits) refuse(413, "The file is larger than is taken here.");
+  for (const char digit : digits) length = 10 * length + static_cast<std::uint64_t>(digit - '0');
+  if (length > kMaxBodyBytes) refuse(413, "The file is larger than is taken here.");
+  if (length == 0) refuse(400, "The file is empty.");
+  return length;
+}
+
+void read_body(RequestHead& head) {
   const auto length = find_only(head, "content-length");
   const auto encoding = find_only(head, "transfer-encoding");
   if (length && encoding) refuse(400, "The request states the length of its body twice.");
@@ -161,11 +189,15 @@ void refuse_body(const RequestHead& head) {
     if (lower(*encoding) != "chunked") refuse(400, "The request's transfer coding is unknown.");
     refuse(413, "Requests have no body here.");
   }
+  const bool takes_body = head.method == "PUT";
+  if (!length && takes_body) refuse(411, "The request does not say how long its file is.");
   if (!length) return;
   if (length->empty() || length->find_first_not_of("0123456789") != std::string_view::npos) {
     refuse(400, "The length of the request's body is no number.");
   }
-  if (length->find_first_not_of('0') != std::string_view::npos) {
+  if (takes_body) {
+    head.body_bytes = read_length(*length);
+  } else if (length->find_first_not_of('0') != std::string_view::npos) {
     refuse(413, "Requests have no body here.");
   }
 }
@@ -193,7 +225,7 @@ RequestHead parse(std::string_view rest) {
   if (!rest.empty()) refuse(400, "Something follows the request's head.");
   read_authority(absolute, head);
   refuse_doubles(head);
-  refuse_body(head);
+  read_body(head);
   head.keep_alive = head.is_http_1_1 ? !lists(head, "connection", "close")
                                      : lists(head, "connection", "keep-alive");
   return head;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The head of an HTTP request, read strictly: what two readers could take for different requests
-// is refused (RFC 9112). Stricter than a general server must be: only requests without a body are
-// ever answered here, so none is read, and chunks and trailers have no place to hide in.
+// is refused (RFC 9112). Stricter than a general server must be: one address alone takes bodies, of
+// a length that is said once and in front, so chunks and trailers have no place to hide in.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,17 +21,26 @@ inline constexpr std::size_t kMaxHeadBytes = 16384;
 /// As are more fields than these.
 inline constexpr std::size_t kMaxHeadFields = 100;
 
+/// Below this address, and nowhere else, things are changed by HTTP (new_case_desk.hpp): POST and
+/// DELETE, and PUT, which has a body.
+inline constexpr std::string_view kNewCasePath = "/api/new_case";
+inline constexpr std::string_view kNewCaseRunPath = "/api/new_case/run";
+inline constexpr std::string_view kNewCaseFilePath = "/api/new_case/file";
+/// A body that claims to be longer is refused before a byte of it is read.
+inline constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{1} << 30U;
+
 struct RequestField {
   std::string name;   ///< lower case
   std::string value;  ///< without white space at its ends
 };
 
 struct RequestHead {
-  std::string method;     ///< "GET" or "HEAD"
+  std::string method;     ///< "GET" or "HEAD"; below kNewCasePath also "POST", "PUT" and "DELETE"
   std::string target;     ///< path and query, "/a?b", of the absolute form too
   std::string authority;  ///< whom the request is for: the one Host field, "127.0.0.1:8080"
   bool is_http_1_1 = true;
   bool keep_alive = true;
+  std::uint64_t body_bytes = 0;  ///< that follow the head; of a PUT alone, which has some
   std::vector<RequestField> fields;
 
   /// The value of the first field of this name (lower case); nothing where there is none.

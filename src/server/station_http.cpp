@@ -35,13 +35,12 @@ StationHttp::StationHttp(const cases::CaseData& data,
                          const records::AttemptKeeper& records,
                          RecordOwners owners,
                          const std::filesystem::path& web_root,
-                         CaseShelf shelf,
+                         std::shared_ptr<const SharedShelf> shelf,
                          std::shared_ptr<const TruthGate> truth)
     : case_fingerprint_(hexadecimal(simulation::fingerprint_of(data))),
       case_json_(serialize(session::case_description(data))),
       shelf_(std::move(shelf)),
       truth_(std::move(truth)),
-      cases_json_(serialize(message_of(shelf_))),
       procedures_json_(serialize(session::procedure_list(procedures))),
       instruments_json_(serialize(session::instrument_list())),
       scene_glb_(std::make_shared<const std::string>(std::move(scene_glb))),
@@ -73,10 +72,11 @@ std::size_t StationHttp::lane_of(const HttpRequest& request) {
 
 HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& request) const {
   if (path == "/api/case") return make_json(case_json_);
-  if (path == "/api/cases") return make_json(cases_json_);
+  if (path == "/api/cases") return make_json(serialize(message_of(*shelf_->now())));
   if (path.starts_with(kCases)) {
     const std::string_view rest = path.substr(kCases.size());
-    return is_scan_path(rest) ? answer_scan(shelf_, truth_.get(), rest) : answer_preview(rest);
+    return is_scan_path(rest) ? answer_scan(*shelf_->now(), truth_.get(), rest)
+                              : answer_preview(rest);
   }
   if (path == "/api/procedures") return make_json(procedures_json_);
   if (path == "/api/instruments") return make_json(instruments_json_);
@@ -96,8 +96,9 @@ HttpResponse StationHttp::answer_api(std::string_view path, const HttpRequest& r
 
 HttpResponse StationHttp::answer_preview(std::string_view rest) const {
   const bool is_preview = rest.ends_with(kPreview);
+  const auto shelf = shelf_->now();
   const ShelvedCase* found =
-      is_preview ? shelf_.find(rest.substr(0, rest.size() - kPreview.size())) : nullptr;
+      is_preview ? shelf->find(rest.substr(0, rest.size() - kPreview.size())) : nullptr;
   if (found == nullptr || !found->preview) return make_problem(404, "There is no such picture.");
   HttpResponse response;
   response.content_type = "image/png";

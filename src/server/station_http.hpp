@@ -37,7 +37,7 @@ class StationHttp {
               const records::AttemptKeeper& records,
               RecordOwners owners,
               const std::filesystem::path& web_root,
-              CaseShelf shelf = {},
+              std::shared_ptr<const SharedShelf> shelf = std::make_shared<SharedShelf>(),
               std::shared_ptr<const TruthGate> truth = {});
   ~StationHttp();
 
@@ -63,9 +63,8 @@ class StationHttp {
 
   std::string case_fingerprint_;
   std::string case_json_;
-  CaseShelf shelf_;
+  std::shared_ptr<const SharedShelf> shelf_;
   std::shared_ptr<const TruthGate> truth_;
-  std::string cases_json_;
   std::string procedures_json_;
   std::string instruments_json_;
   std::shared_ptr<const std::string> scene_glb_;

@@ -26,7 +26,13 @@ class StationHttpTest : public ::testing::Test {
   StationHttpTest()
       : folder_(new_folder()),
         records_(folder_ / "attempts.sqlite"),
-        http_(wrist_, procedures_, "glTF", records_, {owners_, quiz_owners_}, folder_, shelf()) {}
+        http_(wrist_,
+              procedures_,
+              "glTF",
+              records_,
+              {owners_, quiz_owners_},
+              folder_,
+              std::make_shared<SharedShelf>(shelf())) {}
   ~StationHttpTest() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] HttpResponse ask(const std::string& target, const Guest& guest) const {
@@ -96,7 +102,7 @@ TEST_F(StationHttpTest, ShowsTheScansOfItsCasesAndNothingElseOfTheirFolders) {
   cases.cases[1].folder = folder;
   const auto truth = std::make_shared<TruthGate>();
   const StationHttp http(wrist_, procedures_, "glTF", records_, {owners_, quiz_owners_}, folder_,
-                         cases, truth);
+                         std::make_shared<SharedShelf>(cases), truth);
   const auto answer = [&](const std::string& path) {
     return http.answer({"GET", "/api/cases/" + path, {Role::Trainee, "ada"}});
   };

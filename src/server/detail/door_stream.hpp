@@ -24,6 +24,8 @@ namespace carpus::server::detail {
 /// Bytes a second that one connection may bring; more waits in the sender's machine. A page that
 /// operates brings a fifth of this.
 inline constexpr std::size_t kMaxBytesInPerSecond = 1U << 20U;
+/// While a body is taken, which an instructor sends: a scan of half a gigabyte in ten seconds.
+inline constexpr std::size_t kMaxBodyBytesInPerSecond = 48U << 20U;
 
 class DoorStream {
  public:

@@ -23,6 +23,9 @@ constexpr const char* kContentSecurityPolicy =
     "img-src 'self' data: blob:; worker-src 'self' blob:; connect-src 'self' data: blob:; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// Of a body, read and taken at once.
+constexpr std::size_t kBodyPiece = 128U << 10U;
+
 /// What is still read, and thrown away, of a connection that is being closed: closing with bytes
 /// unread would take back the answer that the other side has not read yet.
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
@@ -125,7 +128,90 @@ void HttpSession::on_request() {
   if (head_.method == "GET" && beast::websocket::is_upgrade(as_beast(head_))) {
     return upgrade(guest);
   }
+  if (auto problem = problem_of_change(guest)) {
+    return head_.body_bytes > 0 ? answer_and_close(*problem) : answer(*problem);
+  }
+  if (head_.body_bytes > 0) return begin_body(guest);
   handle(guest);
+}
+
+std::optional<HttpResponse> HttpSession::problem_of_change(const Guest& guest) const {
+  if (head_.method == "GET" || head_.method == "HEAD") return std::nullopt;
+  // A cookie alone is no consent: another site's form would be sent with it.
+  if (!context_.guard.accepts_origin(head_.find("origin").value_or(""), head_.authority)) {
+    return make_problem(403, "Only this station's own page may change anything.");
+  }
+  if (guest.role != Role::Instructor) {
+    return make_problem(403, "Only who came by an instructor's link may change cases.");
+  }
+  return std::nullopt;
+}
+
+void HttpSession::begin_body(const Guest& guest) {
+  if (!context_.options.take_body) return refuse({404, "Nothing is taken here."});
+  auto opened = context_.options.take_body({head_.method, head_.target, guest}, head_.body_bytes);
+  if (const auto* problem = std::get_if<HttpResponse>(&opened)) {
+    return answer_and_close(*problem);
+  }
+  stream_.tcp().rate_policy().read_limit(kMaxBodyBytesInPerSecond);
+  taker_ = std::move(*std::get_if<std::unique_ptr<BodyTaker>>(&opened));
+  body_left_ = head_.body_bytes;
+  const std::chrono::duration<double> allowed(static_cast<double>(head_.body_bytes) /
+                                              context_.options.least_body_bytes_per_s);
+  body_due_ = Clock::now() + context_.options.request_timeout +
+              std::chrono::duration_cast<Clock::duration>(allowed);
+  // What came with the head.
+  const std::size_t here =
+      static_cast<std::size_t>(std::min<std::uint64_t>(received_.size(), body_left_));
+  if (here == 0) return read_body();
+  body_piece_ = received_.substr(0, here);
+  received_.erase(0, here);
+  take_piece();
+}
+
+void HttpSession::read_body() {
+  body_piece_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBodyPiece, body_left_)));
+  stream_.tcp().expires_at(std::min(body_due_, Clock::now() + context_.options.request_timeout));
+  stream_.async_read_some(asio::buffer(body_piece_),
+                          [self = shared_from_this()](error_code error, std::size_t size) {
+                            if (self->ended_) return;
+                            if (error) return self->end();
+                            self->body_piece_.resize(size);
+                            self->take_piece();
+                          });
+}
+
+/// On a disk that makes one wait nothing more is read meanwhile.
+void HttpSession::take_piece() {
+  stream_.tcp().expires_never();
+  body_left_ -= body_piece_.size();
+  auto work = [self = shared_from_this(), is_last = body_left_ == 0] {
+    try {
+      HttpResponse verdict = self->taker_->take(self->body_piece_);
+      if (verdict.status != BodyTaker::kGoOn || !is_last) return verdict;
+      return self->taker_->finish();
+    } catch (const std::exception& error) {
+      return make_problem(500, error.what());
+    }
+  };
+  const bool is_taken =
+      context_.run_aside(NetworkOptions::kLanes, std::move(work),
+                         [self = shared_from_this()](const HttpResponse& verdict) {
+                           if (!self->ended_) self->on_taken(verdict);
+                         });
+  if (!is_taken) {
+    taker_.reset();
+    refuse({503, "Too many requests are waiting; try again."});
+  }
+}
+
+void HttpSession::on_taken(const HttpResponse& verdict) {
+  if (verdict.status == BodyTaker::kGoOn) return read_body();
+  taker_.reset();
+  body_piece_ = {};
+  stream_.tcp().rate_policy().read_limit(kMaxBytesInPerSecond);
+  if (body_left_ > 0) return answer_and_close(verdict);
+  answer(verdict);
 }
 
 void HttpSession::handle(const Guest& guest) {
@@ -181,10 +267,14 @@ void HttpSession::upgrade(const Guest& guest) {
 }
 
 void HttpSession::refuse(const RequestProblem& problem) {
-  // What follows a request that cannot be trusted cannot be either.
+  answer_and_close(make_problem(problem.status, problem.reason));
+}
+
+void HttpSession::answer_and_close(const HttpResponse& response) {
+  // What follows a request that cannot be trusted, or was not read, cannot be trusted either.
   head_.keep_alive = false;
   received_.clear();
-  answer(make_problem(problem.status, problem.reason));
+  answer(response);
 }
 
 void HttpSession::answer(const HttpResponse& from) {

@@ -75,9 +75,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void look_for_request();
   void on_request();
   void handle(const Guest& guest);
+  /// Why a request that changes something is not answered; nothing where it is.
+  [[nodiscard]] std::optional<HttpResponse> problem_of_change(const Guest& guest) const;
+  void begin_body(const Guest& guest);
+  void read_body();
+  void take_piece();
+  void on_taken(const HttpResponse& verdict);
   void upgrade(const Guest& guest);
   void answer(const HttpResponse& response);
   void refuse(const RequestProblem& problem);
+  void answer_and_close(const HttpResponse& response);
   void fill_response(const HttpResponse& from);
   void write();
   void on_written();
@@ -93,6 +100,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::size_t scanned_ = 0;
   std::array<char, 4096> piece_{};
   RequestHead head_;
+  std::unique_ptr<BodyTaker> taker_;  ///< while a body comes
+  std::string body_piece_;            ///< that comes, or is being taken
+  std::uint64_t body_left_ = 0;
+  Clock::time_point body_due_;
   bool has_head_ = false;  ///< of the request that is being answered
   bool keep_alive_ = false;
   std::optional<boost::beast::http::response<Body>> response_;

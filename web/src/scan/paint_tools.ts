@@ -17,6 +17,8 @@ type Phase = "down" | "move" | "up";
 export interface PaintWishes {
   redraw(): void;
   say(text: string): void;
+  /** The labels as they are now, packed, for a new version of the case. */
+  makeVersion(labels: Blob): Promise<void>;
   /** A bone has voxels now that had none, or the other way. */
   bonesChanged(): void;
 }
@@ -105,6 +107,9 @@ export class PaintTools {
       make(
         "div.scan-row",
         {},
+        button("Run again as a new version", "{KeyG}", () => {
+          this.runAgain();
+        }),
         button("Save the labels as a file", "{KeyS}", () => {
           this.save();
         }),
@@ -219,11 +224,29 @@ export class PaintTools {
     this.show();
   }
 
-  save(): void {
+  private packed(): Promise<Blob> {
     const packed = new Blob([niftiOf(this.labels)])
       .stream()
       .pipeThrough(new CompressionStream("gzip"));
-    new Response(packed).blob().then(
+    return new Response(packed).blob();
+  }
+
+  /** On the host, from the labels as they are now. */
+  runAgain(): void {
+    this.packed()
+      .then((blob) => this.wishes.makeVersion(blob))
+      .catch(() => {
+        this.wishes.say("The labels could not be packed.");
+      });
+  }
+
+  /** They are in a case of their own now. */
+  keptAsVersion(): void {
+    this.isSaved = true;
+  }
+
+  save(): void {
+    this.packed().then(
       (blob) => {
         const address = URL.createObjectURL(blob);
         make("a", { href: address, download: "labels.nii.gz" }).click();
@@ -232,8 +255,8 @@ export class PaintTools {
         }, 10_000);
         this.isSaved = true;
         this.wishes.say(
-          "Saved as labels.nii.gz; the case itself is as it was. " +
-            "`carpus reconstruct CASE --labels labels.nii.gz --out NEW` makes a new version of it.",
+          "Saved as labels.nii.gz; the case itself is as it was. G makes a new version of it here, " +
+            "`carpus reconstruct CASE --labels labels.nii.gz --out NEW` elsewhere.",
         );
       },
       () => {
@@ -263,6 +286,9 @@ export class PaintTools {
       },
       KeyF: () => {
         this.fill();
+      },
+      KeyG: () => {
+        this.runAgain();
       },
       KeyS: () => {
         this.save();

@@ -8,6 +8,7 @@ import { BoneList } from "./bone_list";
 import { BonesPanel } from "./bones_panel";
 import { placeOfLabel } from "./label_place_model";
 import { isWhole, measureText, type Measure, type MeasureKind } from "./measure_model";
+import { NewCaseDialog } from "./new_case_dialog";
 import { PaintTools } from "./paint_tools";
 import { applied, extentAlong, finestSpacing, voxelIndexAt, type Volume } from "./nifti_model";
 import { along, dot, PLANE_IDS, planesOf, type Alignment, type Plane } from "./planes_model";
@@ -24,6 +25,8 @@ export interface DeskCase {
   readonly ct: Volume;
   readonly labels: Volume | undefined;
   readonly ways: readonly HTMLElement[];
+  /** A case was made here. */
+  added(id: string): void;
 }
 
 const FINE_MM = 0.3;
@@ -37,6 +40,10 @@ export class ScanDesk {
   private bones: BonesPanel | undefined;
   private readonly list: BoneList;
   private readonly help = scanHelp();
+  private readonly newCase = new NewCaseDialog((id) => {
+    this.mend?.keptAsVersion();
+    this.data.added(id);
+  });
   private readonly reading = make("output.scan-reading", { "aria-label": "Under the pointer" });
   private readonly said = make("p.scan-said", { role: "status" });
   private readonly buttons = new Map<string, HTMLButtonElement>();
@@ -94,6 +101,7 @@ export class ScanDesk {
         say: (text) => {
           setText(this.said, text);
         },
+        makeVersion: (labels) => this.newCase.makeVersion(this.data.id, labels),
         bonesChanged: () => {
           this.list.mark(this.labelAt(this.cross));
         },
@@ -114,7 +122,14 @@ export class ScanDesk {
         make("div.scan-side-foot", {}, this.reading, this.said),
       ),
       this.help,
+      this.newCase.element,
     );
+    for (const name of ["dragover", "drop"] as const) {
+      this.element.addEventListener(name, (event) => {
+        event.preventDefault();
+        if (name === "drop") this.newCase.drop(event);
+      });
+    }
     try {
       this.bones = new BonesPanel((mm) => {
         this.setCross(mm, true);
@@ -160,6 +175,7 @@ export class ScanDesk {
     this.sizes.disconnect();
     this.bones?.dispose();
     this.mend?.dispose();
+    this.newCase.dispose();
   }
 
   private planes(): ReturnType<typeof planesOf> {
@@ -217,6 +233,9 @@ export class ScanDesk {
         "div.scan-ways",
         {},
         ...ways,
+        button("Add a scan…", "", () => {
+          this.newCase.open();
+        }),
         button("Help", "?", () => {
           this.help.showModal();
         }),
@@ -384,7 +403,7 @@ export class ScanDesk {
   private onKey(event: KeyboardEvent): void {
     const { target } = event;
     const isField = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
-    if (isField || this.help.open || event.metaKey) return;
+    if (isField || this.help.open || this.newCase.element.open || event.metaKey) return;
     const isOnPicture = target instanceof HTMLCanvasElement;
     const done = (isOnPicture && this.moveByKey(event)) || this.actByKey(event, isOnPicture);
     if (done) event.preventDefault();

@@ -52,6 +52,7 @@ export const SCAN_HELP: readonly { readonly title: string; readonly lines: reado
         { keys: "{KeyZ}, {KeyY}", text: "undo, redo" },
         { keys: "{KeyF}", text: "fill the bone's hollows" },
         { keys: "{KeyK}", text: "split it by a line that is dragged" },
+        { keys: "{KeyG}", text: "run again with these labels, as a new version of the case" },
         { keys: "{KeyS}", text: "save the labels as a file" },
       ],
     },

@@ -35,7 +35,16 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
       return undefined; // bones without labels are seen too
     });
     if (abort.signal.aborted) return;
-    desk = new ScanDesk({ id, scanned, ct, labels, ways: ways(cases, id) });
+    const links = make("span.scan-links", {}, ...ways(cases, id));
+    const added = (): void => {
+      fetchCases().then(
+        (now) => {
+          links.replaceChildren(...ways(now, id));
+        },
+        () => undefined, // they are in the list when the page is opened next
+      );
+    };
+    desk = new ScanDesk({ id, scanned, ct, labels, ways: [links], added });
     app.replaceChildren(desk.element);
     desk.begin();
   };
