@@ -91,6 +91,11 @@ bool is_at(std::string_view target, std::string_view address) {
   return target.substr(0, target.find('?')) == address;
 }
 
+bool is_spoken(std::string_view method) {
+  return method == "GET" || method == "HEAD" || method == "POST" || method == "PUT" ||
+         method == "DELETE";
+}
+
 /// Only where what they change is: elsewhere they are refused whatever else they say.
 void refuse_method(const RequestHead& head) {
   const std::string& method = head.method;
@@ -113,6 +118,7 @@ std::string read_request_line(std::string_view line, RequestHead& head) {
   const std::string_view target = line.substr(first + 1, last - first - 1);
   if (!is_token(method)) refuse(400, "The request's method is malformed.");
   read_version(line.substr(last + 1), head);
+  if (!is_spoken(method)) refuse(405, "Only GET and HEAD are answered here.");
   if (target.empty() || !std::all_of(target.begin(), target.end(), is_visible) ||
       target.find('#') != std::string_view::npos) {
     refuse(400, "The request's target has characters that none may have.");

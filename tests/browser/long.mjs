@@ -1,13 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What takes minutes in a browser: everything goes wrong, a wire is drawn through and back, and a long operation
-// is looked at again.
+// What takes minutes in a browser: everything goes wrong, a wire is drawn through and back, a long operation is
+// looked at again, and a scan becomes a case that is mended and operated on.
 // Run by `npm --prefix web run test:browser:long` and by ./test --all.
 import { allGoesWrong } from "./all_goes_wrong.mjs";
 import { drawnThrough } from "./drawn_through.mjs";
 import { startBrowser } from "./browser.mjs";
 import { counted } from "./checks.mjs";
+import { addsCases } from "./new_case.mjs";
 import { replayLong } from "./long_replay.mjs";
 import { startStation } from "./station.mjs";
 import { operateByTouch } from "./touch_whole.mjs";
@@ -19,6 +20,7 @@ try {
   await drawnThrough(browser, station);
   await operateByTouch(browser, station);
   await replayLong(browser);
+  await addsCases(browser);
 } finally {
   await browser.close();
   await station.stop();
