@@ -14,7 +14,7 @@ import { check, expect } from "./checks.mjs";
 import { Operator } from "./operator.mjs";
 import { root, startStation } from "./station.mjs";
 
-const CT = process.env.CARPUS_CT ?? join(root, "build/system/ct");
+const CT = process.env.CARPUS_CT ?? join(root, "build/system/demo_ct");
 /** A case takes ten seconds where the machine is free, and minutes where it is not. */
 const MADE_MS = 540_000;
 
