@@ -103,6 +103,13 @@ TargetPlace place_of(const cases::CaseData& data, BoneId target, const Snapshot&
   return place;
 }
 
+/// A point of the target's frame in Patient, where its first part is now.
+Vec3 place_in(const cases::CaseData& data, BoneId target, const Snapshot& now, const Vec3& point) {
+  std::size_t body = 0;
+  while (body + 1 < data.bones.size() && data.bones[body].bone != target) ++body;
+  return (now.patient_from_bone[body] * Point<frame::Bone>{point}).v;
+}
+
 /// An instrument of the tray that only touches, else the first.
 instruments::InstrumentIndex toucher(const procedure::Procedure& procedure) {
   const auto all = instruments::catalogue();
@@ -113,13 +120,22 @@ instruments::InstrumentIndex toucher(const procedure::Procedure& procedure) {
   return procedure.tray.front();
 }
 
+/// In which the wrist comes to where it is wanted.
+constexpr int kPosingTicks = 3000;
+
 /// Two instruments press on the target from where the first hand waits, and slide.
 SceneTimes two_hands(const cases::CaseData& data,
                      const procedure::Procedure& procedure,
                      std::size_t ticks) {
   World world(data, procedure, 1);
+  Input hold = at_rest(world.now());
+  // Where the operator poses the wrist, an unposed one keeps a hand from the target.
+  const procedure::Opening opening = procedure.opening(data);
+  hold.wrist = opening.wrist;
+  for (int i = 0; i < kPosingTicks; ++i) world.step(hold);
   const TargetPlace target = place_of(data, procedure.target, world.now());
-  const Vec3 out = normalized_or(world.now().items[0].tip_in_patient - target.centre, {0, 0, 1});
+  const Vec3 waits = place_in(data, procedure.target, world.now(), opening.tip_in_target);
+  const Vec3 out = normalized_or(waits - target.centre, {0, 0, 1});
   const Vec3 side = any_perpendicular(out);
   const Vec3 along = cross(out, side);
   const auto shafts =
