@@ -162,7 +162,6 @@ export async function wearsHeadset(browser, station) {
     await operator.until((s) => Operator.held(s)?.instrument !== before, "another in the hand");
   });
   await check(page, "taken off, the page goes on by mouse and keys", async () => {
-    if (process.env.HEADSET_PICTURE) await page.screenshot({ path: process.env.HEADSET_PICTURE });
     // The emulated eyes' canvas lies over the page.
     await button.dispatchEvent("click");
     await wearer.until((s) => s === undefined, "a headset that is off");

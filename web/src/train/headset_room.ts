@@ -7,12 +7,11 @@ import { heldItem } from "../operation";
 import type { CArmPicture, Instrument } from "../protocol";
 import type { Theatre } from "../theatre";
 import type { Actions } from "./actions";
+import { drivenBy } from "./driven_by";
 import type { Hand } from "./hand";
 import type { Panels } from "./panels";
 import type { TakingPart } from "./taking_part";
 import type { WhatIsSeen } from "./what_is_seen";
-
-const HOLDER = "headset";
 
 export interface HeadsetSurroundings {
   readonly panels: Panels;
@@ -47,24 +46,11 @@ export function headsetRoom(around: HeadsetSurroundings): HeadsetHandlers {
     panels.tray.instruments.find((one) => one.id === (chosen || seen.wantedInstrument));
 
   return {
-    isFree: () => part.operates && document.querySelector("dialog[open]") === null,
+    ...drivenBy("headset", panels, hand, part),
     canBePlaced: () => hand.canBePlaced,
     tipMm: () => hand.tipMm,
     place: (tipMm, shaft) => {
       hand.place(tipMm, shaft);
-    },
-    hold: (holder, action) => {
-      hand.hold(holder, action, performance.now());
-    },
-    letGo: (holder) => {
-      hand.letGo(holder, performance.now());
-    },
-    squeeze: (share) => {
-      hand.squeeze(share === undefined ? undefined : share * hand.thrust);
-    },
-    pedal: (down) => {
-      if (down) panels.arm.pedal.press(HOLDER);
-      else panels.arm.pedal.release(HOLDER);
     },
     act: (action: HeadsetOnce) => {
       if (action.kind === "next_shot") panels.arm.shootNext();

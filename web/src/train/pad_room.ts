@@ -4,11 +4,10 @@
 // What a gamepad reaches in the room.
 import type { PadRoom } from "../gamepad";
 import type { Actions } from "./actions";
+import { drivenBy } from "./driven_by";
 import type { Hand } from "./hand";
 import type { Panels } from "./panels";
 import type { TakingPart } from "./taking_part";
-
-const HOLDER = "gamepad";
 
 function pluggedText(on: boolean, wasDriving: boolean): string {
   if (on) return "Gamepad: sticks move and turn, right trigger drives, left reverses. ? shows all.";
@@ -19,25 +18,12 @@ function pluggedText(on: boolean, wasDriving: boolean): string {
 
 export function padRoom(panels: Panels, hand: Hand, actions: Actions, part: TakingPart): PadRoom {
   return {
-    isFree: () => part.operates && document.querySelector("dialog[open]") === null,
+    ...drivenBy("gamepad", panels, hand, part),
     moveTipBy: (right, up) => {
       if (hand.isFree()) hand.moveTipBy(right, up);
     },
     turnShaftBy: (right, up) => {
       if (hand.isFree()) hand.turnShaftBy(right, up);
-    },
-    hold: (holder, action) => {
-      hand.hold(holder, action, performance.now());
-    },
-    letGo: (holder) => {
-      hand.letGo(holder, performance.now());
-    },
-    squeeze: (share) => {
-      hand.squeeze(share === undefined ? undefined : share * hand.thrust);
-    },
-    pedal: (down) => {
-      if (down) panels.arm.pedal.press(HOLDER);
-      else panels.arm.pedal.release(HOLDER);
     },
     act: (action) => {
       actions.act(action);
