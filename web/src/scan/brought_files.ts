@@ -11,6 +11,11 @@ function ofFile(file: File, path: string): Candidate {
   return { name: path, bytes: file.size, read: () => Promise.resolve(file) };
 }
 
+function cannotUnpack(file: File, error: unknown): Error {
+  const why = error instanceof Error ? error.message : String(error);
+  return new Error(`${file.name} cannot be unpacked: ${why}.`);
+}
+
 async function unpacked(file: File): Promise<Candidate[]> {
   const { BlobReader, BlobWriter, ZipReader, configure } = await import("@zip.js/zip.js");
   configure({ useWebWorkers: false });
@@ -24,16 +29,15 @@ async function unpacked(file: File): Promise<Candidate[]> {
       found.push({
         name: entry.filename,
         bytes: entry.uncompressedSize,
-        read: async () => {
-          const content = await entry.getData(new BlobWriter(), { checkSignature: true });
-          if (content.size !== entry.uncompressedSize) throw new Error(`${file.name} is damaged.`);
-          return content;
-        },
+        // The library ends where more comes out than the archive says.
+        read: () =>
+          entry.getData(new BlobWriter(), { checkSignature: true }).catch((error: unknown) => {
+            throw cannotUnpack(file, error);
+          }),
       });
     }
   } catch (error) {
-    const why = error instanceof Error ? error.message : String(error);
-    throw new Error(`${file.name} cannot be unpacked: ${why}.`);
+    throw cannotUnpack(file, error);
   }
   return found;
 }
