@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "case_io/case_folder.hpp"
+#include "case_io/lesson_file.hpp"
 #include "case_io/read_volume.hpp"
 #include "case_io/soft_tissue_folder.hpp"
 #include "case_io/trust_file.hpp"
@@ -30,6 +31,7 @@
 #include "reconstruct/reconstruction_report.hpp"
 #include "records/atomic_file.hpp"
 #include "soft_tissue/make_soft_tissue.hpp"
+#include "stock/case_picture.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -183,6 +185,7 @@ void run(const Arguments& a) {
   const auto writing = reconstruct::StageClock::Clock::now();
   case_io::write_case(result.data, a.out,
                       a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
+  records::write_file_atomically(a.out / case_io::kPreviewFile, stock::case_picture(result.data));
   records::write_file_atomically(
       a.out / case_io::kTrustFile,
       case_io::trust_text(trust_lines(result), result.data.provenance.made_by));

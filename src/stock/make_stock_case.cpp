@@ -11,19 +11,18 @@
 
 #include "case_io/case_folder.hpp"
 #include "case_io/lesson_file.hpp"
-#include "case_io/png.hpp"
 #include "case_io/soft_tissue_folder.hpp"
 #include "cases/lesson_difficulty.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
-#include "fluoroscopy/render.hpp"
 #include "instruments/instrument.hpp"
 #include "procedures/built_in.hpp"
 #include "reconstruct/ground_truth.hpp"
 #include "reconstruct/reconstruct_case.hpp"
 #include "records/atomic_file.hpp"
 #include "soft_tissue/make_soft_tissue.hpp"
+#include "stock/case_picture.hpp"
 #include "trainee/attempt.hpp"
 
 namespace carpus::stock {
@@ -31,7 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPreviewPixels = 256;
 /// The expert errs too: one of so many tries must do.
 constexpr std::uint64_t kTries = 3;
 /// Of every bone against the simulated truth.
@@ -94,18 +92,6 @@ std::optional<cases::ExpertProof> prove(const cases::CaseData& data) {
   return best;
 }
 
-std::string preview_of(const cases::CaseData& data) {
-  const cases::AxisSegment& axis = data.scaphoid.central_axis;
-  fluoroscopy::CArmGeometry geometry;
-  geometry.pixels = kPreviewPixels;
-  const fluoroscopy::CArmPose pose = fluoroscopy::make_c_arm_pose(
-      fluoroscopy::find_view("pa")->angles, {(axis.proximal + axis.distal) * 0.5},
-      data.wrist_from_patient, {{0, data.side == Side::Left ? 1.0 : -1.0, 0}}, geometry);
-  const fluoroscopy::Image image =
-      fluoroscopy::FluoroscopyRenderer(data.ct.view()).render(pose, {}, {});
-  return case_io::png_of_grey(image.width, image.height, image.grey);
-}
-
 cases::CaseData reconstructed(phantom::Phantom&& wrist,
                               const StockItem& item,
                               const std::string& made_at,
@@ -157,7 +143,7 @@ cases::Lesson make_stock_case(const StockItem& item,
     lesson.expert = prove(data);
   }
   progress("picture", 0.9);
-  records::write_file_atomically(folder / case_io::kPreviewFile, preview_of(data));
+  records::write_file_atomically(folder / case_io::kPreviewFile, case_picture(data));
   records::write_file_atomically(folder / case_io::kLessonFile, case_io::lesson_text(lesson));
   progress("done", 1.0);
   return lesson;
