@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hardware/workshop/numbers.hpp"
 
+#include <array>
+#include <cstdio>
 #include <fstream>
-#include <regex>
 
 #include "core/error.hpp"
 
@@ -12,10 +13,15 @@ namespace carpus::hardware {
 Numbers::Numbers(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw IoError(file.string() + ": cannot be read");
-  const std::regex line_form(R"(^(\w+) = (-?[0-9.]+);.*)");
   for (std::string line; std::getline(in, line);) {
-    std::smatch found;
-    if (std::regex_match(line, found, line_form)) values_[found[1]] = std::stod(found[2]);
+    std::array<char, 64> name{};
+    double value = 0;
+    char end = 0;
+    // NAME = NUMBER; and whatever stands behind it. Others are formulas, which nobody asks for
+    // here.
+    const int read =
+        std::sscanf(line.c_str(), "%63[A-Za-z0-9_] = %lf%c", name.data(), &value, &end);
+    if (read == 3 && end == ';') values_[name.data()] = value;
   }
 }
 
