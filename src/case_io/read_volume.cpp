@@ -47,9 +47,14 @@ DicomSeries choose_series(std::vector<DicomSeries> all,
   const auto is_volume = [](const DicomSeries& s) { return s.summary.slices >= kFewestSlices; };
   const auto volumes = std::count_if(all.begin(), all.end(), is_volume);
   if (volumes > 1) {
-    throw InvalidInput(
+    std::vector<SeriesSummary> choice;
+    for (const DicomSeries& s : all) {
+      if (is_volume(s)) choice.push_back(s.summary);
+    }
+    throw SeveralSeries(
         folder.string() + ": holds " + std::to_string(volumes) +
-        " series; choose one with --series UID or give its own folder:" + series_list(all));
+            " series; choose one with --series UID or give its own folder:" + series_list(all),
+        std::move(choice));
   }
   if (volumes == 0) {
     throw InvalidInput(folder.string() + ": holds no series of at least " +

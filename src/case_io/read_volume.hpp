@@ -10,8 +10,10 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/progress.hpp"
 #include "geometry/grid.hpp"
 
@@ -24,6 +26,19 @@ struct SeriesSummary {
   std::string modality;     ///< "CT", ...
   int slices = 0;
   std::filesystem::path folder;  ///< of its first file
+  Vec3 spacing_mm{};  ///< of voxels: along a row, along a column, of slices; 0 where not known
+};
+
+/// A folder holds several volumes of which one must be chosen, ReadOptions::series_uid.
+class SeveralSeries : public InvalidInput {
+ public:
+  SeveralSeries(const std::string& message, std::vector<SeriesSummary> volumes)
+      : InvalidInput(message), volumes_(std::move(volumes)) {}
+  /// Those that are long enough for a volume, most slices first; scouts are not among them.
+  [[nodiscard]] const std::vector<SeriesSummary>& volumes() const noexcept { return volumes_; }
+
+ private:
+  std::vector<SeriesSummary> volumes_;
 };
 
 struct ReadOptions {
@@ -44,7 +59,8 @@ struct ReadOptions {
 /// rounded to whole HU and clamped to int16. Patient names are never read.
 /// @throws IoError missing, empty, unreadable, damaged or truncated files, files that need more
 /// memory than there is, and what is no regular file.
-/// @throws InvalidInput several series, missing slices, uneven or impossible geometry, not finite
+/// @throws SeveralSeries a choice is needed.
+/// @throws InvalidInput missing slices, uneven or impossible geometry, not finite
 /// values. Messages name the file and say what to do.
 [[nodiscard]] Grid<std::int16_t> read_ct(const std::filesystem::path& input,
                                          const ReadOptions& options = {});

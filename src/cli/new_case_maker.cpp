@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "case_io/case_cover.hpp"
 #include "cli/find_cases.hpp"
+#include "cli/series_choice.hpp"
 #include "cli/watched_program.hpp"
 
 namespace carpus::cli {
@@ -19,6 +22,9 @@ using server::NewCaseTask;
 
 constexpr std::chrono::minutes kLongest{20};
 constexpr std::size_t kLongestStem = 40;
+
+constexpr const char* kSeriesFile = "series.json";
+constexpr std::size_t kLargestSeriesFile = 1U << 20U;
 
 bool is_slice(const std::string& file) { return file.ends_with(".dcm"); }
 
@@ -38,6 +44,14 @@ std::string without_place(std::string text, const fs::path& place) {
   }
   if (text.starts_with("carpus: ")) text.erase(0, 8);
   return text;
+}
+
+std::vector<server::SeriesOffer> series_to_choose(const fs::path& folder) {
+  std::error_code none;
+  const auto bytes = fs::file_size(folder / kSeriesFile, none);
+  if (none || bytes > kLargestSeriesFile) return {};
+  std::ifstream file(folder / kSeriesFile, std::ios::binary);
+  return parse_series_choice(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 std::string title_of_version(const server::ShelvedCase& of, const std::string& id) {
@@ -86,7 +100,10 @@ NewCaseOutcome NewCaseMaker::make(const NewCaseTask& task,
     if (scan.empty()) {
       return {{}, "Bring the slices of one DICOM series, or one volume file, and nothing else."};
     }
-    words = {"reconstruct", scan, "--pseudonym", task.title.empty() ? "new scan" : task.title};
+    words = {"reconstruct",   scan,
+             "--pseudonym",   task.title.empty() ? "new scan" : task.title,
+             "--list-series", task.folder / kSeriesFile};
+    if (!task.series_uid.empty()) words.insert(words.end(), {"--series", task.series_uid});
   } else {
     const std::string id = free_id(of->id, *shelf, cases_);
     words = {"reconstruct", of->folder,
@@ -96,7 +113,11 @@ NewCaseOutcome NewCaseMaker::make(const NewCaseTask& task,
   words.insert(words.end(), {"--out", made});
   const ProgramEnd end = run_watched(program_, words, progress, stop, kLongest);
   if (end.was_stopped) return {{}, "It took too long and was ended."};
-  if (!end.is_well) return {{}, without_place(end.complaint, task.folder)};
+  if (!end.is_well) {
+    NewCaseOutcome outcome{{}, without_place(end.complaint, task.folder)};
+    if (task.series_uid.empty()) outcome.series = series_to_choose(task.folder);
+    return outcome;
+  }
   return put_on_shelf(task, made);
 }
 

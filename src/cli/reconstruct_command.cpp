@@ -21,6 +21,7 @@
 #include "case_io/trust_file.hpp"
 #include "cli/corrected_case.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/series_choice.hpp"
 #include "cli/simulated_scan.hpp"
 #include "cli/soft_tissue_report.hpp"
 #include "core/error.hpp"
@@ -46,6 +47,7 @@ struct Arguments {
   fs::path names;
   fs::path json;
   std::string series;
+  fs::path list_series;
   std::string pseudonym = "wrist";
   bool has_pseudonym = false;
   bool simulated = false;
@@ -146,6 +148,19 @@ fs::path scan_of(const Arguments& a) {
   return a.input / "ct.nii.gz";
 }
 
+Grid<std::int16_t> read_scan(const Arguments& a,
+                             const fs::path& scan,
+                             const case_io::ReadOptions& reading) {
+  try {
+    return case_io::read_ct(scan, reading);
+  } catch (const case_io::SeveralSeries& several) {
+    if (!a.list_series.empty()) {
+      records::write_file_atomically(a.list_series, series_choice_text(several.volumes()));
+    }
+    throw;
+  }
+}
+
 void run(const Arguments& a) {
   if (!a.names.empty() && a.labels.empty()) {
     throw UsageError("--names says what the numbers of --labels are; give those too");
@@ -159,7 +174,7 @@ void run(const Arguments& a) {
   std::vector<std::string> conventions;
   reading.note = [&](const std::string& text) { conventions.push_back(text); };
   const fs::path scan = scan_of(a);
-  Grid<std::int16_t> ct = case_io::read_ct(scan, reading);
+  Grid<std::int16_t> ct = read_scan(a, scan, reading);
   reconstruct::GroundTruth truth;
   if (!a.truth.empty()) {
     truth = reconstruct::read_ground_truth(a.truth);
@@ -225,6 +240,8 @@ void add_reconstruct_command(CLI::App& app) {
                       "Which number of --labels is which bone: a JSON file, {\"radius\": 1, ...}");
   command->add_option("--json", a->json, "Write every figure to this file");
   command->add_option("--series", a->series, "SeriesInstanceUID, where a folder holds several");
+  command->add_option("--list-series", a->list_series,
+                      "Where a folder holds several and none is chosen, write which to this file");
   command->add_option("--pseudonym", a->pseudonym, "What the case is called; never a person's name")
       ->check([](const std::string& name) {
         constexpr std::size_t kLongest = 128;  // as case.json and the page take it

@@ -15,6 +15,7 @@
 #include "core/hexadecimal.hpp"
 #include "core/person_name.hpp"
 #include "core/text_format.hpp"
+#include "server/query_number.hpp"
 #include "server/query_text.hpp"
 #include "server/request_head.hpp"
 
@@ -132,6 +133,9 @@ bool NewCaseDesk::is_for(const HttpRequest& request) {
 }
 
 HttpResponse NewCaseDesk::answer(const HttpRequest& request) {
+  if (request.method == "GET" && request.target == kNewCasePath) {
+    return make_json(Json{{"may_add", request.guest.role == Role::Instructor}}.dump());
+  }
   if (request.guest.role != Role::Instructor) {
     return make_problem(403, "Only who came by an instructor's link may add cases.");
   }
@@ -159,7 +163,7 @@ HttpResponse NewCaseDesk::begin() {
     return make_problem(409,
                         "An assessed operation is under way here; add cases when it has ended.");
   }
-  if (stage_ == Stage::Receiving || stage_ == Stage::Working) {
+  if (stage_ == Stage::Receiving || stage_ == Stage::Working || stage_ == Stage::Choosing) {
     return make_problem(409, "Another page is adding a case just now; try again in a minute.");
   }
   throw_away();
@@ -199,6 +203,7 @@ std::variant<std::unique_ptr<BodyTaker>, HttpResponse> NewCaseDesk::take_body(
 }
 
 HttpResponse NewCaseDesk::run(const HttpRequest& request) {
+  if (stage_ == Stage::Choosing) return run_chosen(request);
   if (stage_ != Stage::Receiving || has_taker_) return make_problem(409, "Not all files are here.");
   const auto title = text_in_query(request.target, "title");
   const auto of_case = text_in_query(request.target, "of");
@@ -212,14 +217,31 @@ HttpResponse NewCaseDesk::run(const HttpRequest& request) {
   if (!of_case->empty() && (files_.size() != 1 || !files_.front().ends_with(".nii.gz"))) {
     return make_problem(400, "Labels come as one file, nii.gz.");
   }
-  if (options_.truth->is_closed()) {
-    return make_problem(409, "An assessed operation is under way here; try when it has ended.");
-  }
   NewCaseTask task;
   task.folder = folder_;
   task.files = files_;
   task.title = *title;
   task.of_case = *of_case;
+  return start(task);
+}
+
+HttpResponse NewCaseDesk::run_chosen(const HttpRequest& request) {
+  const auto series = number_in_query(request.target, "series");
+  const auto text = text_in_query(request.target, "series");
+  if (!series || !text || text->empty() ||
+      std::cmp_greater_equal(*series, outcome_.series.size())) {
+    return make_problem(400, "It does not say which series.");
+  }
+  NewCaseTask task = task_;
+  task.series_uid = outcome_.series[static_cast<std::size_t>(*series)].uid;
+  return start(task);
+}
+
+HttpResponse NewCaseDesk::start(const NewCaseTask& task) {
+  if (options_.truth->is_closed()) {
+    return make_problem(409, "An assessed operation is under way here; try when it has ended.");
+  }
+  task_ = task;
   stop_ = false;
   doing_ = "waiting";
   fraction_ = 0;
@@ -246,6 +268,10 @@ void NewCaseDesk::work(const NewCaseTask& task) {
   heard_ = Clock::now();
   if (stop_) return throw_away();
   outcome_ = std::move(outcome);
+  if (!outcome_.series.empty()) {
+    stage_ = Stage::Choosing;
+    return;
+  }
   stage_ = Stage::Done;
   // What was brought is a patient's: it stays no longer than needed.
   remove_later(folder_);
@@ -253,7 +279,7 @@ void NewCaseDesk::work(const NewCaseTask& task) {
 
 HttpResponse NewCaseDesk::tell() const {
   Json json;
-  constexpr std::array<const char*, 4> kNames{"idle", "receiving", "working", "done"};
+  constexpr std::array<const char*, 5> kNames{"idle", "receiving", "working", "choosing", "done"};
   const bool is_stopping = stage_ == Stage::Working && stop_;
   json["state"] = is_stopping ? "stopping" : kNames.at(static_cast<std::size_t>(stage_));
   json["files"] = files_.size();
@@ -261,6 +287,11 @@ HttpResponse NewCaseDesk::tell() const {
   json["fraction"] = fraction_;
   json["id"] = outcome_.id;
   json["problem"] = outcome_.problem;
+  json["series"] = Json::array();
+  for (const SeriesOffer& one : outcome_.series) {
+    json["series"].push_back(
+        {{"description", one.description}, {"slices", one.slices}, {"spacing_mm", one.spacing_mm}});
+  }
   // What a program said is not promised to be text.
   return make_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -269,7 +300,7 @@ void NewCaseDesk::tend() {
   const std::lock_guard lock(mutex_);
   const bool is_forgotten = Clock::now() - heard_ > options_.lapse;
   // What is being made was wanted: it goes on, and stands in the list when it is there.
-  if (is_forgotten && (stage_ == Stage::Receiving || stage_ == Stage::Done)) throw_away();
+  if (is_forgotten && stage_ != Stage::Working) throw_away();
 }
 
 void NewCaseDesk::give_up() {
@@ -286,6 +317,7 @@ void NewCaseDesk::throw_away() {
   has_taker_ = false;
   doing_.clear();
   fraction_ = 0;
+  task_ = {};
   outcome_ = {};
   remove_later(std::exchange(folder_, {}));
 }

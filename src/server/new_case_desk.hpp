@@ -8,10 +8,13 @@
 //   POST   /api/new_case                      {"word": "…"}, which all that follows names
 //   PUT    /api/new_case/file?word=W&as=dcm   a file; its name is ours, `as` says what it is
 //   POST   /api/new_case/run?word=W&title=T   makes a case of them; &of=ID a version of that one
-//   GET    /api/new_case?word=W               how far it is
+//   GET    /api/new_case                      {"may_add": …}, whether who asks may do all this
+//   GET    /api/new_case?word=W               how far it is; "choosing": which series there are
+//   POST   /api/new_case/run?…&series=0       makes it of the first of them
 //   DELETE /api/new_case?word=W               gives it up
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -35,13 +38,23 @@ namespace carpus::server {
 struct NewCaseTask {
   std::filesystem::path folder;  ///< with the files, and room for what is made of them
   std::vector<std::string> files;
-  std::string title;    ///< may be empty; no control characters
-  std::string of_case;  ///< id of the case whose labels were changed; empty: a scan
+  std::string title;         ///< may be empty; no control characters
+  std::string of_case;       ///< id of the case whose labels were changed; empty: a scan
+  std::string series_uid{};  ///< which of several; empty: the only one
+};
+
+/// One of several series that were brought, as a person tells them apart; no date, nobody's name.
+struct SeriesOffer {
+  std::string uid;  ///< stays on the host
+  std::string description;
+  int slices = 0;
+  std::array<double, 3> spacing_mm{};  ///< 0 where not known
 };
 
 struct NewCaseOutcome {
-  std::string id;       ///< of the new case; empty: there is none
-  std::string problem;  ///< why there is neither, and what to do
+  std::string id;                     ///< of the new case; empty: there is none
+  std::string problem;                ///< why there is neither, and what to do
+  std::vector<SeriesOffer> series{};  ///< of which a person must choose one; else empty
 };
 
 struct NewCaseOptions {
@@ -77,10 +90,12 @@ class NewCaseDesk {
 
  private:
   class FileTaker;
-  enum class Stage : std::uint8_t { Idle, Receiving, Working, Done };
+  enum class Stage : std::uint8_t { Idle, Receiving, Working, Choosing, Done };
 
   [[nodiscard]] HttpResponse begin();
   [[nodiscard]] HttpResponse run(const HttpRequest& request);
+  [[nodiscard]] HttpResponse run_chosen(const HttpRequest& request);
+  [[nodiscard]] HttpResponse start(const NewCaseTask& task);
   [[nodiscard]] HttpResponse tell() const;
   [[nodiscard]] bool is_current(const HttpRequest& request) const;
   void give_up();
@@ -101,6 +116,7 @@ class NewCaseDesk {
   std::chrono::steady_clock::time_point heard_;
   std::string doing_;
   double fraction_ = 0;
+  NewCaseTask task_;
   NewCaseOutcome outcome_;
   std::atomic<bool> stop_{false};
   WorkThread chores_{64};  ///< removes

@@ -52,6 +52,7 @@ class NewCaseDeskTest : public ::testing::Test {
         brought_[file] = std::string((std::istreambuf_iterator<char>(stream)), {});
       }
       while (waits_ && !stop) std::this_thread::sleep_for(1ms);
+      if (!offers_.empty() && task.series_uid.empty()) return NewCaseOutcome{{}, "two", offers_};
       return NewCaseOutcome{"demo-2", {}};
     };
     network_options_.port = 0;
@@ -143,6 +144,7 @@ class NewCaseDeskTest : public ::testing::Test {
   std::shared_ptr<TruthGate> truth_ = std::make_shared<TruthGate>();
   std::atomic<bool> waits_{false};
   NewCaseTask made_of_;
+  std::vector<SeriesOffer> offers_;
   std::map<std::string, std::string> brought_;
   testing::Echo echo_;
   std::unique_ptr<NewCaseDesk> desk_;
@@ -199,6 +201,41 @@ TEST_F(NewCaseDeskTest, WhatIsGivenUpLeavesNothing) {
   waits_ = true;
   EXPECT_THAT(change("POST", "/api/new_case/run?word=" + word), StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(change("DELETE", "/api/new_case?word=" + word), StartsWith("HTTP/1.1 200"));
+  expect_clean_soon();
+}
+
+TEST_F(NewCaseDeskTest, OfSeveralSeriesOneIsChosenByAPerson) {
+  offers_ = {{"1.2.3", "Wrist bone", 200, {0.3, 0.3, 0.5}}, {"1.2.4", "Wrist soft", 90, {}}};
+  start();
+  const std::string word = begin();
+  EXPECT_THAT(put(file(word), "slice"), StartsWith("HTTP/1.1 200"));
+  const std::string run = "/api/new_case/run?word=" + word;
+  EXPECT_THAT(change("POST", run + "&title=A%20wrist"), StartsWith("HTTP/1.1 200"));
+  const Json choosing = wait_for(word, "choosing");
+  EXPECT_EQ(choosing["series"][0],
+            Json::parse(R"({"description":"Wrist bone","slices":200,"spacing_mm":[0.3,0.3,0.5]})"))
+      << "and nothing else: a UID names a study";
+  EXPECT_EQ(choosing["series"].size(), 2U);
+  EXPECT_THAT(put(file(word), "slice"), StartsWith("HTTP/1.1 409"));
+  EXPECT_THAT(change("POST", "/api/new_case"), HasSubstr("Another page"));
+  for (const char* wrong : {"", "&series=", "&series=2", "&series=-1", "&series=1.2.4"}) {
+    EXPECT_THAT(change("POST", run + wrong), StartsWith("HTTP/1.1 400")) << wrong;
+  }
+  EXPECT_THAT(change("POST", run + "&series=1"), StartsWith("HTTP/1.1 200"));
+  EXPECT_EQ(wait_for(word, "done")["id"], "demo-2");
+  EXPECT_EQ(made_of_.series_uid, "1.2.4");
+  EXPECT_EQ(made_of_.title, "A wrist");
+  expect_clean_soon();
+}
+
+TEST_F(NewCaseDeskTest, AChoiceThatNobodyMakesIsGivenUp) {
+  offers_ = {{"1", "a", 9, {}}, {"2", "b", 9, {}}};
+  desk_options_.lapse = 300ms;
+  start();
+  const std::string word = begin();
+  EXPECT_THAT(put(file(word), "slice"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(change("POST", "/api/new_case/run?word=" + word), StartsWith("HTTP/1.1 200"));
+  wait_for(word, "choosing");
   expect_clean_soon();
 }
 
@@ -263,6 +300,10 @@ TEST_F(NewCaseDeskTest, OnlyInstructorsFromOurOwnPage) {
               StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(ask(head("PUT", file("x"), cookie(kInstructor)) + length),
               StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(ask(head("GET", "/api/new_case", cookie(kTrainee)) + "\r\n"),
+              HasSubstr(R"({"may_add":false})"));
+  EXPECT_THAT(ask(head("GET", "/api/new_case", cookie(kInstructor)) + "\r\n"),
+              HasSubstr(R"({"may_add":true})"));
   EXPECT_THAT(ask(head("GET", "/api/new_case?word=x", cookie(kTrainee)) + "\r\n"),
               StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(ask(head("POST", "/api/new_case", own + cookie(kInstructor)) + "\r\n"),

@@ -162,6 +162,23 @@ struct Plane {
   [[nodiscard]] std::string path() const { return slice->file.string(); }
 };
 
+/// For a list, before anything is known to be right: the mean step, as if none were missing.
+Vec3 spacing_in(const DicomSeries& series) {
+  const DicomFrame& first = series.slices.front().header.frames.front();
+  if (!first.has_place) return {};
+  const Vec3 normal = cross(first.row, first.column);
+  double low = 0;
+  double high = 0;
+  for (const DicomSlice& slice : series.slices) {
+    for (const DicomFrame& frame : slice.header.frames) {
+      const double place = frame.has_place ? dot(frame.position - first.position, normal) : 0;
+      low = std::min(low, place);
+      high = std::max(high, place);
+    }
+  }
+  return {first.spacing.x, first.spacing.y, (high - low) / std::max(1, series.summary.slices - 1)};
+}
+
 std::vector<Plane> planes_of(const DicomSeries& series) {
   std::vector<Plane> planes;
   for (const DicomSlice& slice : series.slices) {
@@ -436,7 +453,8 @@ std::vector<DicomSeries> scan_dicom(const fs::path& folder) {
     DicomSeries& series = by_uid[slice.header.series_uid];
     if (series.slices.empty()) {
       series.summary = {slice.header.series_uid, slice.header.series_description,
-                        slice.header.modality, 0, file.parent_path()};
+                        slice.header.modality,   0,
+                        file.parent_path(),      {}};
     }
     series.summary.slices += static_cast<int>(slice.header.frames.size());
     series.slices.push_back(std::move(slice));
@@ -444,7 +462,10 @@ std::vector<DicomSeries> scan_dicom(const fs::path& folder) {
   refuse_lost_slices(unmarked, patterns);
   refuse_headless(class_of_others, by_uid);
   std::vector<DicomSeries> all;
-  for (auto& [uid, series] : by_uid) all.push_back(std::move(series));
+  for (auto& [uid, series] : by_uid) {
+    series.summary.spacing_mm = spacing_in(series);
+    all.push_back(std::move(series));
+  }
   std::stable_sort(all.begin(), all.end(), [](const DicomSeries& a, const DicomSeries& b) {
     return a.summary.slices > b.summary.slices;
   });

@@ -3,9 +3,12 @@
 //
 // A new case on the host: files are brought one after another, then the host makes a case of them and
 // tells how far it is. Nothing of it goes anywhere else.
+import { parseState, type SeriesOffer } from "./new_case_model";
 
 const ADDRESS = "/api/new_case";
 const LOOK_EVERY_MS = 400;
+/** The host throws away what nobody asks after for half a minute. */
+const KEEP_EVERY_MS = 5_000;
 
 /** Told while it goes on. @param part  0 to 1 */
 export type Told = (what: string, part: number) => void;
@@ -14,30 +17,6 @@ export interface BroughtFile {
   /** "dcm", "nii.gz": what the host is told of it; its name stays here. */
   readonly as: string;
   readonly content: Blob;
-}
-
-interface NewCaseState {
-  readonly state: string;
-  readonly doing: string;
-  readonly fraction: number;
-  readonly id: string;
-  readonly problem: string;
-}
-
-function parseState(text: string): NewCaseState {
-  const json = JSON.parse(text) as Readonly<Record<string, unknown>>;
-  const word = (name: string): string => {
-    const value = json[name];
-    return typeof value === "string" ? value : "";
-  };
-  const fraction = json["fraction"];
-  return {
-    state: word("state"),
-    doing: word("doing"),
-    fraction: typeof fraction === "number" ? Math.min(1, Math.max(0, fraction)) : 0,
-    id: word("id"),
-    problem: word("problem"),
-  };
 }
 
 async function ask(method: string, address: string, signal?: AbortSignal): Promise<string> {
@@ -82,6 +61,16 @@ function put(
   });
 }
 
+/** Whether who looks at this page may add cases; the host refuses the others in any case. */
+export async function mayAddCases(): Promise<boolean> {
+  try {
+    const told = JSON.parse(await ask("GET", ADDRESS)) as Readonly<Record<string, unknown>>;
+    return told["may_add"] === true;
+  } catch {
+    return false;
+  }
+}
+
 export interface NewCaseWish {
   /** In order; each is fetched when its turn has come. */
   readonly files: AsyncIterable<BroughtFile>;
@@ -90,6 +79,20 @@ export interface NewCaseWish {
   readonly title: string;
   /** Of the case whose labels they are; undefined for a scan. */
   readonly of?: string;
+  /** Asks a person which of several series is the scan. @return its place in the list */
+  choose(series: readonly SeriesOffer[], signal: AbortSignal): Promise<number>;
+}
+
+/** People take their time. */
+async function whileAsked<T>(address: string, answer: Promise<T>): Promise<T> {
+  const timer = setInterval(() => {
+    ask("GET", address).catch(() => undefined);
+  }, KEEP_EVERY_MS);
+  try {
+    return await answer;
+  } finally {
+    clearInterval(timer);
+  }
 }
 
 /** @return the id of the new case */
@@ -118,6 +121,11 @@ export async function makeNewCase(
       const now = parseState(await ask("GET", `${ADDRESS}?${word}`, signal));
       if (now.state === "done" && now.problem === "") return now.id;
       if (now.state === "done") throw new Error(now.problem);
+      if (now.state === "choosing") {
+        const which = await whileAsked(`${ADDRESS}?${word}`, wish.choose(now.series, signal));
+        await ask("POST", `${ADDRESS}/run?${word}&series=${which}`, signal);
+        continue;
+      }
       told(now.doing, now.fraction);
       await new Promise((wake) => setTimeout(wake, LOOK_EVERY_MS));
       signal.throwIfAborted();

@@ -5,7 +5,10 @@
 import { button, make, setText } from "../dom";
 import { fromDrop, fromFiles } from "./brought_files";
 import { scanAmong, type Candidate } from "./brought_files_model";
+import { rememberVersion } from "./earlier_version";
 import { makeNewCase, type NewCaseWish } from "./new_case_client";
+import { progressText } from "./new_case_model";
+import { askForSeries } from "./series_choice";
 
 const LONGEST_TITLE = "80";
 
@@ -19,6 +22,7 @@ export class NewCaseDialog {
   private readonly note = make("p.new-case-note", { role: "status" });
   private readonly bar = make("progress", { max: "1", "aria-label": "How far it is" });
   private readonly choice: HTMLElement;
+  private readonly series = make("div");
   private readonly done = make("div.actions");
   private readonly cancel: HTMLButtonElement;
   private readonly heading = make("h2", { id: "new-case-title" });
@@ -74,6 +78,7 @@ export class NewCaseDialog {
       this.choice,
       this.bar,
       this.note,
+      this.series,
       this.done,
       make("div.actions", {}, this.cancel),
     );
@@ -114,7 +119,9 @@ export class NewCaseDialog {
       await Promise.resolve();
       yield { as: "nii.gz", content: labels };
     })();
-    await this.make({ files, bytes: labels.size, title: "", of });
+    const choose = (): Promise<number> => Promise.reject(new Error("Labels are one volume."));
+    const id = await this.make({ files, bytes: labels.size, title: "", of, choose });
+    if (id !== undefined) rememberVersion(id, of);
   }
 
   dispose(): void {
@@ -141,13 +148,25 @@ export class NewCaseDialog {
     if (this.running !== undefined) return;
     try {
       const found = scanAmong(await candidates);
-      await this.make({ files: found.files, bytes: found.bytes, title: this.title.value.trim() });
+      await this.make({
+        files: found.files,
+        bytes: found.bytes,
+        title: this.title.value.trim(),
+        choose: (series, signal) => {
+          this.bar.hidden = true;
+          setText(this.note, "There are several series in it. Which is the CT of the wrist?");
+          return askForSeries(this.series, series, signal).finally(() => {
+            this.bar.hidden = false;
+          });
+        },
+      });
     } catch (error) {
       this.complain(error);
     }
   }
 
-  private async make(wish: NewCaseWish): Promise<void> {
+  /** @return the new case; undefined where there is none, which was said */
+  private async make(wish: NewCaseWish): Promise<string | undefined> {
     const running = new AbortController();
     this.running = running;
     this.choice.hidden = true;
@@ -159,7 +178,7 @@ export class NewCaseDialog {
         wish,
         (what, part) => {
           this.bar.value = part;
-          setText(this.note, `${what}: ${Math.round(100 * part)} %`);
+          setText(this.note, progressText(what, part));
         },
         running.signal,
       );
@@ -176,8 +195,10 @@ export class NewCaseDialog {
       this.done.replaceChildren(look);
       setText(this.cancel, "Close");
       this.made(id);
+      return id;
     } catch (error) {
       if (!running.signal.aborted) this.complain(error);
+      return undefined;
     } finally {
       this.running = undefined;
     }

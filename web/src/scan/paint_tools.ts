@@ -17,8 +17,8 @@ type Phase = "down" | "move" | "up";
 export interface PaintWishes {
   redraw(): void;
   say(text: string): void;
-  /** The labels as they are now, packed, for a new version of the case. */
-  makeVersion(labels: Blob): Promise<void>;
+  /** The labels as they are now, packed, for a new version of the case; undefined for who may make none. */
+  readonly makeVersion: ((labels: Blob) => Promise<void>) | undefined;
   /** A bone has voxels now that had none, or the other way. */
   bonesChanged(): void;
 }
@@ -107,9 +107,13 @@ export class PaintTools {
       make(
         "div.scan-row",
         {},
-        button("Run again as a new version", "{KeyG}", () => {
-          this.runAgain();
-        }),
+        ...(wishes.makeVersion === undefined
+          ? []
+          : [
+              button("Run again as a new version", "{KeyG}", () => {
+                this.runAgain();
+              }),
+            ]),
         button("Save the labels as a file", "{KeyS}", () => {
           this.save();
         }),
@@ -233,8 +237,13 @@ export class PaintTools {
 
   /** On the host, from the labels as they are now. */
   runAgain(): void {
+    const { makeVersion } = this.wishes;
+    if (makeVersion === undefined) {
+      this.wishes.say("New versions are made by who came by an instructor's link.");
+      return;
+    }
     this.packed()
-      .then((blob) => this.wishes.makeVersion(blob))
+      .then(makeVersion)
       .catch(() => {
         this.wishes.say("The labels could not be packed.");
       });
@@ -255,8 +264,9 @@ export class PaintTools {
         }, 10_000);
         this.isSaved = true;
         this.wishes.say(
-          "Saved as labels.nii.gz; the case itself is as it was. G makes a new version of it here, " +
-            "`carpus reconstruct CASE --labels labels.nii.gz --out NEW` elsewhere.",
+          "Saved as labels.nii.gz; the case itself is as it was. " +
+            "`carpus reconstruct CASE --labels labels.nii.gz --out NEW` makes a new version of it" +
+            (this.wishes.makeVersion === undefined ? "." : ", and G does here."),
         );
       },
       () => {

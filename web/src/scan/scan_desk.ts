@@ -25,6 +25,8 @@ export interface DeskCase {
   readonly ct: Volume;
   readonly labels: Volume | undefined;
   readonly ways: readonly HTMLElement[];
+  /** Whether who looks at it may make cases here. */
+  readonly mayAdd: boolean;
   /** A case was made here. */
   added(id: string): void;
 }
@@ -101,7 +103,9 @@ export class ScanDesk {
         say: (text) => {
           setText(this.said, text);
         },
-        makeVersion: (labels) => this.newCase.makeVersion(this.data.id, labels),
+        makeVersion: data.mayAdd
+          ? (labels) => this.newCase.makeVersion(this.data.id, labels)
+          : undefined,
         bonesChanged: () => {
           this.list.mark(this.labelAt(this.cross));
         },
@@ -127,7 +131,7 @@ export class ScanDesk {
     for (const name of ["dragover", "drop"] as const) {
       this.element.addEventListener(name, (event) => {
         event.preventDefault();
-        if (name === "drop") this.newCase.drop(event);
+        if (name === "drop" && data.mayAdd) this.newCase.drop(event);
       });
     }
     try {
@@ -233,9 +237,13 @@ export class ScanDesk {
         "div.scan-ways",
         {},
         ...ways,
-        button("Add a scan…", "", () => {
-          this.newCase.open();
-        }),
+        ...(this.data.mayAdd
+          ? [
+              button("Add a scan…", "", () => {
+                this.newCase.open();
+              }),
+            ]
+          : []),
         button("Help", "?", () => {
           this.help.showModal();
         }),

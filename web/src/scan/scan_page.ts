@@ -5,6 +5,8 @@
 import { fetchCases } from "../case_data";
 import { button, make, setText } from "../dom";
 import type { CaseList } from "../protocol";
+import { earlierVersion } from "./earlier_version";
+import { mayAddCases } from "./new_case_client";
 import "./scan.css";
 import { ScanDesk } from "./scan_desk";
 import { fetchScannedCase, fetchVolume } from "./volume_client";
@@ -23,7 +25,7 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
     ),
   );
   const load = async (): Promise<void> => {
-    const cases = await fetchCases();
+    const [cases, mayAdd] = await Promise.all([fetchCases(), mayAddCases()]);
     const id = wanted ?? cases.open;
     const scanned = await fetchScannedCase(id, abort.signal);
     const percent = (part: number): void => {
@@ -44,7 +46,7 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
         () => undefined, // they are in the list when the page is opened next
       );
     };
-    desk = new ScanDesk({ id, scanned, ct, labels, ways: [links], added });
+    desk = new ScanDesk({ id, scanned, ct, labels, ways: [links], mayAdd, added });
     app.replaceChildren(desk.element);
     desk.begin();
   };
@@ -81,5 +83,19 @@ function ways(cases: CaseList, id: string): HTMLElement[] {
     location.hash = `#/scan/${encodeURIComponent(choice.value)}`;
   });
   const operate = make("a.button-link", { href: "#/" }, "Operate");
-  return cases.cases.length > 1 ? [choice, operate] : [operate];
+  const before = earlierVersion(
+    id,
+    cases.cases.map((one) => one.id),
+  );
+  const back =
+    before === undefined
+      ? []
+      : [
+          make(
+            "a.button-link",
+            { href: `#/scan/${encodeURIComponent(before)}` },
+            "Back to the version before",
+          ),
+        ];
+  return cases.cases.length > 1 ? [choice, ...back, operate] : [operate];
 }
