@@ -33,7 +33,8 @@ std::string series_choice_text(const std::vector<case_io::SeriesSummary>& volume
 std::vector<server::SeriesOffer> parse_series_choice(const std::string& text) {
   std::vector<server::SeriesOffer> offers;
   try {
-    for (const Json& one : Json::parse(text).at("series")) {
+    const Json whole = Json::parse(text);
+    for (const Json& one : whole.at("series")) {
       const auto spacing = one.at("spacing_mm").get<std::array<double, 3>>();
       offers.push_back({one.at("uid").get<std::string>(), one.at("description").get<std::string>(),
                         one.at("slices").get<int>(), spacing});

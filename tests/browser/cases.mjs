@@ -4,7 +4,7 @@
 // Several cases at one station: what their cards say in either way to operate, going from one to
 // another, and declining where that is the right answer. The cases are the demo twice, each with a
 // lesson of its own.
-import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { expectAccessible } from "./accessibility.mjs";
@@ -33,6 +33,15 @@ const lesson = (title, overall, more) => ({
   ...more,
 });
 
+/** As a reconstruction says it that doubts one bone. */
+function doubt(caseFolder, bone, why) {
+  const file = join(caseFolder, "trust.json");
+  const trust = JSON.parse(readFileSync(file, "utf8"));
+  const line = trust.bones.find(({ name }) => name === bone);
+  Object.assign(line, { confidence: 0.2, flagged: true, why });
+  writeFileSync(file, JSON.stringify(trust));
+}
+
 function twoCases() {
   const folder = mkdtempSync(join(tmpdir(), "carpus-cases-"));
   const put = (name, what) => {
@@ -40,6 +49,7 @@ function twoCases() {
     writeFileSync(join(folder, name, "lesson.json"), JSON.stringify(what));
   };
   put("easy", lesson("Easy one", 20, { right_answer: "fix" }));
+  doubt(join(folder, "easy"), "hamate", "a leak across a joint");
   put(
     "humpback",
     lesson("Old humpback", 70, {
@@ -69,6 +79,23 @@ async function chooseAndDecline(page, station) {
       `the second says '${texts[1]}'`,
     );
     await expectAccessible(page, 4);
+  });
+  await check(page, "a bone in doubt is found from the card on its scan", async () => {
+    const said = await card("easy").innerText();
+    expect(/Check .*hamate/i.test(said), `the card says '${said}'`);
+    await page.getByRole("link", { name: "Scan", exact: true }).click();
+    const flagged = page.locator("[data-bone=hamate]", { hasText: "look here" });
+    await flagged.waitFor();
+    await page.locator(".scan-why", { hasText: "a leak across a joint" }).waitFor();
+    // One is there from the start, and comes back from elsewhere.
+    await page.locator(".scan-reading", { hasText: "Hamate" }).waitFor();
+    await page.locator("[data-bone=capitate]").click();
+    await page.locator(".scan-reading", { hasText: "Capitate" }).waitFor();
+    await flagged.click();
+    await page.locator(".scan-reading", { hasText: "Hamate" }).waitFor();
+    await page.locator(".scan-said", { hasText: "a leak across a joint" }).waitFor();
+    await page.goBack();
+    await ready(page);
   });
   await check(page, "whoever is assessed is told no diagnosis", async () => {
     await page.check("input[name=mode][value=assessed]");

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Coming in by the link that the station printed, as from a mail: from a page of another site.
+import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
+import { join } from "node:path";
 
 /** The link that a station printed. */
 export async function printedLink(station) {
@@ -32,4 +34,12 @@ export async function followFromElsewhere(page, link) {
     server.closeAllConnections?.();
     server.close();
   }
+}
+
+/** For trainees: at a station for its own machine it stands beside the records alone. */
+export function traineesLink(station) {
+  const links = readFileSync(join(station.records, "attempts.links"), "utf8");
+  const [, token] = /^trainee (\S+)$/m.exec(links) ?? [];
+  if (token === undefined) throw new Error("there is no link for trainees");
+  return `${station.url}/?token=${token}`;
 }

@@ -5,7 +5,14 @@
 // painted, taken back and painted again, run again as a new version, reopened and operated on. A station of its own,
 // whose cases end with it. Needs CARPUS_CT, a folder with a simulated CT.
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import {
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { expectAccessible } from "./accessibility.mjs";
@@ -18,10 +25,28 @@ const CT = process.env.CARPUS_CT ?? join(root, "build/system/demo_ct");
 /** A case takes ten seconds where the machine is free, and minutes where it is not. */
 const MADE_MS = 540_000;
 
-/** As a person has it who was given a disc. */
+const THICK = 12;
+
+/** The first slices of a series as another one: its UID ends otherwise. */
+function anotherSeries(from, to) {
+  mkdirSync(to);
+  for (const name of readdirSync(from).sort().slice(0, THICK)) {
+    const bytes = readFileSync(join(from, name));
+    // (0020,000E), UI, two bytes of length.
+    const at = bytes.indexOf(Buffer.from([0x20, 0, 0x0e, 0, 0x55, 0x49]));
+    const length = bytes.readUInt16LE(at + 6);
+    let last = at + 8 + length - 1;
+    if (bytes[last] === 0) --last;
+    bytes[last] = bytes[last] === 0x31 ? 0x32 : 0x31;
+    writeFileSync(join(to, name), bytes);
+  }
+}
+
+/** As a person has it who was given a disc: two series, of which one is the scan. */
 function zipped(folder) {
   const file = join(folder, "disc.zip");
-  execFileSync("python3", ["-m", "zipfile", "-c", file, join(CT, "dicom")]);
+  anotherSeries(join(CT, "dicom"), join(folder, "other"));
+  execFileSync("python3", ["-m", "zipfile", "-c", file, join(CT, "dicom"), join(folder, "other")]);
   return file;
 }
 
@@ -44,6 +69,16 @@ async function bringAndMend(page, station, zip) {
     await dialog.locator('input[type=file]:not([webkitdirectory])').setInputFiles(zip);
     await dialog.locator(".new-case-note", { hasText: "%" }).waitFor();
     await shot(page, "new_case_progress");
+    const series = dialog.locator(".new-case-series");
+    await series.first().waitFor({ timeout: MADE_MS });
+    await expectAccessible(page, 4);
+    await shot(page, "new_case_series");
+    const offered = await series.allInnerTexts();
+    expect(
+      offered.length === 2 && offered[1].includes(`${THICK} slices, voxels of`),
+      `it offers ${JSON.stringify(offered)}`,
+    );
+    await page.keyboard.press("Enter");
     await dialog.getByRole("link", { name: "Look at it" }).click({ timeout: MADE_MS });
     await page.locator(".scan-heading", { hasText: "From the disc" }).waitFor({ timeout: 30_000 });
   });
@@ -81,11 +116,23 @@ async function bringAndMend(page, station, zip) {
     expect(said.length === 1, `it says ${JSON.stringify(told.provenance.conventions)}`);
   });
   if (!mended) return;
+  await check(page, "one press leads back to the version before, and to this one", async () => {
+    const id = decodeURIComponent(page.url().split("/").at(-1));
+    await page.getByRole("link", { name: "Back to the version before" }).click();
+    await page.locator(".scan-heading p", { hasText: /^From the disc · / }).waitFor();
+    await page.goBack();
+    await page.locator(".scan-heading", { hasText: "From the disc, version" }).waitFor();
+    expect(page.url().endsWith(`/${id}`), `it is at ${page.url()}`);
+  });
   await check(page, "the new version is operated on", async () => {
     const id = decodeURIComponent(page.url().split("/").at(-1));
     await page.getByRole("link", { name: "Operate" }).click();
     await page.locator("dialog.start button[type=submit]:not([disabled])").waitFor();
     await shot(page, "new_case_list");
+    const picture = page.locator(`.case-card[data-case="${id}"] img`);
+    await picture.waitFor();
+    const pixels = await picture.evaluate((image) => image.decode().then(() => image.naturalWidth));
+    expect(pixels > 100, `its picture is ${pixels} pixels wide`);
     await page.locator(`.case-card[data-case="${id}"]`).click();
     await page.locator(`.case-card[data-case="${id}"][aria-current=true]`).waitFor({ timeout: 30_000 });
     const operator = new Operator(page);

@@ -18,7 +18,7 @@ import { firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { wearsHeadset } from "./headset.mjs";
-import { followFromElsewhere, printedLink } from "./link.mjs";
+import { followFromElsewhere, printedLink, traineesLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
 import { lookAtScan } from "./scan.mjs";
@@ -582,6 +582,19 @@ async function byItsLink(browser) {
         await other.close();
       },
     );
+    await check(page, "a trainee looks at the scan and is offered no new case", async () => {
+      const theirs = await browser.newContext();
+      const look = await theirs.newPage();
+      await look.goto(traineesLink(station));
+      await look.waitForURL((url) => url.search === "");
+      await look.goto(`${station.url}/#/scan`);
+      await look.locator(".scan-reading:not(:empty)").waitFor();
+      for (const name of ["Add a scan…", "Run again as a new version"]) {
+        const offered = await look.getByText(name).count();
+        expect(offered === 0, `'${name}' is offered`);
+      }
+      await theirs.close();
+    });
     await check(page, "the token is not in the browser's history", async () => {
       await page.goBack();
       expect(!page.url().includes(token), "it is");

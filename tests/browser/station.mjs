@@ -39,7 +39,7 @@ export function demoCase() {
  * @param options  of `carpus serve` besides; --open unless the link is what is tried
  * @param where  a case folder, or a folder of them, in place of the demo's
  * @param fill  puts attempts into the records, whose file it is given, before anybody looks
- * @return {url, caseFolder, stop}
+ * @return {url, caseFolder, output, records, plugIn, stop}
  */
 export async function startStation(options = ["--open"], where, fill) {
   const program = need(
@@ -90,6 +90,7 @@ export async function startStation(options = ["--open"], where, fill) {
     url,
     caseFolder,
     output,
+    records,
     /** A simulated arm that is plugged in. @return {unplug} */
     async plugIn() {
       const arm = spawn(program, ["device", "simulate", "--unit", "7"], {
