@@ -7,7 +7,8 @@ import type { Vec3 } from "../protocol";
 import { BoneList } from "./bone_list";
 import { BonesPanel } from "./bones_panel";
 import { placeOfLabel } from "./label_place_model";
-import { isWhole, measureText, type Measure, type MeasureKind } from "./measure_model";
+import type { MeasureKind } from "./measure_model";
+import { MeasureTool } from "./measure_tool";
 import { NewCaseDialog } from "./new_case_dialog";
 import { PaintTools } from "./paint_tools";
 import { applied, extentAlong, finestSpacing, voxelIndexAt, type Volume } from "./nifti_model";
@@ -63,8 +64,7 @@ export class ScanDesk {
   private crossShown = true;
   private labelsShown = true;
   private mmPerPixel = 0.2;
-  private measures: readonly Measure[] = [];
-  private measuring: MeasureKind | undefined;
+  private readonly measures = new MeasureTool();
   private focused: SlicePanel;
   private readonly mend: PaintTools | undefined;
   private isAsked = false;
@@ -274,7 +274,7 @@ export class ScanDesk {
   }
 
   private press(plane: Plane, mm: Vec3, phase: "down" | "move" | "up"): void {
-    if (this.measuring !== undefined) {
+    if (this.measures.kind !== undefined) {
       if (phase === "down") this.addPlace(mm);
       return;
     }
@@ -377,23 +377,14 @@ export class ScanDesk {
   }
 
   private measure(kind: MeasureKind): void {
-    this.measuring = this.measuring === kind ? undefined : kind;
     this.mend?.take(undefined);
-    this.measures = this.measures.filter(isWhole);
-    const what = kind === "distance" ? "its two ends" : "three places, the corner second";
-    setText(this.said, this.measuring === undefined ? "" : `Click ${what}; Esc puts down.`);
+    setText(this.said, this.measures.toggle(kind));
     this.ask();
   }
 
   private addPlace(mm: Vec3): void {
-    const kind = this.measuring;
-    if (kind === undefined) return;
-    const last = this.measures.at(-1);
-    const goesOn = last !== undefined && !isWhole(last);
-    const now: Measure = { kind, places: goesOn ? [...last.places, mm] : [mm] };
-    this.measures = [...(goesOn ? this.measures.slice(0, -1) : this.measures), now];
-    if (isWhole(now))
-      setText(this.said, `${kind === "distance" ? "Distance" : "Angle"} ${measureText(now)}`);
+    const told = this.measures.add(mm);
+    if (told !== undefined) setText(this.said, told);
     this.ask();
   }
 
@@ -444,7 +435,7 @@ export class ScanDesk {
     if (event.key === "+" || event.key === "=") this.zoom(1.12);
     else if (event.key === "-") this.zoom(1 / 1.12);
     else if (event.key === "?") this.help.showModal();
-    else if (event.key === "Enter" && isOnPicture && this.measuring !== undefined) {
+    else if (event.key === "Enter" && isOnPicture && this.measures.kind !== undefined) {
       this.addPlace(this.cross);
     } else if (event.key === "Enter" && isOnPicture && this.mend?.brush !== undefined) {
       this.mend.dab(this.cross);
@@ -492,12 +483,11 @@ export class ScanDesk {
         this.turnPlanes();
       },
       Backspace: () => {
-        this.measures = this.measures.slice(0, -1);
+        this.measures.dropLast();
       },
       Escape: () => {
-        this.measuring = undefined;
+        this.measures.putDown();
         this.mend?.take(undefined);
-        this.measures = this.measures.filter(isWhole);
         setText(this.said, "");
       },
     };
@@ -531,9 +521,9 @@ export class ScanDesk {
       overlay: { colors: this.colors, opacity: Number(this.opacity.value) / 100 },
       cross: this.cross,
       crossShown: this.crossShown,
-      measures: this.measures,
+      measures: this.measures.measures,
       mmPerPixel: this.mmPerPixel,
-      brush: this.measuring === undefined ? this.mend?.brush : undefined,
+      brush: this.measures.kind === undefined ? this.mend?.brush : undefined,
     };
     this.panels.forEach((panel, i) => {
       panel.draw(shown);
@@ -558,8 +548,8 @@ export class ScanDesk {
       isOn(one.name, one.centre === this.grey.centre && one.width === this.grey.width);
     }
     isOn("labels", this.labelsShown);
-    isOn("distance", this.measuring === "distance");
-    isOn("angle", this.measuring === "angle");
+    isOn("distance", this.measures.kind === "distance");
+    isOn("angle", this.measures.kind === "angle");
     isOn("planes", this.alignment === "wrist");
   }
 }
