@@ -5,6 +5,7 @@
 // panorama, and keys and mouse that lead what is in the portals. The host owns the truth: where a tip
 // really is, where the scope looks and what was seen, it says.
 import { make, setText } from "../dom";
+import { keyCap } from "../key_caps";
 import type {
   BodyPose,
   ExerciseMessage,
@@ -13,8 +14,9 @@ import type {
   SnapshotMessage,
   Vec3,
 } from "../protocol";
-import { add, rotated, scaled } from "../tool_placement";
+import { add, dot, rotated, scaled, subtract } from "../tool_placement";
 import { ForceGauge } from "./force_gauge";
+import { makeScopeControls } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import {
   advanced,
@@ -35,6 +37,7 @@ import {
   type ScopeMotion,
 } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
+import { scopeWords } from "./scope_words_model";
 import "./scope.css";
 
 type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
@@ -47,6 +50,8 @@ export interface ScopeRoom {
   send(hand: Omit<HandMessage, "type" | "sequence">): void;
   turn(shaftDeg: number, cameraDeg: number): void;
   take(instrument: string, hand: HandIndex): void;
+  /** @param byN  more traction, or less */
+  pull(byN: number): void;
   say(text: string): void;
   /** Mouse and keys move this hand from now on. */
   showHand(hand: HandIndex): void;
@@ -68,6 +73,16 @@ interface Held {
 
 export class ScopeDesk {
   readonly element = make("section.scope", { "aria-label": "Arthroscope" });
+  /** Under the picture. */
+  readonly controls: HTMLElement;
+  private readonly where = make("strong");
+  private readonly next = make("span");
+  private readonly words = make(
+    "p.scope-words",
+    { role: "status" },
+    this.where,
+    make("span.scope-next", {}, this.next, " ", keyCap("{KeyA}")),
+  );
   private readonly status = make("p.scope-status", { role: "status" });
   private readonly list = make("ol.scope-points");
   private readonly gauge = new ForceGauge();
@@ -99,19 +114,32 @@ export class ScopeDesk {
     private readonly wall: JointWall | undefined,
     signal: AbortSignal,
   ) {
-    const panorama = make("button", { type: "button", title: "7" }, "Panorama");
-    panorama.addEventListener("click", () => {
-      this.act("panorama");
+    this.controls = makeScopeControls({
+      hold: (holder, motion) => {
+        if (this.room.operates()) this.keys.set(holder, motion);
+      },
+      letGo: (holder) => {
+        this.keys.delete(holder);
+      },
+      act: (act) => {
+        this.act(act);
+      },
+      pull: (byN) => {
+        this.room.pull(byN);
+      },
     });
     this.element.append(
       make(
-        "div.scope-head",
+        "div.scope-column",
         {},
-        make("div.scope-column", {}, this.status, this.gauge.element, this.list),
-        panorama,
+        this.status,
+        this.gauge.element,
+        this.list,
+        make("p.scope-keys", {}, KEYS_IN_WORDS),
       ),
-      make("p.scope-keys", {}, KEYS_IN_WORDS),
+      this.words,
     );
+    this.controls.hidden = true;
     this.element.hidden = true;
     this.listen(signal);
   }
@@ -133,7 +161,7 @@ export class ScopeDesk {
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
     const isOn = this.plan !== undefined && this.wall !== undefined;
-    this.element.hidden = !isOn;
+    this.element.hidden = this.controls.hidden = !isOn;
     this.room.stage.classList.toggle("is-panorama", isOn);
     this.room.stage.hidden = isOn && !this.hasPanorama;
     if (!isOn || this.wall === undefined || this.plan === undefined) return;
@@ -202,16 +230,24 @@ export class ScopeDesk {
     const item = snapshot.items.find((one) => one.hand === (scope?.hand ?? 0));
     if (item === undefined || scope === undefined) return;
     const other = snapshot.items.find((one) => one.hand === 1 - scope.hand);
+    // The lens lies in the middle of the rounded tip.
+    const eyeMm = add(item.tip_mm, scaled(item.shaft, this.radiusMm));
+    const hand: HandIndex = scope.hand === 1 ? 1 : 0;
+    const portal = this.portalNow(this.hands[hand].portal);
+    const isOutside =
+      portal !== undefined &&
+      scope.in_joint[hand] !== 1 &&
+      dot(subtract(eyeMm, portal.skinMm), portal.inwards) < 0;
     const box = picture.canvas.getBoundingClientRect();
     picture.draw(
       {
-        // The lens lies in the middle of the rounded tip.
-        eyeMm: add(item.tip_mm, scaled(item.shaft, this.radiusMm)),
+        eyeMm,
         axis: scope.axis,
         up: scope.up,
       },
       other === undefined ? undefined : { tipMm: other.tip_mm, shaft: other.shaft },
       Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
+      isOutside ? portal : undefined,
     );
   }
 
@@ -228,6 +264,13 @@ export class ScopeDesk {
       this.snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [],
       performance.now(),
     );
+    const words = scopeWords(
+      { portal: scope?.portals[0] ?? "", isInJoint: scope?.in_joint[0] === 1 },
+      plan.portals[this.hands[0].portal]?.name ?? "",
+    );
+    this.words.hidden = words.where === "";
+    setText(this.where, words.where);
+    setText(this.next, words.next);
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
     this.element.dataset["triangles"] = String(budget?.triangles ?? 0);
@@ -337,6 +380,10 @@ export class ScopeDesk {
       case "panorama":
         this.hasPanorama = !this.hasPanorama;
         this.room.stage.hidden = !this.hasPanorama;
+        return;
+      case "level":
+        // Up in the picture is distal where the camera head is not turned.
+        this.turnBy(0, -this.cameraDeg);
         return;
       case "next_portal": {
         const held = this.hands[this.moved];

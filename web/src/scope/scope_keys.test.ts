@@ -16,6 +16,7 @@ describe("keys of the scope", () => {
   });
   it("leave the other keys to the room", () => {
     expect(scopeAct("KeyH")).toBe("switch_hand");
+    expect(scopeAct("Digit8")).toBe("level");
     expect(scopeAct("KeyF")).toBeUndefined();
   });
 });

@@ -8,7 +8,7 @@ export type ScopeMotion =
   | { readonly kind: "turn_shaft"; readonly by: number }
   | { readonly kind: "turn_camera"; readonly by: number };
 
-export type ScopeAct = "switch_hand" | "next_portal" | "panorama";
+export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level";
 
 const LEANS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-1, 0],
@@ -50,10 +50,11 @@ export function scopeAct(code: string): ScopeAct | undefined {
       return "next_portal";
     case "Digit7":
       return "panorama";
+    case "Digit8":
+      return "level";
     default:
       return undefined;
   }
 }
 
-export const KEYS_IN_WORDS =
-  "Arrows lean, A / D advance and draw back, , and . turn the shaft (Shift: the camera), H the other hand, V another portal, 7 panorama. Mouse: drag leans, wheel goes in and out, right drag turns the shaft.";
+export const KEYS_IN_WORDS = "Arrows or a drag lean it, the wheel goes in and out.";

@@ -5,6 +5,7 @@
 import * as THREE from "three";
 import type { Vec3 } from "../protocol";
 import type { JointWall } from "./joint_wall";
+import { ScopeBackdrop } from "./scope_backdrop";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 
 export interface ScopeSight {
@@ -34,6 +35,7 @@ export class ScopePicture {
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
   private readonly wall: THREE.Mesh;
+  private readonly backdrop = new ScopeBackdrop(this.lens);
 
   constructor(wall: JointWall) {
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
@@ -44,6 +46,7 @@ export class ScopePicture {
     this.canvas.setAttribute("aria-label", "The arthroscope's picture");
     this.wall = new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false));
     this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
+    this.scene.add(this.backdrop.mesh);
     for (const mesh of [this.wall, this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
@@ -55,7 +58,13 @@ export class ScopePicture {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
   }
 
-  draw(sight: ScopeSight, rod: Rod | undefined, sizePx: number): void {
+  /** @param skin  the portal that the lens is before; undefined once it is under the skin */
+  draw(
+    sight: ScopeSight,
+    rod: Rod | undefined,
+    sizePx: number,
+    skin: { readonly skinMm: Vec3; readonly inwards: Vec3 } | undefined,
+  ): void {
     const size = Math.max(64, Math.min(LARGEST_PX, Math.round(sizePx)));
     if (this.canvas.width !== size) this.renderer.setSize(size, size, false);
     const { eye, axis, up, right, lamp } = this.lens;
@@ -67,6 +76,8 @@ export class ScopePicture {
       .copy(eye.value)
       .addScaledVector(up.value, LAMP_UP_MM)
       .addScaledVector(right.value, LAMP_RIGHT_MM);
+    this.wall.visible = skin === undefined;
+    this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.rod.visible = rod !== undefined;
     if (rod !== undefined) {
       this.rod.position.set(...rod.tipMm);
@@ -86,6 +97,7 @@ export class ScopePicture {
   }
 
   dispose(): void {
+    this.backdrop.dispose();
     for (const mesh of [this.wall, this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();

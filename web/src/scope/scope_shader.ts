@@ -88,7 +88,7 @@ void main() {
   float known = clamp(w.x + w.y + w.z + w.w, 0.0, 1.0);
   float red = 1.0 - known;
 
-  vec3 cartilage = mix(vec3(0.74, 0.77, 0.76), vec3(0.88, 0.84, 0.75), soft);
+  vec3 cartilage = mix(vec3(0.80, 0.83, 0.82), vec3(0.93, 0.90, 0.83), soft);
   vec3 disc = mix(vec3(0.80, 0.72, 0.56), vec3(0.93, 0.88, 0.76), cloudy(vAt * 1.7));
   vec3 bone = mix(vec3(0.80, 0.68, 0.50), vec3(0.86, 0.76, 0.60), soft);
   // Fibres: fine along, coarse across.
@@ -97,6 +97,7 @@ void main() {
   float strand = noise(across * 2.6 + f * dot(vAt, f) * 0.25);
   float strand2 = noise(across * 5.2 + f * dot(vAt, f) * 0.4 + 3.7);
   float bundle = 0.6 * strand + 0.4 * strand2;
+  bundle = mix(bundle, 0.5, smoothstep(0.05, 0.18, length(fwidth(vAt))));
   vec3 ligament = mix(vec3(0.70, 0.56, 0.43), vec3(0.94, 0.88, 0.78), smoothstep(0.2, 0.75, bundle));
   // Synovium with its vessels: thin ridges of noise.
   float ridge = 1.0 - abs(2.0 * noise(vAt * 1.5 + 2.0 * soft) - 1.0);
@@ -114,8 +115,12 @@ void main() {
   albedo += bone * w.w; total += w.w;
   albedo /= max(total, 1e-3);
   float rough = (0.36 * red + 0.20 * w.x + 0.27 * w.y + 0.40 * w.z + 0.34 * w.w) / max(total, 1e-3);
+  // What is finer than the picture's points is left out: it would sparkle as dots.
+  float pointMm = length(fwidth(vAt));
+  float fine = 1.0 - smoothstep(0.03, 0.12, pointMm);
   // Relief: shallow bumps of synovium and fibres tilt the normal.
   float relief = red * 0.55 * (villi - 0.5) + w.z * 0.28 * (bundle - 0.5);
+  relief *= fine;
   vec3 dx = dFdx(vAt), dy = dFdy(vAt);
   float hx = dFdx(relief), hy = dFdy(relief);
   vec3 r1 = cross(dy, n), r2 = cross(n, dx);
@@ -129,7 +134,7 @@ void main() {
   float d2 = dot(away, away);
   vec3 l = away * inversesqrt(d2);
   float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(-l, axis)));
-  float e = 25.0 * (cone / (d2 + 20.0) + 0.0032);
+  float e = 19.0 * (cone / (d2 + 12.0) + 0.0032);
   float wrap = mix(0.45, 0.0, isMetal);
   float nl = dot(n, l);
   float lit = max(0.0, (nl + wrap) / (1.0 + wrap));
@@ -142,8 +147,12 @@ void main() {
   float a2 = pow(rough, 4.0);
   float denominator = nh * nh * (a2 - 1.0) + 1.0;
   float ggx = a2 / (3.14159 * denominator * denominator);
-  float fresnel = 0.03 + 0.97 * pow(1.0 - max(dot(n, view), 0.0), 5.0);
+  float fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(n, view), 0.18, 1.0), 5.0);
   colour += e * step(0.0, nl) * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
+  // A film of fluid over all of it, uneven: a small hard glare.
+  vec3 film = normalize(mix(normalize(vNormal) * sign(dot(vNormal, view)), n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
+  float coat = pow(max(dot(film, h), 0.0), 420.0);
+  colour += (1.0 - isMetal) * e * step(0.0, nl) * 1.5 * coat;
   colour += 0.10 * e * fresnel * vec3(0.93, 0.98, 1.05);
   // Water between.
   colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));

@@ -6,6 +6,7 @@ import { button, make, setText } from "../dom";
 import { keyCap } from "../key_caps";
 import { heldItem, type HandIndex } from "../operation";
 import type { Driver, ExerciseMessage, Item, SnapshotMessage } from "../protocol";
+import type { OfferedControls } from "./offered_controls_model";
 import { Sparkline } from "./sparkline";
 import "./bottom_bar.css";
 
@@ -122,6 +123,13 @@ export class BottomBar {
 
   setExercise(exercise: ExerciseMessage): void {
     this.exercise = exercise;
+  }
+
+  /** Ways that this procedure has no use for are not there. */
+  offer(offered: OfferedControls): void {
+    this.ways.measure.hidden = !offered.gauge;
+    this.ways.decline.hidden = !offered.decline;
+    this.driver.hidden = !offered.drive;
   }
 
   sample(s: SnapshotMessage, hand: HandIndex): void {

@@ -300,6 +300,9 @@ export class TrainPage {
         take: (instrument, hand) => {
           this.actions.ask({ id: "take", hand, instrument });
         },
+        pull: (byN) => {
+          this.panels.wrist.move("traction_n", byN);
+        },
         say: (text) => {
           this.panels.notice.say(text);
         },
@@ -311,6 +314,7 @@ export class TrainPage {
       this.abort.signal,
     );
     stage.after(desk.element);
+    this.panels.drive.element.before(desk.controls);
     return desk;
   }
 

@@ -118,6 +118,11 @@ export class ViewBar {
     if (on) this.showStructures(false);
   }
 
+  /** Where nothing is planned there is no ghost of it, and no cut along it. */
+  offerPlan(has: boolean): void {
+    this.aids.ghost.hidden = this.aids.cut.hidden = !has;
+  }
+
   /** A case that was made before tendons, arteries and nerves were has none. */
   offerStructures(has: boolean): void {
     this.hasStructures = has;

@@ -16,6 +16,7 @@ import type {
 import type { Theatre } from "../theatre";
 import type { ClosedWays } from "./bottom_bar";
 import type { Hand } from "./hand";
+import { offeredControls } from "./offered_controls_model";
 import type { Panels } from "./panels";
 
 export class WhatIsSeen {
@@ -65,7 +66,7 @@ export class WhatIsSeen {
 
   /** What is done from now on; its state follows. */
   begin(exercise: ExerciseMessage): void {
-    const { arm, bottom, steps, top, tray, views, wrist } = this.panels;
+    const { arm, bottom, drive, steps, top, tray, views, wrist } = this.panels;
     this.exercise = exercise;
     this.snapshot = undefined;
     this.theatre.setInstruments(exercise.instruments);
@@ -80,6 +81,11 @@ export class WhatIsSeen {
     arm.setViews(exercise.views);
     tray.setTray(exercise);
     bottom.setExercise(exercise);
+    const offered = offeredControls(exercise);
+    drive.element.hidden = !offered.drive;
+    arm.element.hidden = !offered.cArm;
+    views.offerPlan(offered.plan);
+    bottom.offer(offered);
     wrist.reset(exercise.wrist_limits);
   }
 
