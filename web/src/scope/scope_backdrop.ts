@@ -43,7 +43,7 @@ void main() {
       vec3 to = at - lamp;
       float d2 = dot(to, to);
       float cone = smoothstep(0.50, 0.95, dot(to, axis) * inversesqrt(d2));
-      float e = 260.0 * cone / (d2 + 60.0);
+      float e = 1100.0 * cone / (d2 + 60.0);
       float pores = 0.5 * noise(uv * 2.2) + 0.3 * noise(uv * 5.1) + 0.2 * noise(uv * 0.6);
       colour = mix(vec3(0.42, 0.24, 0.17), vec3(0.66, 0.42, 0.32), pores) * (0.04 + e);
       float ring = length(uv) + 0.3 * noise(uv * 3.0);

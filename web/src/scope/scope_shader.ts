@@ -30,6 +30,7 @@ varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
 varying vec3 vFibre;
+varying vec3 vScreen;
 void main() {
   vec3 at = (modelMatrix * vec4(position, 1.0)).xyz;
   vec3 to = at - eye;
@@ -39,6 +40,7 @@ void main() {
   vec2 round = aside > 1e-6 ? seen.xy / aside * (angle / halfField) : vec2(0.0);
   float far = length(to);
   gl_Position = vec4(round * far, (2.0 * far / 60.0 - 1.0) * far, far);
+  vScreen = vec3(round * far, far);
   vAt = at;
   vNormal = mat3(modelMatrix) * normal;
   vLining = lining;
@@ -54,6 +56,7 @@ varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
 varying vec3 vFibre;
+varying vec3 vScreen;
 
 float hash(vec3 p) {
   p = fract(p * vec3(0.1031, 0.1030, 0.0973));
@@ -75,8 +78,9 @@ void main() {
   vec3 to = vAt - eye;
   float far = length(to);
   vec3 view = -to / far;
-  float cosine = dot(-view, axis);
-  if (cosine < cos(halfField * 1.03)) discard;
+  // By the place on the screen: within a large triangle the true direction lies a chord beside it.
+  float r = length(vScreen.xy / vScreen.z);
+  if (r > 1.0) discard;
   vec3 n = normalize(vNormal);
   if (dot(n, view) < 0.0) n = -n;
 
@@ -157,7 +161,6 @@ void main() {
   // Water between.
   colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));
   // The camera: darker at the rim, filmic, a little noise in the dark.
-  float r = acos(clamp(cosine, -1.0, 1.0)) / halfField;
   colour *= 1.0 - 0.45 * pow(r, 3.5);
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
   float grey = dot(colour, vec3(0.3, 0.59, 0.11));
@@ -172,6 +175,7 @@ export function wetMaterial(lens: LensUniforms, isMetal: boolean): THREE.ShaderM
     uniforms: { ...lens, isMetal: { value: isMetal ? 1 : 0 } },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    side: THREE.DoubleSide,
+    // The wall is closed and seen from within: its other side shows only where two sheets touch, as dots.
+    side: isMetal ? THREE.DoubleSide : THREE.BackSide,
   });
 }

@@ -5,11 +5,11 @@ import { scopeWords } from "./scope_words_model";
 
 describe("words in the round picture", () => {
   it("say where the scope is and how it gets in", () => {
-    expect(scopeWords({ portal: "", isInJoint: false }, "3-4")).toEqual({
+    expect(scopeWords({ portal: "", isInJoint: false }, "3-4 portal")).toEqual({
       where: "The scope is outside.",
-      next: "Enter through portal 3-4: hold",
+      next: "Enter through the 3-4 portal: hold",
     });
-    expect(scopeWords({ portal: "4-5", isInJoint: false }, "3-4").where).toContain("4-5");
+    expect(scopeWords({ portal: "4-5", isInJoint: false }, "3-4 portal").where).toContain("4-5");
   });
   it("leave the picture alone in the joint", () => {
     expect(scopeWords({ portal: "3-4", isInJoint: true }, "3-4")).toEqual({ where: "", next: "" });

@@ -15,6 +15,6 @@ export function scopeWords(
 ): { readonly where: string; readonly next: string } {
   if (at.isInJoint) return { where: "", next: "" };
   if (at.portal === "")
-    return { where: "The scope is outside.", next: `Enter through portal ${wanted}: hold` };
+    return { where: "The scope is outside.", next: `Enter through the ${wanted}: hold` };
   return { where: `The scope is in portal ${at.portal}.`, next: "Go on into the joint: hold" };
 }
