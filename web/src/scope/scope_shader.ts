@@ -50,7 +50,6 @@ void main() {
 const FRAGMENT = /* glsl */ `
 precision highp float;
 uniform vec3 eye, axis, lamp;
-uniform float halfField;
 uniform float isMetal;
 varying vec3 vAt;
 varying vec3 vNormal;
@@ -175,7 +174,7 @@ export function wetMaterial(lens: LensUniforms, isMetal: boolean): THREE.ShaderM
     uniforms: { ...lens, isMetal: { value: isMetal ? 1 : 0 } },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    // The wall is closed and seen from within: its other side shows only where two sheets touch, as dots.
+    // The wall is closed and seen from within alone.
     side: isMetal ? THREE.DoubleSide : THREE.BackSide,
   });
 }
