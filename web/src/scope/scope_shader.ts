@@ -80,8 +80,9 @@ void main() {
   // By the place on the screen: within a large triangle the true direction lies a chord beside it.
   float r = length(vScreen.xy / vScreen.z);
   if (r > 1.0) discard;
-  vec3 n = normalize(vNormal);
-  if (dot(n, view) < 0.0) n = -n;
+  // Into the joint, by which side it is: asked of the view it would flip along every edge, as dots.
+  vec3 n = normalize(vNormal) * (isMetal > 0.5 ? 1.0 : -1.0);
+  vec3 smooth_n = n;
 
   float soft = cloudy(vAt * 0.9);
   float grain = noise(vAt * 6.0);
@@ -137,7 +138,7 @@ void main() {
   float d2 = dot(away, away);
   vec3 l = away * inversesqrt(d2);
   float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(-l, axis)));
-  float e = 19.0 * (cone / (d2 + 12.0) + 0.0032);
+  float e = 15.0 * (cone / (d2 + 11.0) + 0.0032);
   float wrap = mix(0.45, 0.0, isMetal);
   float nl = dot(n, l);
   float lit = max(0.0, (nl + wrap) / (1.0 + wrap));
@@ -153,7 +154,7 @@ void main() {
   float fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(n, view), 0.18, 1.0), 5.0);
   colour += e * step(0.0, nl) * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
   // A film of fluid over all of it, uneven: a small hard glare.
-  vec3 film = normalize(mix(normalize(vNormal) * sign(dot(vNormal, view)), n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
+  vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
   float coat = pow(max(dot(film, h), 0.0), 420.0);
   colour += (1.0 - isMetal) * e * step(0.0, nl) * 1.5 * coat;
   colour += 0.10 * e * fresnel * vec3(0.93, 0.98, 1.05);
