@@ -16,6 +16,8 @@ const SMOOTHINGS = 2;
 export interface JointWall {
   readonly geometry: THREE.BufferGeometry;
   readonly triangles: number;
+  /** As scanned, Patient [mm]. */
+  readonly middle: THREE.Vector3;
   /** Lays it where the bones are now. @param poses  of the bodies, in the case's order */
   pose(poses: readonly BodyPose[]): void;
 }
@@ -60,8 +62,10 @@ export function jointWallOf(surface: THREE.BufferGeometry): JointWall | undefine
     into.y += pose.translation_mm[1];
     into.z += pose.translation_mm[2];
   };
+  geometry.computeBoundingSphere();
   return {
     geometry,
+    middle: geometry.boundingSphere?.center.clone() ?? new THREE.Vector3(),
     triangles: (surface.getIndex()?.count ?? 0) / 3,
     pose: (poses) => {
       for (let v = 0; v < count; ++v) {

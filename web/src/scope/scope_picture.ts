@@ -44,7 +44,7 @@ export class ScopePicture {
     this.canvas = this.renderer.domElement;
     this.canvas.className = "scope-picture";
     this.canvas.setAttribute("aria-label", "The arthroscope's picture");
-    this.wall = new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false));
+    this.wall = new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle));
     this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
     this.scene.add(this.backdrop.mesh);
     for (const mesh of [this.wall, this.rod]) {

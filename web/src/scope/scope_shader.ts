@@ -51,6 +51,7 @@ const FRAGMENT = /* glsl */ `
 precision highp float;
 uniform vec3 eye, axis, lamp;
 uniform float isMetal;
+uniform vec3 middle;
 varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
@@ -97,10 +98,14 @@ void main() {
   vec3 bone = mix(vec3(0.80, 0.68, 0.50), vec3(0.86, 0.76, 0.60), soft);
   // Fibres: fine along, coarse across.
   vec3 f = length(vFibre) > 0.1 ? normalize(vFibre) : vec3(0.0, 0.0, 1.0);
-  vec3 across = vAt - f * dot(vAt, f);
-  float strand = noise(across * 2.6 + f * dot(vAt, f) * 0.25);
-  float strand2 = noise(across * 5.2 + f * dot(vAt, f) * 0.4 + 3.7);
+  // From the joint's middle: far from it a fibre that turns a little would shift them by millimetres.
+  vec3 p = vAt - middle;
+  vec3 across = p - f * dot(p, f);
+  float strand = noise(across * 2.6 + f * dot(p, f) * 0.25);
+  float strand2 = noise(across * 5.2 + f * dot(p, f) * 0.4 + 3.7);
   float bundle = 0.6 * strand + 0.4 * strand2;
+  // Between fibres of two ways there is none.
+  bundle = mix(0.5, bundle, smoothstep(0.7, 0.97, length(vFibre)));
   bundle = mix(bundle, 0.5, smoothstep(0.05, 0.18, length(fwidth(vAt))));
   vec3 ligament = mix(vec3(0.70, 0.56, 0.43), vec3(0.94, 0.88, 0.78), smoothstep(0.2, 0.75, bundle));
   // Synovium with its vessels: thin ridges of noise.
@@ -170,9 +175,14 @@ void main() {
   gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
 }`;
 
-export function wetMaterial(lens: LensUniforms, isMetal: boolean): THREE.ShaderMaterial {
+/** @param middle  of the joint, as scanned */
+export function wetMaterial(
+  lens: LensUniforms,
+  isMetal: boolean,
+  middle = new THREE.Vector3(),
+): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
-    uniforms: { ...lens, isMetal: { value: isMetal ? 1 : 0 } },
+    uniforms: { ...lens, isMetal: { value: isMetal ? 1 : 0 }, middle: { value: middle } },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     // The wall is closed and seen from within alone.
