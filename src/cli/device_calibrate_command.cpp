@@ -83,15 +83,20 @@ void run(const CalibrateArguments& arguments) {
   }
   std::printf("%s: drive %s, unit %u\n", id.c_str(), state.able.stop ? "A" : "B",
               state.device.unit);
-  devices::ArmCalibrator calibrator(
-      drive, state.device.unit, known(search, drive, state.device.unit), arguments.evens_motors);
+  devices::ArmCalibrator calibrator(drive, state.device.unit,
+                                    known(search, drive, state.device.unit));
+  const auto is_done = [&] {
+    return arguments.evens_motors ? calibrator.is_complete() : calibrator.is_whole();
+  };
+  const std::size_t steps = calibrator.step_count() -
+                            (drive == firmware::Drive::Motor && !arguments.evens_motors ? 1 : 0);
   std::optional<devices::ArmCalibration> made;
   while (!made) {
-    while (!calibrator.is_complete()) {
+    while (!is_done()) {
       if (!calibrator.is_by_itself()) {
         loop.turn_servos(0);
-        wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" +
-                       std::to_string(calibrator.step_count()) + "] " + calibrator.instruction());
+        wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" + std::to_string(steps) +
+                       "] " + calibrator.instruction());
       }
       if (const auto problem = calibrator.take(listen(loop, calibrator))) {
         std::printf("  %s\n", problem->c_str());

@@ -58,16 +58,18 @@ std::string degrees_of(std::size_t step) {
 
 ArmCalibrator::ArmCalibrator(firmware::Drive drive,
                              std::uint32_t unit,
-                             std::optional<ArmCalibration> known,
-                             bool evens_motors)
-    : evens_motors_(evens_motors) {
+                             std::optional<ArmCalibration> known) {
   if (known) made_ = *known;
   made_.drive = drive;
   made_.unit = unit;
 }
 
 std::size_t ArmCalibrator::step_count() const noexcept {
-  return made_.drive == firmware::Drive::Stop ? kHeld + kSwept : evens_motors_ ? 2 : 1;
+  return made_.drive == firmware::Drive::Stop ? kHeld + kSwept : 2;
+}
+
+bool ArmCalibrator::is_whole() const noexcept {
+  return is_complete() || (made_.drive == firmware::Drive::Motor && step_ == 1);
 }
 
 bool ArmCalibrator::is_by_itself() const noexcept {
@@ -231,7 +233,7 @@ std::optional<std::string> ArmCalibrator::fit_servo(std::size_t leg) {
 }
 
 Result<ArmCalibration> ArmCalibrator::finish(std::string made_at) {
-  if (!is_complete()) return Refusal{"Not all steps are done."};
+  if (!is_whole()) return Refusal{"Not all steps are done."};
   if (made_.drive == firmware::Drive::Stop) {
     for (std::size_t leg = 0; leg < kLegs; ++leg) {
       if (const auto problem = fit_servo(leg)) {

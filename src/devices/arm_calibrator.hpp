@@ -34,16 +34,17 @@ inline constexpr int kMostSpreadMotor = 60;
 
 class ArmCalibrator {
  public:
-  /// @param known  what was known of this unit. @param evens_motors  drive B: with the step in
-  /// which a hand leads it about, for its motors' cogging; else what was known of that stays.
+  /// @param known  what was known of this unit.
   ArmCalibrator(firmware::Drive drive,
                 std::uint32_t unit,
-                std::optional<ArmCalibration> known = std::nullopt,
-                bool evens_motors = false);
+                std::optional<ArmCalibration> known = std::nullopt);
 
   [[nodiscard]] std::size_t step() const noexcept { return step_; }
   [[nodiscard]] std::size_t step_count() const noexcept;
   [[nodiscard]] bool is_complete() const noexcept { return step_ == step_count(); }
+  /// All that must be measured is; drive B may then be led about, so that its motors' cogging is
+  /// taken off, and if it is not, what was known of that stays.
+  [[nodiscard]] bool is_whole() const noexcept;
   /// The arm does this step by itself: its servos turn to pulse_us(), and after settle_ms() there
   /// is something to measure. 0: they do not.
   [[nodiscard]] int pulse_us() const noexcept;
@@ -58,7 +59,8 @@ class ArmCalibrator {
   /// points do not fit each other its first; none: on to the next.
   [[nodiscard]] std::optional<std::string> take(
       const std::vector<std::array<std::int32_t, kLegs>>& samples);
-  /// Of all steps. A refusal says which leg's servo sits wrong, and the servos' steps begin anew.
+  /// Once it is whole. A refusal says which leg's servo sits wrong, and the servos' steps begin
+  /// anew.
   [[nodiscard]] Result<ArmCalibration> finish(std::string made_at);
 
  private:
@@ -68,7 +70,6 @@ class ArmCalibrator {
   [[nodiscard]] std::optional<std::string> fit_servo(std::size_t leg);
 
   ArmCalibration made_;
-  bool evens_motors_;
   std::size_t step_ = 0;
   std::array<std::vector<arm::CalibrationPoint>, kLegs> points_;
   /// Counts at each pulse of both sweeps.

@@ -162,11 +162,15 @@ TEST(ArmCalibrator, AServoThatTurnsTooLittleOrNotAtAllIsTold) {
 }
 
 TEST(ArmCalibrator, DriveBIsLaidInItsCradleOnce) {
-  ArmCalibrator calibrator(firmware::Drive::Motor, 6, std::nullopt, true);
+  ArmCalibrator calibrator(firmware::Drive::Motor, 6);
+  EXPECT_FALSE(calibrator.is_whole());
   const auto at_rest =
       static_cast<std::int32_t>(std::lround(cradle_angle_rad() / kRadPerMotorCount));
   Samples samples(kSamplesOfStep, {at_rest + 100, at_rest - 5, at_rest + 3 * kCountsOfTurn + 9});
   ASSERT_EQ(calibrator.take(samples), std::nullopt);
+  EXPECT_TRUE(calibrator.is_whole());
+  EXPECT_FALSE(calibrator.is_complete());
+  EXPECT_TRUE(calibrator.finish("now").has_value());
   EXPECT_EQ(calibrator.sample_count(), kSamplesOfLead);
   samples.resize(kSamplesOfLead, samples.front());
   const auto problem = calibrator.take(samples);  // still in its cradle

@@ -205,7 +205,7 @@ TEST(ArmOnVirtualArm, DriveBsMotorsAreEvenedOnceAHandHasLedItAbout) {
   Desk desk(firmware::Drive::Motor, false);
   const Vec3 centre = desk.unit.arm().size().centre;
   desk.run_ms(300);
-  ArmCalibrator calibrator(firmware::Drive::Motor, 3, std::nullopt, true);
+  ArmCalibrator calibrator(firmware::Drive::Motor, 3);
   ASSERT_EQ(desk.measure(calibrator), std::nullopt);
   const auto led = desk.measure(calibrator, [&](int ms) {
     const double turn = 2 * kPi * 1e-3 * ms;

@@ -37,6 +37,11 @@ CalibrationDesk::CalibrationDesk(HostLoop& loop,
                   state.device.unit,
                   known(folder_, drive_of(state), state.device.unit)) {}
 
+CalibrationDesk::~CalibrationDesk() {
+  loop_.turn_servos(0);
+  if (is_stored_) loop_.reopen();
+}
+
 std::string CalibrationDesk::instruction() const {
   return std::to_string(calibrator_.step() + 1) + " of " +
          std::to_string(calibrator_.step_count()) + ": " + calibrator_.instruction();
@@ -72,7 +77,7 @@ bool CalibrationDesk::look(const std::string& now_utc) {
   }
   note_ = "Measured.";
   if (calibrator_.is_by_itself()) take();
-  if (!calibrator_.is_complete()) return false;
+  if (!calibrator_.is_whole()) return false;
   loop_.turn_servos(0);
   const Result<ArmCalibration> made = calibrator_.finish(now_utc);
   if (!made) {
@@ -80,8 +85,10 @@ bool CalibrationDesk::look(const std::string& now_utc) {
     return false;
   }
   store(*made, folder_);
-  loop_.reopen();
-  return true;
+  is_stored_ = true;
+  if (calibrator_.is_complete()) return true;
+  note_ = "Its place is stored. What follows evens out its motors, and may be left out.";
+  return false;
 }
 
 }  // namespace carpus::devices

@@ -20,17 +20,19 @@ class CalibrationDesk {
   /// @throws InvalidInput where the device is none that is calibrated by us.
   CalibrationDesk(HostLoop& loop, const LoopState& state, std::filesystem::path folder);
 
-  /// What it let turn stands still again.
-  ~CalibrationDesk() { loop_.turn_servos(0); }
+  /// What it let turn stands still again, and the arm takes what was stored.
+  ~CalibrationDesk();
   CalibrationDesk(const CalibrationDesk&) = delete;
   CalibrationDesk& operator=(const CalibrationDesk&) = delete;
 
   /// Measures what is held now, over the next quarter of a second, or as long as the step takes.
   void take();
   /// To be called several times a second. @return true once all is stored: the desk is of no use
-  /// any more, and the loop opens its device anew.
+  /// any more.
   [[nodiscard]] bool look(const std::string& now_utc);
   [[nodiscard]] std::string instruction() const;
+  /// What must be measured is stored; what is left may be left out.
+  [[nodiscard]] bool is_stored() const noexcept { return is_stored_; }
   /// What came of the last step.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 
@@ -40,6 +42,7 @@ class CalibrationDesk {
   ArmCalibrator calibrator_;
   std::string note_;
   bool is_measuring_ = false;
+  bool is_stored_ = false;
   std::chrono::milliseconds settles_{0};
   std::chrono::steady_clock::time_point began_;
   std::vector<std::array<std::int32_t, kLegs>> samples_;

@@ -113,8 +113,10 @@ void DeviceDesk::calibrate(const protocol::Calibrate& wish, bool time_passes) {
       if (!which.calibration) throw InvalidInput("No calibration is going on; begin one.");
       return which.calibration->take();
     case protocol::CalibrationStep::Cancel:
+      which.note = which.calibration && which.calibration->is_stored()
+                       ? "Its place is stored; its motors were not evened anew."
+                       : "Given up; what was known before stays.";
       which.calibration.reset();
-      which.note = "Given up; what was known before stays.";
       return;
   }
 }

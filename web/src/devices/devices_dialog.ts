@@ -78,7 +78,7 @@ class HandCard {
         handlers.calibrate(hand, "take");
       }),
       button(
-        "Give up",
+        "Stop here",
         "",
         () => {
           handlers.calibrate(hand, "cancel");
