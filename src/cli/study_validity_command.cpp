@@ -61,6 +61,8 @@ void operate_on(const cases::CaseData& data,
       one.case_index = case_index;
       one.score = trainee::score_of_operation(data, procedure, one.skill,
                                               arguments.first_seed + i / kSkills.size());
+      // Of thousands of operations nobody looks at the picture, a megabyte and a half each.
+      one.score.placement = {};
       std::fprintf(stderr, "\r%zu of %zu operations (%s)   ", ++progress.done, progress.planned,
                    stage.c_str());
     }
