@@ -3,6 +3,7 @@
 #include "session/descriptions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -74,8 +75,12 @@ protocol::Step message_of(const procedure::Step& step) {
   return message;
 }
 
+/// To a thousandth: a person reads them.
 protocol::Range degrees(const anatomy::Interval& radians) noexcept {
-  return {degrees_from_radians(radians.low), degrees_from_radians(radians.high)};
+  const auto read = [](double value) {
+    return std::round(1000 * degrees_from_radians(value)) / 1000;
+  };
+  return {read(radians.low), read(radians.high)};
 }
 
 protocol::WristLimits message_of(const anatomy::HandLimits& limits) noexcept {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <deque>
 #include <string>
 #include <variant>
@@ -310,6 +311,10 @@ TEST(Session, ExerciseIsAllThatAPageNeedsToShowIt) {
     EXPECT_FALSE(body.label.empty());
   }
   EXPECT_LT(told.wrist_limits.flexion_deg.low, told.wrist_limits.flexion_deg.high);
+  for (const double limit : {told.wrist_limits.flexion_deg.low, told.wrist_limits.flexion_deg.high,
+                             told.wrist_limits.pronation_deg.high}) {
+    EXPECT_EQ(limit, std::round(1000 * limit) / 1000);
+  }
 }
 
 TEST(Session, ActionsThatLackSomethingAreRefusedByName) {
