@@ -77,11 +77,12 @@ export class ScopeDesk {
   readonly controls: HTMLElement;
   private readonly where = make("strong");
   private readonly next = make("span");
+  private readonly nextKeys = { pull: keyCap("{KeyW}"), in: keyCap("{KeyA}") };
   private readonly words = make(
     "p.scope-words",
     { role: "status" },
     this.where,
-    make("span.scope-next", {}, this.next, " ", keyCap("{KeyA}")),
+    make("span.scope-next", {}, this.next, " ", this.nextKeys.pull, this.nextKeys.in),
   );
   private readonly status = make("p.scope-status", { role: "status" });
   private readonly list = make("ol.scope-points");
@@ -265,12 +266,17 @@ export class ScopeDesk {
       performance.now(),
     );
     const words = scopeWords(
-      { portal: scope?.portals[0] ?? "", isInJoint: scope?.in_joint[0] === 1 },
+      {
+        portal: scope?.portals[0] ?? "",
+        isInJoint: scope?.in_joint[0] === 1,
+        isSlack: this.snapshot?.wrist.traction_n === 0,
+      },
       plan.portals[this.hands[0].portal]?.name ?? "",
     );
     this.words.hidden = words.where === "";
     setText(this.where, words.where);
     setText(this.next, words.next);
+    for (const key of ["pull", "in"] as const) this.nextKeys[key].hidden = words.key !== key;
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
     this.element.dataset["triangles"] = String(budget?.triangles ?? 0);

@@ -5,13 +5,21 @@ import { scopeWords } from "./scope_words_model";
 
 describe("words in the round picture", () => {
   it("say where the scope is and how it gets in", () => {
-    expect(scopeWords({ portal: "", isInJoint: false }, "3-4 portal")).toEqual({
+    expect(scopeWords({ portal: "", isInJoint: false, isSlack: false }, "3-4 portal")).toEqual({
       where: "The scope is outside.",
       next: "Enter through the 3-4 portal: hold",
+      key: "in",
     });
-    expect(scopeWords({ portal: "4-5", isInJoint: false }, "3-4 portal").where).toContain("4-5");
+    const between = { portal: "4-5", isInJoint: false, isSlack: false };
+    expect(scopeWords(between, "3-4 portal").where).toContain("4-5");
+  });
+  it("tell to pull first while the joint is closed", () => {
+    const { next, key } = scopeWords({ portal: "", isInJoint: false, isSlack: true }, "3-4 portal");
+    expect(next).toContain("Pull");
+    expect(key).toBe("pull");
   });
   it("leave the picture alone in the joint", () => {
-    expect(scopeWords({ portal: "3-4", isInJoint: true }, "3-4")).toEqual({ where: "", next: "" });
+    const { where, next } = scopeWords({ portal: "3-4", isInJoint: true, isSlack: true }, "3-4");
+    expect([where, next]).toEqual(["", ""]);
   });
 });
