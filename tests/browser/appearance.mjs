@@ -41,6 +41,8 @@ export async function changesTheLook(browser, station) {
       await panel.getByRole("button", { name: "Close" }).click();
       await page.reload();
       await page.locator(".stage canvas").first().waitFor();
+      // It opens once the station has answered.
+      await page.locator("dialog.start[open]").waitFor();
       await page.evaluate(() =>
         document.querySelector("dialog[open]")?.close(),
       );
