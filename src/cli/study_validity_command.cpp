@@ -3,6 +3,7 @@
 #include "cli/study_validity_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -32,6 +33,7 @@ constexpr std::array kSkills{Skill::Expert, Skill::Middle, Skill::Novice};
 
 struct StudyValidityArguments {
   std::vector<std::string> cases{kDefaultCase};
+  std::vector<std::string> procedures;  ///< ids; empty: all
   std::size_t seeds = 6;
   std::uint64_t first_seed = 1;
   std::string json;
@@ -139,8 +141,25 @@ nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std:
   return json;
 }
 
+/// @throws InvalidInput where one is not offered.
+std::vector<const procedure::Procedure*> chosen(const std::vector<std::string>& ids) {
+  const procedure::ProcedureList& list = procedures::built_in();
+  const auto all = list.all();
+  std::vector<const procedure::Procedure*> offered(all.begin(), all.end());
+  if (ids.empty()) return offered;
+  for (const std::string& id : ids) {
+    if (std::none_of(all.begin(), all.end(), [&](const auto* one) { return one->id == id; })) {
+      throw InvalidInput("there is no procedure '" + id +
+                         "'; 'carpus simulate --procedure list' shows them");
+    }
+  }
+  std::erase_if(offered,
+                [&](const auto* one) { return std::ranges::find(ids, one->id) == ids.end(); });
+  return offered;
+}
+
 void run(const StudyValidityArguments& arguments) {
-  const auto offered = procedures::built_in().all();
+  const auto offered = chosen(arguments.procedures);
   std::vector<std::vector<ScoredOperation>> operations(offered.size());
   std::vector<std::string> names;
   bool is_simulated = true;
@@ -182,6 +201,8 @@ void add_study_validity_command(CLI::App& study) {
   CLI::App* command = study.add_subcommand(
       "validity", "Whether each item of the score separates scripted experts from novices");
   command->add_option("--cases", arguments->cases, "Case folders")->capture_default_str();
+  command->add_option("--procedures", arguments->procedures,
+                      "Ids of those operated; all if left out (an arthroscopy needs soft tissue)");
   command->add_option("--seeds", arguments->seeds, "Operations of each skill on each case")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
