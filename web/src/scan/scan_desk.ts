@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The desk on which a scan lies: four pictures with one crosshair, the bones beside them, the tools above.
-import { button, make, setText } from "../dom";
+import { make, setText } from "../dom";
 import type { Vec3 } from "../protocol";
 import { BoneList } from "./bone_list";
 import { BonesPanel } from "./bones_panel";
@@ -13,6 +13,7 @@ import { NewCaseDialog } from "./new_case_dialog";
 import { PaintTools } from "./paint_tools";
 import { applied, extentAlong, finestSpacing, voxelIndexAt, type Volume } from "./nifti_model";
 import { along, dot, PLANE_IDS, planesOf, type Alignment, type Plane } from "./planes_model";
+import { ScanBar } from "./scan_bar";
 import { boneTitle, labelColors, type ScannedBone, type ScannedCase } from "./scan_case_model";
 import { scanHelp } from "./scan_help";
 import type { GreyWindow } from "./slice_model";
@@ -49,13 +50,7 @@ export class ScanDesk {
   });
   private readonly reading = make("output.scan-reading", { "aria-label": "Under the pointer" });
   private readonly said = make("p.scan-said", { role: "status" });
-  private readonly buttons = new Map<string, HTMLButtonElement>();
-  private readonly opacity = make("input", {
-    type: "range",
-    min: "0",
-    max: "100",
-    "aria-label": "Opacity of the labels",
-  });
+  private readonly bar: ScanBar;
   private readonly step: number;
   private readonly sizes: ResizeObserver;
   private alignment: Alignment = "wrist";
@@ -70,6 +65,7 @@ export class ScanDesk {
   private isAsked = false;
 
   constructor(private readonly data: DeskCase) {
+    this.bar = this.makeBar();
     const planes = this.planes();
     const events = {
       press: this.press.bind(this),
@@ -115,7 +111,7 @@ export class ScanDesk {
     this.element = make(
       "main.scan",
       {},
-      this.topBar(),
+      this.bar.element,
       pictures,
       make(
         "aside.scan-side",
@@ -142,7 +138,6 @@ export class ScanDesk {
     } catch {
       pictures.append(make("p.secondary", {}, "This browser draws no 3-D picture."));
     }
-    this.opacity.value = "25";
     this.element.addEventListener("keydown", (event) => {
       this.onKey(event);
     });
@@ -187,68 +182,33 @@ export class ScanDesk {
     return planesOf(this.alignment, wristFromPatient, side);
   }
 
-  private tool(id: string, label: string, key: string, act: () => void): HTMLButtonElement {
-    const made = button(label, key, () => {
-      act();
-    });
-    this.buttons.set(id, made);
-    return made;
+  private makeBar(): ScanBar {
+    return new ScanBar(
+      {
+        setWindow: this.setWindow.bind(this),
+        toggleLabels: this.toggleLabels.bind(this),
+        opacityChanged: () => {
+          this.labelsShown = true;
+          this.ask();
+        },
+        measure: this.measure.bind(this),
+        turnPlanes: this.turnPlanes.bind(this),
+        addScan: this.data.mayAdd
+          ? (): void => {
+              this.newCase.open();
+            }
+          : undefined,
+        help: () => {
+          this.help.showModal();
+        },
+      },
+      this.data.ways,
+    );
   }
 
-  private topBar(): HTMLElement {
-    const { ways } = this.data;
-    const digits = ["Digit1", "Digit2", "Digit3"];
-    const windows = WINDOWS.map((one, i) =>
-      this.tool(one.name, one.name, `{${digits[i] ?? ""}}`, () => {
-        this.setWindow(one);
-      }),
-    );
-    this.opacity.addEventListener("input", () => {
-      this.labelsShown = true;
-      this.ask();
-    });
-    return make(
-      "header.scan-bar",
-      {},
-      make("div.scan-tools", { role: "group", "aria-label": "Window" }, ...windows),
-      make(
-        "div.scan-tools",
-        { role: "group", "aria-label": "Labels" },
-        this.tool("labels", "Labels", "{KeyO}", () => {
-          this.labelsShown = !this.labelsShown;
-          this.ask();
-        }),
-        this.opacity,
-      ),
-      make(
-        "div.scan-tools",
-        { role: "group", "aria-label": "Measure" },
-        this.tool("distance", "Distance", "{KeyM}", () => {
-          this.measure("distance");
-        }),
-        this.tool("angle", "Angle", "{KeyN}", () => {
-          this.measure("angle");
-        }),
-      ),
-      this.tool("planes", "Along the wrist", "{KeyP}", () => {
-        this.turnPlanes();
-      }),
-      make(
-        "div.scan-ways",
-        {},
-        ...ways,
-        ...(this.data.mayAdd
-          ? [
-              button("Add a scan…", "", () => {
-                this.newCase.open();
-              }),
-            ]
-          : []),
-        button("Help", "?", () => {
-          this.help.showModal();
-        }),
-      ),
-    );
+  private toggleLabels(): void {
+    this.labelsShown = !this.labelsShown;
+    this.ask();
   }
 
   private heading(): HTMLElement {
@@ -465,7 +425,7 @@ export class ScanDesk {
         this.changeOpacity(10);
       },
       KeyO: () => {
-        this.labelsShown = !this.labelsShown;
+        this.toggleLabels();
       },
       KeyX: () => {
         this.crossShown = !this.crossShown;
@@ -499,7 +459,7 @@ export class ScanDesk {
 
   private changeOpacity(by: number): void {
     this.labelsShown = true;
-    this.opacity.value = String(Number(this.opacity.value) + by);
+    this.bar.changeOpacity(by);
   }
 
   /** Once, before the next picture on the screen. */
@@ -518,7 +478,7 @@ export class ScanDesk {
       ct,
       labels: this.labelsShown ? labels : undefined,
       grey: this.grey,
-      overlay: { colors: this.colors, opacity: Number(this.opacity.value) / 100 },
+      overlay: { colors: this.colors, opacity: this.bar.opacity },
       cross: this.cross,
       crossShown: this.crossShown,
       measures: this.measures.measures,
@@ -537,19 +497,11 @@ export class ScanDesk {
     this.bones?.setCross(this.cross, this.crossShown);
     this.list.mark(this.labelAt(this.cross));
     setText(this.reading, this.readingAt(this.cross));
-    this.showPressed();
-  }
-
-  private showPressed(): void {
-    const isOn = (id: string, on: boolean): void => {
-      this.buttons.get(id)?.setAttribute("aria-pressed", String(on));
-    };
-    for (const one of WINDOWS) {
-      isOn(one.name, one.centre === this.grey.centre && one.width === this.grey.width);
-    }
-    isOn("labels", this.labelsShown);
-    isOn("distance", this.measures.kind === "distance");
-    isOn("angle", this.measures.kind === "angle");
-    isOn("planes", this.alignment === "wrist");
+    this.bar.show({
+      grey: this.grey,
+      labelsShown: this.labelsShown,
+      measure: this.measures.kind,
+      alignment: this.alignment,
+    });
   }
 }

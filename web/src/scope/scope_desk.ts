@@ -4,8 +4,7 @@
 // An arthroscopy on the page: the scope's picture as the main monitor with the theatre beside it as a
 // panorama, and keys and mouse that lead what is in the portals. The host owns the truth: where a tip
 // really is, where the scope looks and what was seen, it says.
-import { make, setText } from "../dom";
-import { keyCap } from "../key_caps";
+import { make } from "../dom";
 import type {
   BodyPose,
   ExerciseMessage,
@@ -15,7 +14,6 @@ import type {
   Vec3,
 } from "../protocol";
 import { add, dot, rotated, scaled, subtract } from "../tool_placement";
-import { ForceGauge } from "./force_gauge";
 import { makeScopeControls } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import {
@@ -29,18 +27,11 @@ import {
   type Lean,
   type PortalNow,
 } from "./scope_hand_model";
-import {
-  KEYS_IN_WORDS,
-  scopeAct,
-  scopeMotion,
-  type ScopeAct,
-  type ScopeMotion,
-} from "./scope_keys";
+import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
-import { scopeWords } from "./scope_words_model";
+import { ScopeReadings, type Plan } from "./scope_readings";
 import "./scope.css";
 
-type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
 type HandIndex = 0 | 1;
 
 export interface ScopeRoom {
@@ -75,18 +66,7 @@ export class ScopeDesk {
   readonly element = make("section.scope", { "aria-label": "Arthroscope" });
   /** Under the picture. */
   readonly controls: HTMLElement;
-  private readonly where = make("strong");
-  private readonly next = make("span");
-  private readonly nextKeys = { pull: keyCap("{KeyW}"), in: keyCap("{KeyA}") };
-  private readonly words = make(
-    "p.scope-words",
-    { role: "status" },
-    this.where,
-    make("span.scope-next", {}, this.next, " ", this.nextKeys.pull, this.nextKeys.in),
-  );
-  private readonly status = make("p.scope-status", { role: "status" });
-  private readonly list = make("ol.scope-points");
-  private readonly gauge = new ForceGauge();
+  private readonly readings = new ScopeReadings();
   private picture: ScopePicture | undefined;
   private plan: Plan | undefined;
   private exercise: ExerciseMessage | undefined;
@@ -129,17 +109,7 @@ export class ScopeDesk {
         this.room.pull(byN);
       },
     });
-    this.element.append(
-      make(
-        "div.scope-column",
-        {},
-        this.status,
-        this.gauge.element,
-        this.list,
-        make("p.scope-keys", {}, KEYS_IN_WORDS),
-      ),
-      this.words,
-    );
+    this.element.append(this.readings.column, this.readings.words);
     this.controls.hidden = true;
     this.element.hidden = true;
     this.listen(signal);
@@ -173,7 +143,7 @@ export class ScopeDesk {
     this.picture.setField(this.plan.field_deg);
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
-    this.showPoints();
+    this.readings.showPoints(this.plan, this.scope);
   }
 
   see(snapshot: SnapshotMessage): void {
@@ -187,10 +157,10 @@ export class ScopeDesk {
   }
 
   seeScope(message: ScopeMessage): void {
-    const before = this.scope;
+    const before = this.scope?.points_seen.length;
     this.scope = message;
-    if (before?.points_seen.length !== message.points_seen.length || before === undefined)
-      this.showPoints();
+    if (this.plan !== undefined && before !== message.points_seen.length)
+      this.readings.showPoints(this.plan, message);
   }
 
   /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */
@@ -254,38 +224,13 @@ export class ScopeDesk {
 
   /** Readings, ten times a second. */
   showReadings(): void {
-    const { scope, plan } = this;
+    const { scope, snapshot, plan } = this;
     if (plan === undefined) return;
-    const where = (hand: HandIndex): string => {
-      const portal = scope?.portals[hand] ?? "";
-      if (portal === "") return "outside";
-      return scope?.in_joint[hand] === 1 ? `in the joint by ${portal}` : `in portal ${portal}`;
-    };
-    this.gauge.show(
-      this.snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [],
-      performance.now(),
-    );
-    const words = scopeWords(
-      {
-        portal: scope?.portals[0] ?? "",
-        isInJoint: scope?.in_joint[0] === 1,
-        isSlack: this.snapshot?.wrist.traction_n === 0,
-      },
-      plan.portals[this.hands[0].portal]?.name ?? "",
-    );
-    this.words.hidden = words.where === "";
-    setText(this.where, words.where);
-    setText(this.next, words.next);
-    for (const key of ["pull", "in"] as const) this.nextKeys[key].hidden = words.key !== key;
+    const wanted = plan.portals[this.hands[0].portal]?.name ?? "";
+    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted });
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
     this.element.dataset["triangles"] = String(budget?.triangles ?? 0);
-    setText(
-      this.status,
-      `Scope ${where(0)} · probe ${where(1)} · moving the ${this.moved === 0 ? "scope" : "probe"} · ` +
-        `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · pull-outs ${scope?.pull_outs ?? 0} · ` +
-        "generated",
-    );
   }
 
   dispose(): void {
@@ -503,19 +448,6 @@ export class ScopeDesk {
         this.advance(-Math.sign(event.deltaY) * WHEEL_MM);
       },
       { signal, passive: false },
-    );
-  }
-
-  private showPoints(): void {
-    const { plan, scope } = this;
-    if (plan === undefined) return;
-    this.list.replaceChildren(
-      ...plan.points.map((point) => {
-        const isSeen = scope?.points_seen.includes(point.number) ?? false;
-        const item = make("li", { title: point.found_by }, `${isSeen ? "✓ " : ""}${point.name}`);
-        item.classList.toggle("is-seen", isSeen);
-        return item;
-      }),
     );
   }
 }

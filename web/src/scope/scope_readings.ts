@@ -1,0 +1,94 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is to be read beside the round picture: where things are, how hard they press, which places were seen,
+// and, while there is no joint to see, what to do next.
+import { make, setText } from "../dom";
+import { keyCap } from "../key_caps";
+import type { ExerciseMessage, ScopeMessage, SnapshotMessage } from "../protocol";
+import { ForceGauge } from "./force_gauge";
+import { KEYS_IN_WORDS } from "./scope_keys";
+import { scopeWords } from "./scope_words_model";
+
+export type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
+
+export interface ScopeSituation {
+  readonly plan: Plan;
+  readonly scope: ScopeMessage | undefined;
+  readonly snapshot: SnapshotMessage | undefined;
+  /** The hand that keys and mouse lead. */
+  readonly moved: 0 | 1;
+  /** The portal that the scope is held before. */
+  readonly wanted: string;
+}
+
+export class ScopeReadings {
+  /** Beside the picture. */
+  readonly column: HTMLElement;
+  /** Over the picture. */
+  readonly words: HTMLElement;
+  private readonly where = make("strong");
+  private readonly next = make("span");
+  private readonly nextKeys = { pull: keyCap("{KeyW}"), in: keyCap("{KeyA}") };
+  private readonly status = make("p.scope-status", { role: "status" });
+  private readonly list = make("ol.scope-points");
+  private readonly gauge = new ForceGauge();
+
+  constructor() {
+    this.column = make(
+      "div.scope-column",
+      {},
+      this.status,
+      this.gauge.element,
+      this.list,
+      make("p.scope-keys", {}, KEYS_IN_WORDS),
+    );
+    const { pull, in: into } = this.nextKeys;
+    this.words = make(
+      "p.scope-words",
+      { role: "status" },
+      this.where,
+      make("span.scope-next", {}, this.next, " ", pull, into),
+    );
+  }
+
+  show({ plan, scope, snapshot, moved, wanted }: ScopeSituation): void {
+    const forces = snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [];
+    this.gauge.show(forces, performance.now());
+    const words = scopeWords(
+      {
+        portal: scope?.portals[0] ?? "",
+        isInJoint: scope?.in_joint[0] === 1,
+        isSlack: snapshot?.wrist.traction_n === 0,
+      },
+      wanted,
+    );
+    this.words.hidden = words.where === "";
+    setText(this.where, words.where);
+    setText(this.next, words.next);
+    for (const key of ["pull", "in"] as const) this.nextKeys[key].hidden = words.key !== key;
+    const where = (hand: 0 | 1): string => {
+      const portal = scope?.portals[hand] ?? "";
+      if (portal === "") return "outside";
+      return scope?.in_joint[hand] === 1 ? `in the joint by ${portal}` : `in portal ${portal}`;
+    };
+    setText(
+      this.status,
+      `Scope ${where(0)} · probe ${where(1)} · moving the ${moved === 0 ? "scope" : "probe"} · ` +
+        `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · pull-outs ${scope?.pull_outs ?? 0} · ` +
+        "generated",
+    );
+  }
+
+  /** Ticked off where they were seen. */
+  showPoints(plan: Plan, scope: ScopeMessage | undefined): void {
+    this.list.replaceChildren(
+      ...plan.points.map((point) => {
+        const isSeen = scope?.points_seen.includes(point.number) ?? false;
+        const item = make("li", { title: point.found_by }, `${isSeen ? "✓ " : ""}${point.name}`);
+        item.classList.toggle("is-seen", isSeen);
+        return item;
+      }),
+    );
+  }
+}
