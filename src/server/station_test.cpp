@@ -174,10 +174,12 @@ TEST_F(StationTest, ProcedureThatIsNotOfferedIsRefusedAndWhatRunsGoesOn) {
 
 TEST_F(StationTest, FloodOfMessagesIsThinnedWithoutHarm) {
   const auto page = operate(port());
-  const auto began = std::chrono::steady_clock::now();
+  [[maybe_unused]] const auto began = std::chrono::steady_clock::now();
   for (int i = 0; i < 6000; ++i) page->send(kHand);
-  // Under a sanitizer on a busy machine they are read more slowly than is allowed.
-  if (std::chrono::steady_clock::now() - began > 5s) GTEST_SKIP() << "it cannot be flooded here";
+#ifdef __SANITIZE_THREAD__
+  // On a busy machine they are read more slowly than is allowed: 44 a second were seen.
+  if (std::chrono::steady_clock::now() - began > 6s) GTEST_SKIP() << "it cannot be flooded here";
+#endif
   EXPECT_THAT(page->wait_for_type("error"), HasSubstr("Too many messages"));
   // Until what was sent has passed, this too is one too many.
   const auto is_score = [](const auto& frame) {
