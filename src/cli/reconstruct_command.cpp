@@ -200,10 +200,11 @@ void run(const Arguments& a) {
   const auto writing = reconstruct::StageClock::Clock::now();
   case_io::write_case(result.data, a.out,
                       a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
-  records::write_file_atomically(a.out / case_io::kPreviewFile, stock::case_picture(result.data));
   records::write_file_atomically(
       a.out / case_io::kTrustFile,
       case_io::trust_text(trust_lines(result), result.data.provenance.made_by));
+  // After what is flagged: a disk that fills up costs the picture first.
+  records::write_file_atomically(a.out / case_io::kPreviewFile, stock::case_picture(result.data));
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
   const auto generating = reconstruct::StageClock::Clock::now();
