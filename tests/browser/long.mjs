@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What takes minutes in a browser: everything goes wrong, a wire is drawn through and back, a long operation is
-// looked at again, a joint is looked round in, and a scan becomes a case that is mended and operated on.
+// looked at again, and a scan becomes a case that is mended and operated on.
 // Run by `npm --prefix web run test:browser:long` and by ./test --all.
 import { allGoesWrong } from "./all_goes_wrong.mjs";
 import { drawnThrough } from "./drawn_through.mjs";
@@ -10,7 +10,6 @@ import { startBrowser } from "./browser.mjs";
 import { counted } from "./checks.mjs";
 import { addsCases } from "./new_case.mjs";
 import { replayLong } from "./long_replay.mjs";
-import { arthroscopy } from "./scope.mjs";
 import { startStation } from "./station.mjs";
 import { operateByTouch } from "./touch_whole.mjs";
 
@@ -20,7 +19,6 @@ try {
   await allGoesWrong(browser, station);
   await drawnThrough(browser, station);
   await operateByTouch(browser, station);
-  await arthroscopy(browser, station);
   await replayLong(browser);
   await addsCases(browser);
 } finally {
