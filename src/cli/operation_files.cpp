@@ -103,7 +103,9 @@ std::string score_table(const procedure::ScoreReport& report) {
   }
   for (const procedure::MustHave& must : report.must_haves) {
     std::snprintf(line.data(), line.size(), "must have: %-60.60s %s\n", must.label.c_str(),
-                  must.fulfilled ? "yes" : "NO");
+                  must.fulfilled      ? "yes"
+                  : must.not_measured ? "not judged"
+                                      : "NO");
     add();
   }
   table += length_lines(report);

@@ -95,7 +95,7 @@ void grade(ScoreReport& report, const ScoreRules& rules, std::span<const Measure
     if (!measure.applies) continue;
     report.must_haves.push_back({rule.id, rule.label,
                                  measure.value && rule.within.contain(*measure.value),
-                                 rule.opens_truth});
+                                 rule.opens_truth, !measure.value});
   }
   report.is_fixation_acceptable = std::all_of(report.must_haves.begin(), report.must_haves.end(),
                                               [](const MustHave& must) { return must.fulfilled; });

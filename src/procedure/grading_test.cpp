@@ -61,6 +61,19 @@ TEST(Grading, NothingEarnsPointsWithoutSafety) {
   EXPECT_EQ(report.items[1].grade, Grade::Good) << "what was good is told all the same";
 }
 
+TEST(Grading, WhatNothingWasMeasuredOfIsToldApartAndFulfilsNothing) {
+  ScoreReport report;
+  std::array<Measure, 4> unmeasured = measures(2.0, 60);
+  unmeasured[0].value.reset();
+  grade(report, read(kRules), unmeasured);
+  ASSERT_EQ(report.must_haves.size(), 1U);
+  EXPECT_TRUE(report.must_haves[0].not_measured);
+  EXPECT_FALSE(report.must_haves[0].fulfilled);
+  EXPECT_FALSE(report.is_fixation_acceptable);
+  grade(report, read(kRules), measures(0.4, 60));
+  EXPECT_FALSE(report.must_haves[0].not_measured) << "too little is measured, and broken";
+}
+
 TEST(Grading, WhatACaseDoesNotHaveIsLeftOut) {
   ScoreReport report;
   grade(report, read(kRules), measures(2.0, 60));

@@ -38,7 +38,8 @@ struct MustHave {
   std::string id;
   std::string label;
   bool fulfilled = false;
-  bool opens_truth = false;  ///< without it an assessed operation is void
+  bool opens_truth = false;   ///< without it an assessed operation is void
+  bool not_measured = false;  ///< there was nothing to judge it by, which fulfils nothing
 };
 
 /// A straight line in frame Bone of the target, which is Patient as scanned [mm].

@@ -613,12 +613,18 @@ void read(FieldReader& in, MustHave& out) {
   out.id = in.string("id", 64);
   out.label = in.string("label", 128);
   out.fulfilled = in.boolean("fulfilled");
+  if (in.has("not_measured")) out.not_measured = in.boolean("not_measured");
 }
 
 void write(FieldWriter& out, const MustHave& in) {
   out.text("id", in.id, 64);
   out.text("label", in.label, 128);
   out.value("fulfilled", in.fulfilled);
+  if (in.not_measured) {
+    out.value("not_measured", *in.not_measured);
+  } else {
+    out.null("not_measured");
+  }
 }
 
 void read(FieldReader& in, ScoreItem& out) {

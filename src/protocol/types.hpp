@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 14;
+inline constexpr std::int64_t kProtocolVersion = 15;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -706,6 +706,8 @@ struct MustHave {
   /// for people
   std::string label;
   bool fulfilled = false;
+  /// there was nothing to judge it by, which fulfils nothing
+  std::optional<bool> not_measured;
   bool operator==(const MustHave&) const = default;
 };
 

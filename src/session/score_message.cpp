@@ -49,7 +49,11 @@ protocol::ScoreReport score_message(const procedure::ScoreReport& report) {
         report.answer->reason};
   }
   for (const procedure::MustHave& must : report.must_haves) {
-    message.must_haves.push_back({must.id, must.label, must.fulfilled});
+    protocol::MustHave& told = message.must_haves.emplace_back();
+    told.id = must.id;
+    told.label = must.label;
+    told.fulfilled = must.fulfilled;
+    if (must.not_measured) told.not_measured = true;
   }
   for (const procedure::ScoreItem& item : report.items) {
     message.items.push_back(item_message(item));

@@ -35,6 +35,9 @@ async function finishedReport(page) {
     unmet: await page
       .locator(".must-haves li", { hasText: "not fulfilled" })
       .allTextContents(),
+    unjudged: await page
+      .locator(".must-haves li", { hasText: "not judged" })
+      .allTextContents(),
   };
 }
 
@@ -132,6 +135,11 @@ async function wireOverTheRadius(page, station) {
     const bent = ["wire_bend_deg", "wires_broken"].filter((id) => report.items[id]?.failed);
     expect(bent.length > 0, `neither bent nor broken: ${JSON.stringify(report.items.wire_bend_deg)}`);
     expectSaid(report, [...bent, "wires_left_in", "steps_left_out"]);
+    const told = (texts, words) => texts.some((text) => text.includes(words));
+    expect(told(report.unmet, "A screw lies"), `unmet: ${report.unmet.join("; ")}`);
+    // No screw went in: of its cover nothing is known, and of the bone that the wire entered something is.
+    expect(told(report.unjudged, "over the screw"), `unjudged: ${report.unjudged.join("; ")}`);
+    expect(!told(report.unjudged, "other bone"), `unjudged: ${report.unjudged.join("; ")}`);
     expect(report.overall === 0, `${report.overall} points`);
     expect(/not acceptable/i.test(report.verdict), `the verdict: '${report.verdict}'`);
   });

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 14;
+export const PROTOCOL_VERSION = 15;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -548,6 +548,8 @@ export interface MustHave {
   /** for people */
   readonly label: string;
   readonly fulfilled: boolean;
+  /** there was nothing to judge it by, which fulfils nothing */
+  readonly not_measured: boolean | null;
 }
 
 /** One measured thing of the score. */

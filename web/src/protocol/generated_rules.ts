@@ -293,6 +293,7 @@ export const SCHEMA: Schema = {
       id: {"type": "string", "max_length": 64},
       label: {"type": "string", "max_length": 128},
       fulfilled: {"type": "boolean"},
+      not_measured: {"type": "boolean", "optional": true},
     } },
     score_item: { fields: {
       id: {"type": "string", "max_length": 64},

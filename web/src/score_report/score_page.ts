@@ -14,7 +14,7 @@ import { placementPictures } from "./placement_pictures";
 import { TurningPlacement } from "./turning_placement";
 import { viewsSection } from "./views_section";
 import { GRADE_SIGNS, GRADE_WORDS, longestLineText, valueText } from "./score_model";
-import { answerText, isDeclined, verdictText } from "./verdict_model";
+import { answerText, isDeclined, mustHaveWords, verdictText } from "./verdict_model";
 import "./score.css";
 
 export function mountScore(app: HTMLElement, attemptId: number): () => void {
@@ -192,18 +192,10 @@ function verdict(report: ScoreReport): HTMLElement {
     make(
       "ul.must-haves",
       {},
-      ...report.must_haves.map((must) =>
-        make(
-          "li",
-          {},
-          make(
-            `span.${must.fulfilled ? "good" : "harm"}` as "span",
-            {},
-            must.fulfilled ? "✓" : "✕",
-          ),
-          `${must.label}${must.fulfilled ? "" : ": not fulfilled"}`,
-        ),
-      ),
+      ...report.must_haves.map((must) => {
+        const { sign, kind, after } = mustHaveWords(must);
+        return make("li", {}, make(`span.${kind}` as "span", {}, sign), `${must.label}${after}`);
+      }),
     ),
     make(
       "dl.lengths",

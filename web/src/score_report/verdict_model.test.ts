@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { answerText, verdictText } from "./verdict_model";
+import { answerText, mustHaveWords, verdictText } from "./verdict_model";
 
 describe("verdictText", () => {
   const text = (
@@ -34,5 +34,15 @@ describe("answerText", () => {
       "Old humpback. Right is to decline, and to say why. It is flexed.",
     );
     expect(answerText(null)).toBe("");
+  });
+});
+
+describe("mustHaveWords", () => {
+  it("tells what nothing could be judged by apart from what is broken", () => {
+    expect(mustHaveWords({ fulfilled: true, not_measured: null }).after).toBe("");
+    expect(mustHaveWords({ fulfilled: false, not_measured: null }).after).toBe(": not fulfilled");
+    const unjudged = mustHaveWords({ fulfilled: false, not_measured: true });
+    expect(unjudged.kind).toBe("secondary");
+    expect(unjudged.after).toMatch(/^: not judged/);
   });
 });

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What was achieved, in one sentence, and what the case was about.
-import type { CaseAnswer, RightAnswer, ScoreReport } from "../protocol";
+import type { CaseAnswer, MustHave, RightAnswer, ScoreReport } from "../protocol";
 
 type Told = Pick<ScoreReport, "fixation_acceptable" | "is_void" | "declined_for">;
 
@@ -25,6 +25,23 @@ export function verdictText(report: Told): string {
   return good
     ? "✓ The fixation is acceptable."
     : "✕ The fixation is not acceptable: nothing earns points without it.";
+}
+
+/** How a condition is told; one that nothing could be judged by is not said to be broken. */
+export function mustHaveWords(must: Pick<MustHave, "fulfilled" | "not_measured">): {
+  readonly sign: string;
+  readonly kind: "good" | "harm" | "secondary";
+  readonly after: string;
+} {
+  if (must.fulfilled) return { sign: "✓", kind: "good", after: "" };
+  if (must.not_measured === true) {
+    return {
+      sign: "–",
+      kind: "secondary",
+      after: ": not judged, nothing was done that could show it",
+    };
+  }
+  return { sign: "✕", kind: "harm", after: ": not fulfilled" };
 }
 
 const ANSWERS: Readonly<Record<RightAnswer, string>> = {
