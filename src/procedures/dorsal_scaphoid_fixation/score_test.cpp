@@ -17,6 +17,7 @@ namespace {
 using instruments::InstrumentIndex;
 using procedure::Grade;
 using procedure::LineFacts;
+using procedure::MustHave;
 using procedure::OperationRecord;
 using procedure::Pass;
 using procedure::ScoreItem;
@@ -228,6 +229,22 @@ TEST(Score, DoingNothingEarnsNothing) {
   nothing.finished = true;
   EXPECT_FALSE(score(wrist(), nothing).is_fixation_acceptable);
   EXPECT_EQ(score(wrist(), nothing).overall, 0.0);
+  for (const MustHave& must : score(wrist(), nothing).must_haves) {
+    const bool is_of_a_screw = must.id == "screw_holds" || must.id == "waist";
+    if (is_of_a_screw) {
+      EXPECT_FALSE(must.fulfilled) << must.id << ": there is no screw";
+      EXPECT_TRUE(must.not_measured) << must.id;
+    }
+    if (must.id == "screw_placed") {
+      EXPECT_FALSE(must.not_measured) << "that none is in is known";
+    }
+  }
+  nothing.is_stripped = true;
+  for (const MustHave& must : score(wrist(), nothing).must_haves) {
+    if (must.id == "screw_holds") {
+      EXPECT_FALSE(must.not_measured) << "stripped, and taken out";
+    }
+  }
 
   OperationRecord fewer = perfect();
   fewer.shots.resize(2);

@@ -118,7 +118,12 @@ Measure compression(const Facts& facts) {
 }
 
 Measure stripped(const Facts& facts) {
-  return {"screws_stripped", facts.record.is_stripped ? 1.0 : 0.0, ""};
+  Measure measure{"screws_stripped", std::nullopt, kNoScrew};
+  // Stripped once counts, wherever that screw is now; a thread that never held proved nothing.
+  if (!facts.placed && !facts.record.is_stripped) return measure;
+  measure.value = facts.record.is_stripped ? 1.0 : 0.0;
+  measure.finding.clear();
+  return measure;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ export function mustHaveWords(must: Pick<MustHave, "fulfilled" | "not_measured">
     return {
       sign: "–",
       kind: "secondary",
-      after: ": not judged, nothing was done that could show it",
+      after: ": not judged",
     };
   }
   return { sign: "✕", kind: "harm", after: ": not fulfilled" };
