@@ -268,6 +268,8 @@ TEST(Score, OneHarmAndTheFixationIsNotAcceptable) {
   screw_of(add("a screw beside the waist")).entry_in_bone +=
       cases::test::synthetic_scaphoid().rotation.column(0) * 4.0;
   add("no screw").lines.clear();
+  add("pieces left with a step").fracture = {true, 0.5, 4.0, 1.0};
+  add("pieces left with a gap").fracture = {true, 4.0, 0.5, 1.0};
   for (const auto& [what, record] : harmed) {
     const ScoreReport report = score(wrist(), record);
     EXPECT_FALSE(report.is_fixation_acceptable) << what;
@@ -292,6 +294,35 @@ TEST(Score, AWireMayGoThroughAndABentOneCosts) {
   const ScoreReport bent = score(wrist(), record);
   EXPECT_NEAR(*item_of(bent, "wire_bend_deg").value, 17.2, 0.05);
   EXPECT_LT(bent.overall, through);
+}
+
+TEST(Score, OneWayOutIsMeantAndEachFurtherOneCosts) {
+  OperationRecord record = perfect();
+  record.passes.front().far_exits = 1;
+  EXPECT_EQ(item_of(score(wrist(), record), "far_exits").grade, Grade::Good);
+  record.passes.push_back(record.passes.front());
+  record.passes.back().was_undone = true;
+  record.passes.back().far_exits = 3;
+  const ScoreItem out = item_of(score(wrist(), record), "far_exits");
+  EXPECT_EQ(*out.value, 4.0) << "what is undone counts";
+  EXPECT_EQ(out.grade, Grade::Fail);
+  EXPECT_NE(out.reason.find("4 times"), std::string::npos) << out.reason;
+}
+
+TEST(Score, TheGaugeIsHeldAgainstTheBone) {
+  OperationRecord record = perfect();
+  EXPECT_NEAR(*item_of(score(wrist(), record), "gauge_minus_line_mm").value, -0.5, 0.1);
+  record.gauge_reading_mm = 33.0;
+  const ScoreItem beyond = item_of(score(wrist(), record), "gauge_minus_line_mm");
+  EXPECT_NEAR(*beyond.value, 6.0, 0.1);
+  EXPECT_EQ(beyond.grade, Grade::Fail);
+  EXPECT_NE(beyond.reason.find("6.0 mm beyond the far cortex"), std::string::npos) << beyond.reason;
+  record.gauge_reading_mm = 24.0;
+  const ScoreItem before = item_of(score(wrist(), record), "gauge_minus_line_mm");
+  EXPECT_EQ(before.grade, Grade::Acceptable);
+  EXPECT_NE(before.reason.find("before the far cortex"), std::string::npos) << before.reason;
+  record.gauge_reading_mm = -1.0;
+  EXPECT_EQ(item_of(score(wrist(), record), "gauge_minus_line_mm").points, 0.0) << "never measured";
 }
 
 TEST(Score, CountsPassesAndUndos) {

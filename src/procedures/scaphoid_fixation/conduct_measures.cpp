@@ -30,6 +30,30 @@ Measure wire_passes(const Facts& facts) {
   return measure;
 }
 
+/// The joint that something came into where the line ends; empty where no bone lies before it.
+std::string joint_entered(const Facts& facts) {
+  if (!facts.line || facts.line->leaves_towards.empty()) return "";
+  return " Before the line's far end lies the " + facts.line->leaves_towards +
+         ": that joint was entered.";
+}
+
+std::string ways_out_in_words(const Facts& facts, std::uint32_t times) {
+  if (times == 0) return "Nothing came out at the far side.";
+  return "Something came out at the far side " + std::to_string(times) +
+         (times == 1 ? " time." : " times.") + joint_entered(facts);
+}
+
+/// By wires and what ran over them; where a wire is meant to be drawn through, once is right.
+Measure far_exits(const Facts& facts) {
+  Measure measure{"far_exits", std::nullopt, kNoWire};
+  if (facts.record.passes.empty()) return measure;
+  std::uint32_t times = 0;
+  for (const procedure::Pass& pass : facts.record.passes) times += pass.far_exits;
+  measure.value = times;
+  measure.finding = ways_out_in_words(facts, times);
+  return measure;
+}
+
 /// Wires, and what ran over them.
 Measure beyond_far_cortex(const Facts& facts) {
   Measure measure{"beyond_far_cortex_mm", std::nullopt, kNoWire};
@@ -41,9 +65,7 @@ Measure beyond_far_cortex(const Facts& facts) {
     times += pass.far_exits;
   }
   measure.value = deepest;
-  measure.finding = times == 0 ? "Nothing came out at the far side."
-                               : "Something came out at the far side " + std::to_string(times) +
-                                     (times == 1 ? " time." : " times.");
+  measure.finding = ways_out_in_words(facts, times);
   return measure;
 }
 
@@ -55,8 +77,9 @@ Measure follower_beyond_far_cortex(const Facts& facts) {
   for (const procedure::Pass& pass : facts.record.passes) {
     measure.value = std::max(*measure.value, pass.follower_exit_mm);
   }
-  measure.finding =
-      *measure.value > 0.0 ? "Drill or screw came out at the far side." : "Neither came out.";
+  measure.finding = *measure.value > 0.0
+                        ? "Drill or screw came out at the far side." + joint_entered(facts)
+                        : "Neither came out.";
   return measure;
 }
 
@@ -202,6 +225,7 @@ Measure wires_left_in(const Facts& facts) {
 std::vector<Measure> conduct_measures(const Facts& facts) {
   std::vector<Measure> all{
       wire_passes(facts),
+      far_exits(facts),
       beyond_far_cortex(facts),
       follower_beyond_far_cortex(facts),
       wire_bend(facts),

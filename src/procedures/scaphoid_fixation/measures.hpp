@@ -15,10 +15,11 @@ namespace carpus::procedures::scaphoid_fixation {
 /// Where wire and screw lie: `screw_placed`, `waist_offset_percent`, `proximal_offset_percent`,
 /// `distal_offset_percent`, `bone_beside_screw_mm`, `usable_length_percent`,
 /// `angle_to_central_axis_deg`, `proximal_cover_mm`, `distal_cover_mm`, `penetration_mm`,
-/// `screw_in_smaller_fragment_mm`, `screw_length_minus_ideal_mm`, `hold_percent`.
+/// `screw_in_smaller_fragment_mm`, `screw_length_minus_ideal_mm`, `gauge_minus_line_mm`,
+/// `hold_percent`.
 [[nodiscard]] std::vector<procedure::Measure> placement_measures(const Facts& facts);
 
-/// How it went: `wire_passes`, `beyond_far_cortex_mm`, `wrong_bones_entered`,
+/// How it went: `wire_passes`, `far_exits`, `beyond_far_cortex_mm`, `wrong_bones_entered`,
 /// `ream_short_of_far_cortex_mm`, `trapezium_cartilage_mm2`, `views_with_wire`,
 /// `views_with_screw`, `wires_left_in`, and procedure::thrift_measures.
 [[nodiscard]] std::vector<procedure::Measure> conduct_measures(const Facts& facts);

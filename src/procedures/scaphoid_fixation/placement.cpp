@@ -139,6 +139,7 @@ std::optional<LinePlacement> place_line(const LyingBone& scaphoid,
   line.at_waist = level(landmarks.waist);
   line.at_proximal = level(axis.proximal + along / 6.0);
   line.at_distal = level(axis.distal - along / 6.0);
+  line.leaves_towards = neighbour_at(data, entry + direction * line.chord.leave_mm);
   return line;
 }
 

@@ -38,6 +38,9 @@ struct LinePlacement {
   Offset at_proximal;  ///< at a sixth of the axis from the proximal end
   Offset at_distal;    ///< at a sixth from the distal end
   LineInterval chord;  ///< of the line inside the scaphoid, from the entry along it [mm]
+  /// Bone that lies before the line's far end, so whose joint it comes into; empty: none within 3
+  /// mm
+  std::string leaves_towards;
 
   [[nodiscard]] double length_mm() const noexcept { return chord.leave_mm - chord.enter_mm; }
 };

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "procedure/thrift_measures.hpp"
@@ -54,6 +54,9 @@ Measure penetration(const Facts& facts) {
   measure.finding = *measure.value > 0.0
                         ? "The screw stands out: " + facts.placed->penetration_at + "."
                         : "No part of the screw stands out of the scaphoid.";
+  if (facts.placed->penetration_at.find("towards") != std::string::npos) {
+    measure.finding += " That joint was entered.";
+  }
   return measure;
 }
 
@@ -100,6 +103,25 @@ Measure length_against_ideal(const Facts& facts) {
   return measure;
 }
 
+/// The gauge reads the wire, not the bone: what it was off by becomes the screw's fault.
+Measure gauge_against_line(const Facts& facts) {
+  Measure measure{"gauge_minus_line_mm", std::nullopt, "The length was not measured."};
+  const double reading_mm = facts.record.gauge_reading_mm;
+  if (reading_mm < 0.0) return measure;
+  measure.finding = kNoLine;
+  if (!facts.line) return measure;
+  const double line_mm = facts.line->length_mm();
+  measure.value = reading_mm - line_mm;
+  measure.finding = "The gauge read " + text_of(reading_mm) + " mm, the bone is " +
+                    text_of(line_mm) + " mm long on this line.";
+  constexpr double kTellMm = 0.75;  // the gauge's steps are 0.5 mm
+  if (std::abs(*measure.value) > kTellMm) {
+    measure.finding += std::string(" The wire's tip stood ") + text_of(std::abs(*measure.value)) +
+                       " mm " + (*measure.value > 0.0 ? "beyond" : "before") + " the far cortex.";
+  }
+  return measure;
+}
+
 Measure hold(const Facts& facts) {
   Measure measure{"hold_percent", std::nullopt, kNoScrew};
   if (!facts.placed) return measure;
@@ -141,6 +163,7 @@ std::vector<Measure> placement_measures(const Facts& facts) {
           penetration(facts),
           in_smaller_fragment(facts),
           length_against_ideal(facts),
+          gauge_against_line(facts),
           hold(facts),
           compression(facts),
           stripped(facts)};

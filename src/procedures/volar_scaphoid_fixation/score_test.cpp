@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "cases/synthetic_case_test_support.hpp"
 #include "procedures/volar_scaphoid_fixation/declared.hpp"
 
@@ -123,6 +126,31 @@ TEST(VolarScore, TheTrapeziumMayBeEnteredAtTheCostOfItsCartilage) {
               3.14159 * (1.9 * 1.9 + 0.57 * 0.57), 1e-3);
   record.passes.back().bodies_entered |= bit_of(BoneId::Capitate);
   EXPECT_EQ(item_of(score(wrist(), record), "wrong_bones_entered").grade, Grade::Fail);
+}
+
+TEST(VolarScore, OneHarmAndTheFixationIsNotAcceptable) {
+  std::vector<std::pair<const char*, OperationRecord>> harmed;
+  const auto add = [&](const char* what) -> OperationRecord& {
+    return harmed.emplace_back(what, perfect()).second;
+  };
+  add("the wire 9 mm into the radiocarpal joint, taken back").passes.front().far_exit_mm = 9.0;
+  harmed.back().second.passes.front().was_undone = true;
+  add("the drill as far").passes.front().follower_exit_mm = 9.0;
+  add("a capitate drilled").passes.front().bodies_entered |= bit_of(BoneId::Capitate);
+  add("a wire broken").broken_wires = 1;
+  add("a screw turned on until it stripped").is_stripped = true;
+  add("a screw through the proximal pole").lines.front().depth_mm = 28.0;
+  LineFacts wire = perfect().lines.front();
+  wire.instrument = *instruments::instrument_of("guide_wire");
+  add("a wire left in").lines.push_back(wire);
+  add("no screw").lines.clear();
+  add("pieces left with a step").fracture = {true, 0.5, 4.0, 1.0};
+  ASSERT_TRUE(score(wrist(), perfect()).is_fixation_acceptable);
+  for (const auto& [what, record] : harmed) {
+    const ScoreReport report = score(wrist(), record);
+    EXPECT_FALSE(report.is_fixation_acceptable) << what;
+    EXPECT_EQ(report.overall, 0.0) << what;
+  }
 }
 
 TEST(VolarScore, AWireFromTheOtherPoleHasTheWrongDirection) {
