@@ -92,7 +92,7 @@ struct Act {
   std::optional<std::int64_t> hand;
   /// of take: its id
   std::optional<std::string> instrument;
-  /// of pick_up and pick_up_far_end 0 to 254
+  /// of pick_up and pick_up_far_end; of return_to_step the step, from 0 0 to 254
   std::optional<std::int64_t> item;
   /// of use_aid, which is counted
   std::optional<Aid> aid;

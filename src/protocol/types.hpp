@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 15;
+inline constexpr std::int64_t kProtocolVersion = 16;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -65,11 +65,12 @@ enum class ActionId : std::uint8_t {
   Undo,
   Finish,
   Decline,
-  UseAid
+  UseAid,
+  ReturnToStep
 };
-inline constexpr std::array<std::string_view, 10> kActionIdNames{
-    "take",      "pick_up", "pick_up_far_end", "put_down", "read_gauge",
-    "take_shot", "undo",    "finish",          "decline",  "use_aid"};
+inline constexpr std::array<std::string_view, 11> kActionIdNames{
+    "take", "pick_up", "pick_up_far_end", "put_down", "read_gauge",    "take_shot",
+    "undo", "finish",  "decline",         "use_aid",  "return_to_step"};
 [[nodiscard]] constexpr std::string_view name_of(ActionId value) noexcept {
   return kActionIdNames[static_cast<std::size_t>(value)];
 }
@@ -687,7 +688,7 @@ struct Action {
   std::int64_t hand = 0;
   /// of take, else empty
   std::string instrument;
-  /// of pick_up and pick_up_far_end, else -1 -1 to 254
+  /// of pick_up and pick_up_far_end; of return_to_step the step, from 0; else -1 -1 to 254
   std::int64_t item = 0;
   /// for people
   std::string label;

@@ -41,9 +41,8 @@ struct WorldAtEnd {
 };
 
 bool is_undone_after(const simulation::Recording& recording, Tick tick) {
-  return std::any_of(recording.runs.at(tick), recording.runs.end(), [](const auto& run) {
-    return run.input.command.kind == simulation::CommandKind::Undo;
-  });
+  return std::any_of(recording.runs.at(tick), recording.runs.end(),
+                     [](const auto& run) { return simulation::goes_back(run.input.command.kind); });
 }
 
 /// Proved by its hash; or why there is none. Where a keyframe is refused, or undo went back beyond

@@ -28,6 +28,7 @@ class ActionList {
     for (std::uint8_t hand = 0; hand < simulation::kHands; ++hand) add_hand(hand);
     add(ActionId::TakeShot, {CommandKind::TakeShot}, "Take a picture").hand = -1;
     add(ActionId::Undo, {CommandKind::Undo}, "Back to the last checkpoint").hand = -1;
+    add_steps();
     add(ActionId::Finish, {CommandKind::Finish}, "Finish the operation").hand = -1;
     add(ActionId::UseAid, {CommandKind::UseAid}, "Aids").hand = -1;
     // Whether it can be declined at all: the first reason stands for any.
@@ -36,6 +37,17 @@ class ActionList {
   }
 
  private:
+  /// Those that were done: what lies before the first checkpoint is refused with its reason.
+  void add_steps() {
+    for (std::uint8_t step = 0; step < procedure_.steps.size(); ++step) {
+      if ((now_.completed_steps >> step & 1U) == 0) continue;
+      protocol::Action& action = add(ActionId::ReturnToStep, {CommandKind::ReturnToStep, 0, step},
+                                     "Do this step again: " + procedure_.steps[step].title);
+      action.hand = -1;
+      action.item = step;
+    }
+  }
+
   void add_hand(std::uint8_t hand) {
     const auto all = instruments::catalogue();
     for (const instruments::InstrumentIndex index : procedure_.tray) {

@@ -60,9 +60,10 @@ class Sentence {
       case EventKind::Seated:
         return with_mm("Screw level with the bone, buried", event_.value);
       case EventKind::StepCompleted:
-        return "Step done: " + step();
+        return "Step done: " + step(event_.detail);
       case EventKind::Undone:
-        return "Back to the last checkpoint";
+        return event_.detail == 0 ? "Back to the last checkpoint"
+                                  : "Back to step: " + step(event_.detail - 1);
       case EventKind::Finished:
         return event_.detail == 0 ? "Operation finished" : "Declined to operate";
       case EventKind::Refused:
@@ -112,8 +113,8 @@ class Sentence {
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
   }
   [[nodiscard]] std::string target() const { return std::string(words_of(procedure_.target)); }
-  [[nodiscard]] std::string step() const {
-    const auto index = static_cast<std::size_t>(event_.detail);
+  [[nodiscard]] std::string step(std::int32_t place) const {
+    const auto index = static_cast<std::size_t>(place);
     return index < procedure_.steps.size() ? procedure_.steps[index].title : std::string("?");
   }
 

@@ -73,11 +73,16 @@ TEST(EventText, NamesStepsByTheirTitles) {
   event.kind = EventKind::StepCompleted;
   event.detail = 1;
   EXPECT_EQ(described(event).text, "Step done: Drive");
+  event.kind = EventKind::Undone;
+  event.detail = 2;
+  EXPECT_EQ(described(event).text, "Back to step: Drive");
+  event.detail = 0;
+  EXPECT_EQ(described(event).text, "Back to the last checkpoint");
 }
 
 TEST(RefusalText, EveryRefusalHasItsOwnReason) {
   std::set<std::string> reasons;
-  constexpr int kLast = static_cast<int>(simulation::Refusal::NoUndoWhenAssessed);
+  constexpr int kLast = static_cast<int>(simulation::Refusal::NoWayBackToStep);
   for (int i = 1; i <= kLast; ++i) {
     reasons.insert(std::string(text_of(static_cast<simulation::Refusal>(i))));
   }

@@ -44,6 +44,8 @@ std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
       return CommandKind::ReadGauge;
     case protocol::ActionId::Undo:
       return CommandKind::Undo;
+    case protocol::ActionId::ReturnToStep:
+      return CommandKind::ReturnToStep;
     case protocol::ActionId::Finish:
       return CommandKind::Finish;
     case protocol::ActionId::UseAid:
@@ -136,6 +138,10 @@ Result<Command> command_of(const protocol::Act& message, const procedure::Proced
   if (*kind == CommandKind::UseAid) {
     if (!message.aid) return Refusal{"use_aid needs an aid"};
     command.index = static_cast<std::uint8_t>(*message.aid);
+  }
+  if (*kind == CommandKind::ReturnToStep) {
+    if (!message.item) return Refusal{"return_to_step needs a step"};
+    command.index = static_cast<std::uint8_t>(*message.item);
   }
   if (*kind == CommandKind::PickUp || *kind == CommandKind::PickUpFarEnd) {
     if (!message.item) return Refusal{"pick_up needs an item"};

@@ -47,6 +47,8 @@ std::string_view text_of(simulation::Refusal refusal) noexcept {
       return "The wire is bent: nothing runs over it any more. Take it out and lay another";
     case Refusal::NoAidsWhenAssessed:
       return "In an assessed operation nothing helps but the pictures and the hand";
+    case Refusal::NoWayBackToStep:
+      return "Too much was done since: from that step on it cannot be done again";
     case Refusal::NoReasonToDecline:
       return "Say why: choose at least one of the reasons";
   }

@@ -20,6 +20,7 @@ Session::Session(const cases::CaseData& data,
     : data_(data),
       procedure_(procedure),
       bodies_(data),
+      broken_(broken_bone_of(data, procedure.target)),
       held_(resting(initial)),
       latest_(initial) {}
 
@@ -135,6 +136,9 @@ std::string Session::hint_for(std::uint8_t item, const simulation::Snapshot& the
   if (item >= simulation::kMaxItems ||
       then.items[item].instrument >= instruments::catalogue().size()) {
     return "take a wire, then ask again.";
+  }
+  if (broken_ && instruments::catalogue()[then.items[item].instrument].is_joystick) {
+    return reduction_hint(data_, *broken_, then);
   }
   const procedure::Aim aim = procedure_.opening(data_).aim;
   std::size_t target = 0;

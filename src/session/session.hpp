@@ -19,6 +19,7 @@
 #include "protocol/messages.hpp"
 #include "session/body_names.hpp"
 #include "session/page_input.hpp"
+#include "session/reduction_hint.hpp"
 #include "session/snapshot_message.hpp"
 
 namespace carpus::session {
@@ -71,6 +72,7 @@ class Session {
   const cases::CaseData& data_;
   const procedure::Procedure& procedure_;
   BodyNames bodies_;
+  std::optional<BrokenBone> broken_;  ///< the bone that is operated on, where it is in pieces
   HeldInput held_;
   simulation::Snapshot latest_;
   std::optional<std::uint32_t> sent_tissue_;

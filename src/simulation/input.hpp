@@ -38,8 +38,16 @@ enum class CommandKind : std::uint8_t {
   UseAid = 11,     ///< `index`: which procedure::Aid; practice only
   SetTube = 12,    ///< `index`: a procedure::TubeSetting, from the next pulse on
   TurnScope = 13,  ///< the scope's shaft is turned to `rotation_deg`, its camera head to `tilt_deg`
+  /// Back to the last checkpoint at which step `index` was not done; practice only, counted as one
+  /// undo.
+  ReturnToStep = 14,
 };
-inline constexpr std::uint8_t kCommandKinds = 14;
+inline constexpr std::uint8_t kCommandKinds = 15;
+
+/// After it the state is not one that follows from the tick before.
+[[nodiscard]] constexpr bool goes_back(CommandKind kind) noexcept {
+  return kind == CommandKind::Undo || kind == CommandKind::ReturnToStep;
+}
 
 struct Command {
   CommandKind kind = CommandKind::None;

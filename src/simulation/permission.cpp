@@ -141,6 +141,11 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::Undo:
       if (now.mode == procedure::Mode::Assessed) return Refusal::NoUndoWhenAssessed;
       return now.can_undo ? Refusal::None : Refusal::NothingToUndo;
+    case CommandKind::ReturnToStep:
+      if (command.index >= procedure.steps.size()) return Refusal::UnknownCommand;
+      if (now.mode == procedure::Mode::Assessed) return Refusal::NoUndoWhenAssessed;
+      return (now.returnable_steps >> command.index & 1U) != 0 ? Refusal::None
+                                                               : Refusal::NoWayBackToStep;
     case CommandKind::Decline: {
       const std::size_t known = procedure.decline.reasons.size();
       const bool is_said = command.index != 0 && (command.index >> known) == 0;
@@ -165,7 +170,7 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 21> kNames{"none",
+  static constexpr std::array<std::string_view, 22> kNames{"none",
                                                            "finished",
                                                            "unknown_command",
                                                            "no_such_hand",
@@ -185,7 +190,8 @@ std::string_view name_of(Refusal refusal) noexcept {
                                                            "end_is_inside",
                                                            "wire_is_bent",
                                                            "no_reason_to_decline",
-                                                           "no_aids_when_assessed"};
+                                                           "no_aids_when_assessed",
+                                                           "no_way_back_to_step"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

@@ -38,6 +38,7 @@ enum class Refusal : std::uint8_t {
   WireIsBent,         ///< what has a bore does not run over it
   NoReasonToDecline,  ///< none was said, or one that the procedure does not know
   NoAidsWhenAssessed,
+  NoWayBackToStep,  ///< it is not done, or no checkpoint before that is kept
 };
 
 /// Plain comparisons on what the last tick left: real-time.

@@ -66,8 +66,7 @@ Result<bool> ReplayPlayer::seek_with_events(Tick wanted) {
   if (tick == 0) return seek(0);
   const Result<bool> reached = seek(tick - 1);
   if (!reached) return reached;
-  const bool goes_back = run_->input.command.kind == CommandKind::Undo;
-  if (goes_back) return seek(tick);
+  if (goes_back(run_->input.command.kind)) return seek(tick);
   step();
   return true;
 }

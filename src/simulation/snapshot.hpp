@@ -111,7 +111,7 @@ enum class EventKind : std::uint8_t {
   PutDown = 8,         ///< detail: instrument
   Seated = 9,          ///< a screw's tail is level with the surface; value: buried mm
   StepCompleted = 10,  ///< detail: step
-  Undone = 11,
+  Undone = 11,         ///< detail: the step that it went back to, from 1; 0: the last checkpoint
   Finished = 12,       ///< detail: for which of the procedure's reasons it was declined, bits
   Refused = 13,        ///< a command that makes no sense now; detail: Refusal
   WrongBone = 14,      ///< a bone was entered that is neither target nor allowed; detail: body
@@ -170,6 +170,7 @@ struct Snapshot {
   std::uint8_t aids = 0;  ///< bit i: procedure::Aid i was used
   std::uint32_t undos = 0;
   bool can_undo = false;
+  std::uint32_t returnable_steps = 0;  ///< bit i: step i is done, and could be done again
   std::array<Event, kMaxEventsPerTick> events{};
   std::uint8_t event_count = 0;
   bool finished = false;

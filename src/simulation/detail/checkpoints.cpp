@@ -25,19 +25,44 @@ void World::State::forget_checkpoints() noexcept {
   tissue.cuts().forget_checkpoints();
 }
 
+std::size_t World::State::checkpoint_before(std::size_t step) const noexcept {
+  std::size_t kept = checkpoint_count;
+  while (kept > 0 && (checkpoints[kept - 1].completed_steps >> step & 1U) != 0) --kept;
+  return kept;
+}
+
+std::uint32_t World::State::returnable_steps() const noexcept {
+  std::uint32_t not_done = 0;
+  for (std::size_t i = 0; i < checkpoint_count; ++i) not_done |= ~checkpoints[i].completed_steps;
+  return spent.ended == 0 ? now.completed_steps & not_done : 0;
+}
+
 void World::State::undo(const Model& model) noexcept {
-  --checkpoint_count;
-  now = checkpoints[checkpoint_count];
-  for (std::size_t i = passes_at_checkpoint[checkpoint_count];
-       i < spent.pass_count && i < detail::kMaxPasses; ++i) {
+  go_back_to(model, checkpoint_count - 1);
+  emit(EventKind::Undone, kNoItem, 0, 0.0);
+}
+
+void World::State::return_to_step(const Model& model, std::uint8_t step) noexcept {
+  go_back_to(model, checkpoint_before(step) - 1);
+  emit(EventKind::Undone, kNoItem, step + 1, 0.0);
+}
+
+/// @param kept  checkpoints that are left; the one after them is where it goes back to.
+void World::State::go_back_to(const Model& model, std::size_t kept) noexcept {
+  bool has_bone_come_back = false;
+  for (; checkpoint_count > kept; --checkpoint_count) {
+    has_bone_come_back = tissue.cuts().undo() || has_bone_come_back;
+  }
+  now = checkpoints[kept];
+  for (std::size_t i = passes_at_checkpoint[kept]; i < spent.pass_count && i < detail::kMaxPasses;
+       ++i) {
     spent.passes[i].was_undone = true;
   }
-  if (tissue.cuts().undo()) ++spent.tissue_revision;
+  if (has_bone_come_back) ++spent.tissue_revision;
   ++spent.undos;
   scene.forget();
   pose_bodies(model);  // fragments are back, and the wrist may have moved since
   carry_fixed_items();
-  emit(EventKind::Undone, kNoItem, 0, 0.0);
 }
 
 }  // namespace carpus::simulation

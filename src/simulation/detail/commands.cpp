@@ -35,6 +35,8 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       return read_gauge(model, command.hand);
     case CommandKind::Undo:
       return undo(model);
+    case CommandKind::ReturnToStep:
+      return return_to_step(model, command.index);
     case CommandKind::UseAid:
       spent.aids = static_cast<std::uint8_t>(spent.aids | (1U << command.index));
       ++spent.aids_used;

@@ -126,6 +126,7 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.aids = spent.aids;
   snapshot.undos = spent.undos;
   snapshot.can_undo = checkpoint_count > 0 && spent.ended == 0;
+  snapshot.returnable_steps = returnable_steps();
   snapshot.finished = spent.ended != 0;
 }
 

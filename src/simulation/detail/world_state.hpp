@@ -89,6 +89,11 @@ struct World::State {
   void save_checkpoint() noexcept;
   void forget_checkpoints() noexcept;
   void undo(const Model& model) noexcept;
+  void return_to_step(const Model& model, std::uint8_t step) noexcept;
+  void go_back_to(const Model& model, std::size_t kept) noexcept;
+  /// How many checkpoints there are up to the last one at which `step` was not done.
+  [[nodiscard]] std::size_t checkpoint_before(std::size_t step) const noexcept;
+  [[nodiscard]] std::uint32_t returnable_steps() const noexcept;
 
   // commands.cpp
   void obey(const Model& model, const Command& command) noexcept;

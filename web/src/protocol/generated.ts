@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 15;
+export const PROTOCOL_VERSION = 16;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -24,7 +24,7 @@ export type Driver = "off" | "forward" | "reverse";
 export type Guidance = "direct" | "planned";
 
 /** Things done once rather than held. */
-export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline" | "use_aid";
+export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline" | "use_aid" | "return_to_step";
 
 /** What angles of the C-arm are counted from: the forearm as it is held now, or as it was scanned, which is how the room stands. */
 export type AngleReference = "held_forearm" | "room";
@@ -530,7 +530,7 @@ export interface Action {
   readonly hand: number;
   /** of take, else empty */
   readonly instrument: string;
-  /** of pick_up and pick_up_far_end, else -1 -1 to 254 */
+  /** of pick_up and pick_up_far_end; of return_to_step the step, from 0; else -1 -1 to 254 */
   readonly item: number;
   /** for people */
   readonly label: string;
@@ -763,7 +763,7 @@ export interface ActMessage {
   readonly hand: number | null;
   /** of take: its id */
   readonly instrument: string | null;
-  /** of pick_up and pick_up_far_end 0 to 254 */
+  /** of pick_up and pick_up_far_end; of return_to_step the step, from 0 0 to 254 */
   readonly item: number | null;
   /** of use_aid, which is counted */
   readonly aid: Aid | null;

@@ -12,7 +12,7 @@ export const SCHEMA: Schema = {
     input_device: { values: ["mouse", "keyboard", "gamepad", "arm", "headset", "script"] },
     driver: { values: ["off", "forward", "reverse"] },
     guidance: { values: ["direct", "planned"] },
-    action_id: { values: ["take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish", "decline", "use_aid"] },
+    action_id: { values: ["take", "pick_up", "pick_up_far_end", "put_down", "read_gauge", "take_shot", "undo", "finish", "decline", "use_aid", "return_to_step"] },
     angle_reference: { values: ["held_forearm", "room"] },
     right_answer: { values: ["fix", "reduce_first", "decline"] },
     aid: { values: ["ghost", "section", "hint"] },

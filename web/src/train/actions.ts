@@ -37,6 +37,8 @@ export interface ActionRoom {
   wantedInstrument(): string;
   tell(message: PageMessage): void;
   say(text: string): void;
+  /** Asks before it goes back to a step. */
+  confirmReturn(step: number): void;
   /** Asks before the operation ends. */
   finish(): void;
   /** Asks for what reasons. */
@@ -46,6 +48,7 @@ export interface ActionRoom {
 
 export class Actions {
   private view: ViewId = "dorsal";
+  private stepToReturnTo: number | undefined;
 
   constructor(private readonly room: ActionRoom) {}
 
@@ -202,6 +205,19 @@ export class Actions {
   /** Asks the host, or says why it would refuse. */
   ask(asked: Asked): void {
     if (!this.isRefused(asked)) this.room.tell(actMessage(asked));
+  }
+
+  askToReturn(step: number): void {
+    if (this.isRefused({ id: "return_to_step", item: step })) return;
+    this.stepToReturnTo = step;
+    this.room.confirmReturn(step);
+  }
+
+  /** To the step that was asked for. */
+  goBack(): void {
+    if (this.stepToReturnTo !== undefined)
+      this.ask({ id: "return_to_step", item: this.stepToReturnTo });
+    this.stepToReturnTo = undefined;
   }
 
   /** Which ways are not open now. */

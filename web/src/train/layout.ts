@@ -35,6 +35,7 @@ export function layOut(app: HTMLElement, panels: Panels): HTMLElement {
     panels.finishQuestion.element,
     panels.declineQuestion.element,
     panels.anewQuestion.element,
+    panels.returnQuestion.element,
     panels.endQuestion.element,
   );
   return stage;

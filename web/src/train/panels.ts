@@ -50,6 +50,10 @@ export interface Wishes {
   startAnew(): void;
   /** Ends what another page does here; was asked and is sure. */
   endOther(): void;
+  /** Asks before what was done since is taken back. */
+  returnToStep(step: number): void;
+  /** Was asked and is sure. */
+  goBack(): void;
   finish(): void;
   /** Was asked for what reasons. */
   decline(reasons: readonly string[]): void;
@@ -72,6 +76,7 @@ export interface Panels {
   readonly finishQuestion: ConfirmDialog;
   readonly declineQuestion: DeclineDialog;
   readonly anewQuestion: ConfirmDialog;
+  readonly returnQuestion: ConfirmDialog;
   readonly endQuestion: ConfirmDialog;
   /** Over the scene while there is no connection. */
   readonly frozen: HTMLElement;
@@ -128,7 +133,9 @@ export function makePanels(
         wishes.headset();
       },
     }),
-    steps: new StepPanel(firstTouch.element, wrist.element),
+    steps: new StepPanel(firstTouch.element, wrist.element, (step) => {
+      wishes.returnToStep(step);
+    }),
     wrist,
     views: new ViewBar({
       look: (view) => {
@@ -207,6 +214,14 @@ export function makePanels(
       "Start anew",
       () => {
         wishes.startAnew();
+      },
+    ),
+    returnQuestion: new ConfirmDialog(
+      "Do this step again?",
+      "What was done since is taken back for practice, and stays in the score: as a step taken back, and with the harm that it did.",
+      "Go back",
+      () => {
+        wishes.goBack();
       },
     ),
     endQuestion: new ConfirmDialog(

@@ -4,7 +4,7 @@
 // The steps: the current one in a sentence with its key, the rest by name.
 import { make, setText } from "../dom";
 import { keyCap } from "../key_caps";
-import { keysOf, tickText } from "../operation";
+import { keysOf, tickText, type OfferedActions } from "../operation";
 import type { ExerciseMessage, SnapshotMessage, Step } from "../protocol";
 import "./step_panel.css";
 
@@ -14,6 +14,8 @@ interface ShownStep {
   readonly step: Step;
   readonly item: HTMLLIElement;
   readonly mark: HTMLElement;
+  /** Goes back to it. */
+  readonly again: HTMLButtonElement;
 }
 
 export class StepPanel {
@@ -29,7 +31,12 @@ export class StepPanel {
   /** Then nobody tells which step is done. */
   private isAssessed = false;
 
-  constructor(firstTouch: HTMLElement, wrist: HTMLElement) {
+  /** @param onReturn  a step is to be done again, from its place in the procedure on */
+  constructor(
+    firstTouch: HTMLElement,
+    wrist: HTMLElement,
+    private readonly onReturn: (step: number) => void,
+  ) {
     this.element = make(
       "nav.steps",
       { "aria-label": "Steps" },
@@ -51,6 +58,16 @@ export class StepPanel {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
       const keys = keysOf(step.actions).map((key) => keyCap(key));
       const tool = instruments.find((one) => one.id === step.instrument);
+      const again = make("button.step-again", {
+        type: "button",
+        title: "Do this step again",
+        "aria-label": `Do again: ${step.title}`,
+      });
+      again.textContent = "↺";
+      again.hidden = true;
+      again.addEventListener("click", () => {
+        this.onReturn(index);
+      });
       const item = make(
         "li",
         {},
@@ -62,8 +79,9 @@ export class StepPanel {
           make("p.step-sentence", {}, step.instruction),
           make("p.step-keys", {}, ...(tool === undefined ? [] : [`${tool.name} `]), ...keys),
         ),
+        again,
       );
-      return { step, item, mark };
+      return { step, item, mark, again };
     });
     this.list.replaceChildren(...this.items.map(({ item }) => item));
   }
@@ -85,6 +103,13 @@ export class StepPanel {
       } else {
         item.removeAttribute("aria-current");
       }
+    });
+  }
+
+  /** Those that the host would go back to can be done again. */
+  offer(offered: OfferedActions): void {
+    this.items.forEach(({ again }, step) => {
+      again.hidden = offered.find({ id: "return_to_step", item: step })?.allowed !== true;
     });
   }
 

@@ -111,6 +111,7 @@ export class TakingPart {
       panels.finishQuestion,
       panels.declineQuestion,
       panels.anewQuestion,
+      panels.returnQuestion,
       panels.endQuestion,
       panels.tray,
       panels.help,

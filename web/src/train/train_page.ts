@@ -267,6 +267,12 @@ export class TrainPage {
       resume: (choice) => {
         this.part.resume(choice);
       },
+      returnToStep: (step) => {
+        this.actions.askToReturn(step);
+      },
+      goBack: () => {
+        this.actions.goBack();
+      },
       restart: () => {
         this.part.restart();
       },
@@ -385,6 +391,9 @@ export class TrainPage {
       },
       say: (text) => {
         notice.say(text);
+      },
+      confirmReturn: (step) => {
+        this.panels.returnQuestion.ask(this.seen.titleOf(step));
       },
       finish: () => {
         this.part.askToFinish();

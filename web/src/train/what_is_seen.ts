@@ -58,6 +58,11 @@ export class WhatIsSeen {
     return this.exercise?.bodies.find((one) => one.name === body)?.label ?? body;
   }
 
+  /** What a step is called. */
+  titleOf(step: number): string {
+    return this.exercise?.steps[step]?.title ?? "";
+  }
+
   /** Id of what the current step is done with, or empty. */
   get wantedInstrument(): string {
     const { exercise, snapshot } = this;
@@ -131,6 +136,7 @@ export class WhatIsSeen {
     const thrustN = isPressed ? s.hands[hand.active].thrust_n : hand.thrust;
     bottom.show(s, hand.active, hand.driver, thrustN);
     bottom.showWays(ways);
+    this.panels.steps.offer(this.offered);
     drive.show(hand.driver, hand.thrust, hand.coarse);
     wrist.show(s.wrist);
     arm.takeStand(s.c_arm);
