@@ -3,53 +3,18 @@
 //
 // Everything that can go wrong does, through the page, and the report says each of it: the wire far
 // through the bone and taken back, too long a screw, the drill beyond the far cortex, no picture, steps left out;
-// then a wire that is left over the radius while the wrist is straightened.
+// a wire that is left over the radius while the wrist is straightened; each other harm (harm_done.mjs) and each
+// wrong decision (wrong_answers.mjs).
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { dot, Operator, readAxis } from "./operator.mjs";
+import { harmIsTold } from "./harm_done.mjs";
+import { expectSaid, finishedReport } from "./report.mjs";
+import { decidedWrongly } from "./wrong_answers.mjs";
 
 const TRAINEE = "Browser test, all wrong";
 /** Bent by 15 degrees and more. */
 const STRAIGHT_COSINE = 0.966;
-
-/** The report's figures by id, with what must hold and does not. */
-async function finishedReport(page) {
-  await page.keyboard.press("f");
-  await page.locator("dialog.confirm[open]").waitFor();
-  const note = await page.textContent("dialog.confirm[open] .confirm-note");
-  await page.keyboard.press("Enter");
-  await page.locator(".score-table tbody tr").first().waitFor();
-  const rows = await page.locator(".score-table tbody tr").evaluateAll((all) =>
-    all.map((row) => ({
-      id: row.dataset.item,
-      value: Number.parseFloat(row.querySelector(".figure").textContent),
-      failed: row.querySelector(".grade.fail") !== null,
-      reason: row.querySelector(".reason").textContent,
-    })),
-  );
-  return {
-    note,
-    items: Object.fromEntries(rows.map((row) => [row.id, row])),
-    overall: Number(await page.textContent(".overall strong")),
-    verdict: await page.locator(".verdict").innerText(),
-    unmet: await page
-      .locator(".must-haves li", { hasText: "not fulfilled" })
-      .allTextContents(),
-    unjudged: await page
-      .locator(".must-haves li", { hasText: "not judged" })
-      .allTextContents(),
-  };
-}
-
-/** Each figure fails and says why. */
-function expectSaid({ items }, ids) {
-  for (const id of ids) {
-    const item = items[id];
-    expect(item !== undefined, `${id} is not in the report`);
-    expect(item.failed, `${id} is ${JSON.stringify(item)}`);
-    expect(item.reason.length > 20, `${id} has no reason: '${item.reason}'`);
-  }
-}
 
 async function harmUndoneAndTooLong(page, station) {
   const operator = new Operator(page);
@@ -151,5 +116,7 @@ export async function allGoesWrong(browser, station) {
   await page.setViewportSize({ width: 720, height: 480 });
   await harmUndoneAndTooLong(page, station);
   await wireOverTheRadius(page, station);
+  await harmIsTold(page, station);
+  await decidedWrongly(browser);
   await page.close();
 }

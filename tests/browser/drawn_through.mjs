@@ -1,12 +1,13 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The dorsal procedure's own way with the wire: driven through, taken at the base of the thumb and drawn
-// until nothing stands over the radius; the wrist straightened and looked at; flexed, pushed out dorsally,
-// taken there and drawn back.
+// The dorsal procedure whole, with its own way with the wire: driven through, taken at the base of the thumb and
+// drawn until nothing stands over the radius; the wrist straightened and looked at; flexed, pushed out dorsally,
+// taken there and drawn back. Then measured, reamed, fixed, to the printed report. One step is done a second time.
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { Operator, readAxis } from "./operator.mjs";
+import { finishedReport, printedPages } from "./report.mjs";
 
 const TRAINEE = "Browser test, drawn through";
 
@@ -66,7 +67,7 @@ export async function drawnThrough(browser, station) {
     expect(bentAt >= length - 0.01, "the wire is bent");
   });
   if (!looked) return page.close();
-  await check(page, "flexed again it is pushed out dorsally and drawn back to the far cortex", async () => {
+  const back = await check(page, "flexed again it is pushed out dorsally and drawn back to the far cortex", async () => {
     await operator.flex();
     await operator.holdKey(
       "Space",
@@ -81,6 +82,48 @@ export async function drawnThrough(browser, station) {
     );
     for (const key of ["1", "2", "3"]) await operator.shot(key);
     await hasDone(operator, "drive_back");
+  });
+  if (!back) return page.close();
+  const fixed = await check(page, "it is measured, reamed and fixed", async () => {
+    await page.keyboard.press("m");
+    await hasDone(operator, "measure");
+    await operator.take("cannulated_drill");
+    await operator.driveOn((drill) => drill.depth_mm >= axis.lengthMm - 3.5, "the drill's depth");
+    await operator.holdKey("r", (s) => Operator.held(s)?.instrument !== "cannulated_drill", "the drill out");
+    await hasDone(operator, "ream");
+    await operator.take((await operator.fittingScrew()).id);
+  });
+  if (!fixed) return page.close();
+  await check(page, "a step is done again from the list, counted once", async () => {
+    const { steps } = await operator.exercise();
+    const ream = steps.findIndex((step) => step.id === "ream");
+    await page.getByRole("button", { name: `Do again: ${steps[ream].title}` }).click();
+    await page.locator("dialog.confirm[open]", { hasText: steps[ream].title }).waitFor();
+    await page.keyboard.press("Enter");
+    await operator.until((s) => s.undos === 1 && !s.completed_steps.includes(ream), "back before reaming");
+    await operator.settle();
+    await page.locator(".log", { hasText: `Back to step: ${steps[ream].title}` }).waitFor();
+    if (Operator.held(await operator.snapshot())?.instrument !== "cannulated_drill")
+      await operator.take("cannulated_drill");
+    await operator.driveOn((drill) => drill.depth_mm >= axis.lengthMm - 3, "the drill's depth");
+    await operator.holdKey("r", (s) => Operator.held(s)?.instrument !== "cannulated_drill", "the drill out");
+    await hasDone(operator, "ream");
+  });
+  await check(page, "a screw in, the wire out, looked at from four sides: acceptable, on two pages", async () => {
+    await operator.take((await operator.fittingScrew()).id);
+    await operator.holdKey("Space", (s) => Operator.held(s).buried_mm >= 1.9, "the screw buried");
+    await hasDone(operator, "insert");
+    await page.keyboard.press("q");
+    await operator.takeWireOut();
+    for (const key of ["1", "2", "3", "6"]) await operator.shot(key);
+    const report = await finishedReport(page);
+    expect(report.unmet.length === 0, `not fulfilled: ${report.unmet.join("; ")}`);
+    expect(/acceptable/i.test(report.verdict) && !/not acceptable/i.test(report.verdict), report.verdict);
+    expect(report.overall > 70, `${report.overall} points`);
+    expect(report.items.undos.value === 1, "the step taken back is not counted");
+    expect(report.items.far_exits.value === 1, `${report.items.far_exits.value} ways out at the far side`);
+    const pages = await printedPages(page);
+    expect(pages === 2, `${pages} pages`);
   });
   await page.close();
 }

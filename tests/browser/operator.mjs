@@ -386,7 +386,11 @@ export class Operator {
   /** Entry and aim, of a wrist that is posed for it: the tip on the bone, the shaft along the axis. @return degrees that it is off */
   async placeWire(axis) {
     if (axis.from === "proximal") await this.flex();
-    const { entry, toHand } = await this.axisNow(axis);
+    return this.placeOn(await this.axisNow(axis));
+  }
+
+  /** The tip on the bone that is shown at `entry`, the shaft along `toHand`. @return degrees that it is off */
+  async placeOn({ entry, toHand }) {
     // A turn towards the viewer is none on the screen: from two sides, which two is all the same.
     const angles = [];
     for (const side of ["Radial", "Dorsal", "Radial"]) {

@@ -18,6 +18,7 @@ import { firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { wearsHeadset } from "./headset.mjs";
+import { printedPages } from "./report.mjs";
 import { followFromElsewhere, printedLink, traineesLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
@@ -425,6 +426,8 @@ async function operateFromVolar(page, station) {
     await page.locator(".score-table tbody tr").first().waitFor();
     const overall = Number(await page.textContent(".overall strong"));
     expect(overall > 0 && overall <= 100, `overall '${overall}'`);
+    const pages = await printedPages(page);
+    expect(pages === 2, `it prints on ${pages} pages`);
   });
 }
 

@@ -35,6 +35,13 @@ export function demoCase() {
   );
 }
 
+export function program() {
+  return need(
+    process.env.CARPUS_BIN ?? join(root, "build/release/bin/carpus"),
+    "Build it with ./run --build-only, or set CARPUS_BIN.",
+  );
+}
+
 /**
  * @param options  of `carpus serve` besides; --open unless the link is what is tried
  * @param where  a case folder, or a folder of them, in place of the demo's
@@ -42,17 +49,13 @@ export function demoCase() {
  * @return {url, caseFolder, output, records, plugIn, stop}
  */
 export async function startStation(options = ["--open"], where, fill) {
-  const program = need(
-    process.env.CARPUS_BIN ?? join(root, "build/release/bin/carpus"),
-    "Build it with ./run --build-only, or set CARPUS_BIN.",
-  );
   const caseFolder = where ?? demoCase();
   const page = need(
     join(root, "web/dist"),
     "Build the page with: npm --prefix web run build",
   );
   const records = mkdtempSync(join(tmpdir(), "carpus-browser-"));
-  fill?.(program, caseFolder, join(records, "attempts.sqlite"));
+  fill?.(program(), caseFolder, join(records, "attempts.sqlite"));
   const port = await freePort();
   // Devices and calibrations of its own: none of whoever runs this.
   const env = {
@@ -62,7 +65,7 @@ export async function startStation(options = ["--open"], where, fill) {
   };
   const output = [];
   const child = spawn(
-    program,
+    program(),
     [
       "serve",
       "--case",
@@ -93,7 +96,7 @@ export async function startStation(options = ["--open"], where, fill) {
     records,
     /** A simulated arm that is plugged in. @return {unplug} */
     async plugIn() {
-      const arm = spawn(program, ["device", "simulate", "--unit", "7"], {
+      const arm = spawn(program(), ["device", "simulate", "--unit", "7"], {
         stdio: ["ignore", "pipe", "ignore"],
         env,
       });

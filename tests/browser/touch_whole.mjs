@@ -8,6 +8,7 @@ import { check, expect } from "./checks.mjs";
 import { Fingers } from "./fingers.mjs";
 import { atRest } from "./hands.mjs";
 import { dot, Operator, readAxis } from "./operator.mjs";
+import { printedPages } from "./report.mjs";
 
 const TRAINEE = "Browser test, touch";
 /** Degrees that one pixel of a finger turns the shaft (web/README.md). */
@@ -189,8 +190,7 @@ export async function operateByTouch(browser, station) {
     const unmet = await page.locator(".must-haves li", { hasText: /not fulfilled|not judged/ }).allTextContents();
     expect(overall > 0, `${overall} points; not fulfilled: ${unmet.join("; ")}`);
     await page.locator(".placement canvas").first().waitFor();
-    const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
-    const pages = pdf.match(/\/Type\s*\/Page[^s]/g).length;
+    const pages = await printedPages(page);
     expect(pages === 2, `${pages} pages`);
   });
   await page.close();
