@@ -314,6 +314,7 @@ void write(FieldWriter& out, const Instrument& in) {
 void read(FieldReader& in, Portal& out) {
   out.id = in.string("id", 16);
   out.name = in.string("name", 64);
+  out.joint = in.string("joint", 32);
   out.landmarks = in.string("landmarks", 256);
   out.skin_mm = in.vec3("skin_mm", 10000.0, 0.0);
   out.inwards = in.vec3("inwards", 2.0, 0.0);
@@ -324,6 +325,7 @@ void read(FieldReader& in, Portal& out) {
 void write(FieldWriter& out, const Portal& in) {
   out.text("id", in.id, 16);
   out.text("name", in.name, 64);
+  out.text("joint", in.joint, 32);
   out.text("landmarks", in.landmarks, 256);
   out.vec3("skin_mm", in.skin_mm);
   out.vec3("inwards", in.inwards);
@@ -335,6 +337,7 @@ void read(FieldReader& in, TourPoint& out) {
   out.number = in.integer("number", 1, 31);
   out.name = in.string("name", 128);
   out.found_by = in.string("found_by", 256);
+  out.joint = in.string("joint", 32);
   out.is_probed = in.boolean("is_probed");
   out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
   out.body = in.string("body", 32);
@@ -344,6 +347,7 @@ void write(FieldWriter& out, const TourPoint& in) {
   out.value("number", in.number);
   out.text("name", in.name, 128);
   out.text("found_by", in.found_by, 256);
+  out.text("joint", in.joint, 32);
   out.value("is_probed", in.is_probed);
   out.vec3("at_mm", in.at_mm);
   out.text("body", in.body, 32);

@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 15;
+inline constexpr std::int64_t kProtocolVersion = 16;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -448,6 +448,8 @@ struct Instrument {
 struct Portal {
   std::string id;
   std::string name;
+  /// id of the one that it leads into; its wall is the node joint_wall_<id> of /api/scene.glb
+  std::string joint;
   /// how it is found
   std::string landmarks;
   Vec3 skin_mm;
@@ -466,6 +468,8 @@ struct TourPoint {
   std::int64_t number = 0;
   std::string name;
   std::string found_by;
+  /// id of the one that it lies in
+  std::string joint;
   /// to be touched, not only seen
   bool is_probed = false;
   Vec3 at_mm;

@@ -38,11 +38,13 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
   message.distal = data.arthroscopy->distal;
   const BodyNames names(data);
   for (const cases::Portal& portal : data.arthroscopy->portals) {
-    message.portals.push_back({portal.id, portal.name, portal.landmarks, portal.skin,
-                               portal.inwards, portal.capsule_mm, names.name(portal.body)});
+    message.portals.push_back({portal.id, portal.name, data.arthroscopy->joints[portal.joint].id,
+                               portal.landmarks, portal.skin, portal.inwards, portal.capsule_mm,
+                               names.name(portal.body)});
   }
   for (const cases::TourPoint& point : data.arthroscopy->points) {
-    message.points.push_back({point.number, point.name, point.found_by, point.is_probed, point.at,
+    message.points.push_back({point.number, point.name, point.found_by,
+                              data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});
   }
   return message;

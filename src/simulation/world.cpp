@@ -70,11 +70,6 @@ World::Model::Model(const cases::CaseData& case_data,
   for (const InstrumentIndex index : declared.tray) {
     if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
   }
-  if (map != nullptr) {
-    row_body = map->space_body;
-    const cases::Bone* lunate = cases::find_bone(case_data, BoneId::Lunate);
-    if (lunate != nullptr) row_body = static_cast<std::uint8_t>(lunate - case_data.bones.data());
-  }
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
     throw InvalidInput("simulation: the procedure " + declared.id +

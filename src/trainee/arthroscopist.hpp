@@ -1,8 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scripted operator of a diagnostic arthroscopy: pulls, goes in by both portals, looks for each
-// place of the tour in turn and probes what is to be probed, through the same input as a person.
+// A scripted operator of a diagnostic arthroscopy: pulls, goes from portal to portal, looks for
+// each place of the tour from where it is seen and probes what is to be probed, through the same
+// input as a person.
 #pragma once
 
 #include <array>
@@ -74,16 +75,31 @@ class ScriptedArthroscopist {
 
   void plan(const simulation::Snapshot& now);
   void begin(const simulation::Snapshot& now);
+  struct Stop {
+    std::uint8_t look = 0;  ///< portal of the scope
+    std::uint8_t work = 0;  ///< of the probe
+    bool is_probing = false;
+    std::vector<std::size_t> points;  ///< in the map's order
+  };
+  [[nodiscard]] std::vector<Stop> stops() const;
+  [[nodiscard]] std::uint8_t work_portal(std::uint8_t look) const;
+  void enter(std::uint8_t hand, std::uint8_t portal);
+  void draw_out(std::uint8_t hand);
+  void look_at(const Stop& stop, std::size_t point);
+  void probe(const Stop& stop, std::size_t point);
+  void look_round(const Stop& stop);
+  [[nodiscard]] Vec3 place_of(std::size_t point) const;
+  [[nodiscard]] HandPose hole(std::uint8_t portal) const;
   [[nodiscard]] HandPose through(std::uint8_t portal, const Vec3& tip) const;
   [[nodiscard]] Vec3 in_portal(std::uint8_t portal, double beyond_capsule_mm) const;
-  [[nodiscard]] View view_of(const Vec3& point, const Vec3& from) const;
-  [[nodiscard]] arthroscopy::OpenedSpace space_at(const Vec3& at) const;
-  [[nodiscard]] bool has_room(const Vec3& tip, double room_mm) const;
+  [[nodiscard]] View view_of(std::uint8_t portal, const Vec3& point, const Vec3& from) const;
+  [[nodiscard]] arthroscopy::OpenedSpace space_at(std::uint8_t joint, const Vec3& at) const;
+  [[nodiscard]] bool has_room(std::uint8_t joint, const Vec3& tip, double room_mm) const;
   [[nodiscard]] bool goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const;
-  [[nodiscard]] bool is_free(const Vec3& from, const Vec3& to) const;
+  [[nodiscard]] bool is_free(std::uint8_t joint, const Vec3& from, const Vec3& to) const;
   void give_way(const simulation::Snapshot& now);
   void go(std::uint8_t hand, const HandPose& to, double dwell_s);
-  void look(const View& view);
+  void look(std::uint8_t portal, const View& view);
   [[nodiscard]] Vec3 error(double mm);
 
   const cases::CaseData& data_;
@@ -95,9 +111,11 @@ class ScriptedArthroscopist {
   Tremor tremor_;
   procedure::Opening opening_;
   simulation::WristPose wrist_;
-  /// Of the bones about the joint, as the wrist is pulled.
+  /// Of the bones about the joints, as the wrist is pulled.
   std::vector<std::pair<const cases::Bone*, Pose<frame::Bone, frame::Patient>>> bones_;
-  Pose<frame::Bone, frame::Patient> row_from_patient_;
+  std::vector<Pose<frame::Patient, frame::Bone>> poses_;  ///< by body
+  /// By hand: the portal that it is in; none where it is outside.
+  std::array<std::uint8_t, simulation::kHands> in_{procedure::kNoBody, procedure::kNoBody};
   std::vector<Task> tasks_;
   std::size_t at_ = 0;
   bool has_planned_ = false;

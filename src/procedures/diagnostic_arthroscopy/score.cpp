@@ -37,7 +37,8 @@ Measure cartilage(const cases::CaseData& data, const procedure::ScopeRecord& sco
     sight.axis = look.axis;
     sight.least_cosine = scope.least_cosine;
     seen.look(sight,
-              {look.flexion_rad, look.radial_deviation_rad, look.pronation_rad, look.traction_n});
+              {look.flexion_rad, look.radial_deviation_rad, look.pronation_rad, look.traction_n},
+              look.joint);
   }
   std::string finding;
   for (std::size_t b = 0; b < data.bones.size(); ++b) {
@@ -61,6 +62,14 @@ procedure::ScoreReport score(const cases::CaseData& data,
   const bool has_map = data.arthroscopy != nullptr;
   measures.push_back({"points_seen", count(scope.facts.points_seen),
                       has_map ? missing(*data.arthroscopy, scope.facts.points_seen) : ""});
+  Measure share{"points_seen_share", {}, ""};
+  if (has_map && !data.arthroscopy->points.empty()) {
+    const auto all = static_cast<double>(data.arthroscopy->points.size());
+    share.value = count(scope.facts.points_seen) / all * 100;
+    share.finding =
+        "Of " + std::to_string(data.arthroscopy->points.size()) + " that this wrist has.";
+  }
+  measures.push_back(std::move(share));
   measures.push_back({"points_probed", count(scope.facts.points_probed), ""});
   measures.push_back(has_map ? cartilage(data, scope) : Measure{"cartilage_seen_share", {}, ""});
   measures.push_back({"scope_path_mm", scope.path_mm[0], ""});

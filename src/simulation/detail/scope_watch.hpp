@@ -16,7 +16,7 @@
 namespace carpus::simulation::detail {
 
 inline constexpr std::uint8_t kNoPortal = procedure::kNoBody;
-inline constexpr std::size_t kMaxLooks = 2048;
+inline constexpr std::size_t kMaxLooks = 4096;
 /// A point is seen once it was in view for so long without a break [E].
 inline constexpr std::uint32_t kSeenTicks = 1000;
 
@@ -33,6 +33,7 @@ struct ScopeState {
   std::uint32_t points_probed = 0;
   std::uint32_t entries = 0;
   std::uint32_t pull_outs = 0;
+  std::uint8_t last_entered = kNoPortal;  ///< by the scope
   std::uint32_t looking_ticks = 0;
   std::uint32_t tilted_ticks = 0;
   std::uint32_t warn_ticks = 0;
@@ -57,6 +58,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
   v(state.points_probed);
   v(state.entries);
   v(state.pull_outs);
+  v(state.last_entered);
   v(state.looking_ticks);
   v(state.tilted_ticks);
   v(state.warn_ticks);
@@ -73,6 +75,7 @@ void visit_look(SomeLook& look, Visitor&& v) noexcept {
   v(look.flexion_rad);
   v(look.radial_deviation_rad);
   v(look.pronation_rad);
+  v(look.joint);
 }
 
 /// Whether a tick could have left it in a case with so many portals.

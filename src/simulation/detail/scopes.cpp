@@ -64,9 +64,11 @@ Vec3 World::State::led_by_portal(const Model& model,
 }
 
 arthroscopy::OpenedSpace World::State::joint_space_at(const Model& model,
+                                                      std::uint8_t joint,
                                                       const Vec3& point) const noexcept {
-  return arthroscopy::opened_space_at(model.map->space, inverses[model.map->space_body],
-                                      inverses[model.row_body], point);
+  const cases::JointSpace& space = model.map->joints[joint];
+  return arthroscopy::opened_space_at(space.wall, inverses[space.proximal], inverses[space.distal],
+                                      point);
 }
 
 /// How deep a tip is in what does not yield, and which way is out; depth 0 where it is in none.
@@ -75,13 +77,18 @@ World::State::Wall World::State::wall_at(const Model& model,
                                          const Vec3& tip) const noexcept {
   const Item& item = now.items[now.held[hand]];
   if (!enters_joints(model, item)) return {};
-  const arthroscopy::OpenedSpace space = joint_space_at(model, tip);
   const std::uint8_t portal = scope_state.portal[hand];
   if (portal == kNoPortal) {
-    const bool is_near = space.is_near && space.distance_mm < kKeptOutMm;
-    if (!is_near) return {};
-    return {kKeptOutMm - space.distance_mm, space.outwards};
+    Wall deepest;
+    for (std::uint8_t joint = 0; joint < model.map->joints.size(); ++joint) {
+      const arthroscopy::OpenedSpace space = joint_space_at(model, joint, tip);
+      const double deep = space.is_near ? kKeptOutMm - space.distance_mm : 0.0;
+      if (deep > deepest.depth_mm) deepest = {deep, space.outwards};
+    }
+    return deepest;
   }
+  const arthroscopy::OpenedSpace space =
+      joint_space_at(model, model.map->portals[portal].joint, tip);
   if (space.is_near && space.distance_mm <= kWallMm) return {};
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
@@ -118,16 +125,21 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   const double deep = dot(item.tip - way.skin, way.inwards);
   bool& is_in = state.is_in_joint[hand];
   const bool is_scope = kind_of(model, item).optic.has_value();
-  const arthroscopy::OpenedSpace space = joint_space_at(model, item.tip);
+  const arthroscopy::OpenedSpace space =
+      joint_space_at(model, model.map->portals[portal].joint, item.tip);
   const double out_mm = space.is_near ? space.distance_mm : kFarOutMm;
   if (!is_in && out_mm < 0.0) {
     is_in = true;
     state.last_tip[hand] = item.tip;
-    if (is_scope) ++state.entries;
+    if (is_scope) {
+      ++state.entries;
+      // Back by the way that it left: it had fallen out. To go to another portal is none.
+      if (state.last_entered == portal) ++state.pull_outs;
+      state.last_entered = portal;
+    }
     emit(EventKind::EnteredJoint, now.held[hand], portal, 0.0);
   } else if (is_in && out_mm > kLeftMm && deep < way.capsule_mm) {
     is_in = false;
-    if (is_scope) ++state.pull_outs;
     emit(EventKind::LeftJoint, now.held[hand], portal, 0.0);
   }
   if (deep < 0.0) portal = kNoPortal;
@@ -135,13 +147,14 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
 
 /// Whether nothing stands before the point: the line of sight stays in the joint and out of bone.
 bool World::State::is_in_sight(const Model& model,
+                               std::uint8_t joint,
                                const Vec3& eye,
                                const Vec3& point) const noexcept {
   const Vec3 way = point - eye;
   const double far = length(way);
   for (double s = kSightStepMm; s < far - kSightShortMm; s += kSightStepMm) {
     const Vec3 at = eye + way * (s / far);
-    const arthroscopy::OpenedSpace space = joint_space_at(model, at);
+    const arthroscopy::OpenedSpace space = joint_space_at(model, joint, at);
     if (!space.is_near || space.distance_mm > kBehindWallMm) return false;
     const Touched bone = surface_at(at);
     if (bone.body != kNoBody && bone.distance_mm < -kHiddenMm) return false;
@@ -149,17 +162,19 @@ bool World::State::is_in_sight(const Model& model,
   return true;
 }
 
-/// One of the points a tick: all of them many times a second.
-void World::State::look_at_points(const Model& model, const arthroscopy::Sight& sight) noexcept {
+/// One of the points a tick: all of them many times a second. Those of another joint are not seen.
+void World::State::look_at_points(const Model& model,
+                                  std::uint8_t joint,
+                                  const arthroscopy::Sight& sight) noexcept {
   const auto& points = model.map->points;
   if (points.empty()) return;
   const auto count = static_cast<std::uint32_t>(points.size());
   const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
   const cases::TourPoint& point = points[turn];
   const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
-  const bool is_seen = arthroscopy::is_in_field(sight, at) &&
+  const bool is_seen = point.joint == joint && arthroscopy::is_in_field(sight, at) &&
                        distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
-                       is_in_sight(model, sight.eye, at);
+                       is_in_sight(model, joint, sight.eye, at);
   detail::ScopeState& state = scope_state;
   const std::uint32_t bit = 1U << point.number;
   state.in_view_ticks[turn] = is_seen ? state.in_view_ticks[turn] + count : 0;
@@ -171,20 +186,23 @@ void World::State::look_at_points(const Model& model, const arthroscopy::Sight& 
   }
 }
 
-void World::State::note_scope_look(const arthroscopy::Sight& sight) noexcept {
+void World::State::note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept {
   detail::ScopeState& state = scope_state;
   if (state.look_count >= detail::kMaxLooks) return;
   if (state.look_count > 0) {
     const procedure::ScopeLook& last = looks[state.look_count - 1];
     const double moved = distance(last.eye, sight.eye);
-    if (moved < kNewLookMm && dot(last.axis, sight.axis) > kNewLookCosine) return;
+    if (moved < kNewLookMm && dot(last.axis, sight.axis) > kNewLookCosine && last.joint == joint) {
+      return;
+    }
   }
   looks[state.look_count++] = {sight.eye,
                                sight.axis,
                                spent.wrist.traction_n,
                                spent.wrist.flexion_rad,
                                spent.wrist.radial_deviation_rad,
-                               spent.wrist.pronation_rad};
+                               spent.wrist.pronation_rad,
+                               joint};
 }
 
 void World::State::note_probing(const Model& model, std::uint8_t hand, const Item& item) noexcept {
@@ -192,8 +210,11 @@ void World::State::note_probing(const Model& model, std::uint8_t hand, const Ite
       spent.hands[hand].touched_body != kNoBody ||
       distance(item.tip, spent.hands[hand].plan.tip) > kWallMm;  // a wall holds it back
   if (!touches) return;
+  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
   for (const cases::TourPoint& point : model.map->points) {
-    if (!point.is_probed || has_bit(scope_state.points_probed, point.number)) continue;
+    if (!point.is_probed || point.joint != joint ||
+        has_bit(scope_state.points_probed, point.number))
+      continue;
     const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
     if (distance(at, item.tip) > kProbedMm) continue;
     scope_state.points_probed |= 1U << point.number;
@@ -206,7 +227,7 @@ std::optional<arthroscopy::Sight> World::State::sight_of(const Model& model,
                                                          const Item& item) const noexcept {
   const instruments::Instrument& kind = kind_of(model, item);
   if (!kind.optic || model.map == nullptr) return std::nullopt;
-  const Vec3 level = (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
+  const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
   return arthroscopy::sight_of({kind.optic->view_angle_deg, kind.optic->field_deg},
                                {item.tip + item.shaft * kind.shape.front_z_mm(), item.shaft,
                                 scope_state.shaft_turn_deg, scope_state.camera_turn_deg},
@@ -224,7 +245,8 @@ void World::State::watch_scopes(const Model& model) noexcept {
       continue;
     }
     follow_portal(model, h, *item);
-    if (!state.is_in_joint[h]) continue;
+    if (!state.is_in_joint[h] || state.portal[h] == kNoPortal) continue;
+    const std::uint8_t joint = model.map->portals[state.portal[h]].joint;
     const std::size_t what = kind_of(model, *item).optic ? 0 : 1;
     state.path_mm[what] += distance(state.last_tip[h], item->tip);
     state.last_tip[h] = item->tip;
@@ -234,26 +256,33 @@ void World::State::watch_scopes(const Model& model) noexcept {
     state.most_force_n = std::max(state.most_force_n, force);
     if (const auto sight = sight_of(model, *item)) {
       ++state.looking_ticks;
-      const Vec3 level =
-          (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
+      const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
       if (arthroscopy::horizon_cosine(*sight, level) < kLevelCosine) ++state.tilted_ticks;
-      look_at_points(model, *sight);
-      note_scope_look(*sight);
+      look_at_points(model, joint, *sight);
+      note_scope_look(joint, *sight);
     } else {
       note_probing(model, h, *item);
     }
   }
 }
 
-procedure::ScopeFacts World::State::scope_facts() const noexcept {
-  return {scope_state.portal, scope_state.is_in_joint, scope_state.points_seen,
-          scope_state.points_probed};
+procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexcept {
+  procedure::ScopeFacts facts;
+  facts.portal = scope_state.portal;
+  for (std::size_t h = 0; h < kHands && model.map != nullptr; ++h) {
+    const std::uint8_t portal = scope_state.portal[h];
+    if (portal != kNoPortal) facts.joint[h] = model.map->portals[portal].joint;
+  }
+  facts.is_in_joint = scope_state.is_in_joint;
+  facts.points_seen = scope_state.points_seen;
+  facts.points_probed = scope_state.points_probed;
+  return facts;
 }
 
 procedure::ScopeRecord World::State::scope_record(const Model& model) const {
   const detail::ScopeState& state = scope_state;
   procedure::ScopeRecord record;
-  record.facts = scope_facts();
+  record.facts = scope_facts(model);
   record.path_mm = state.path_mm;
   record.entries = state.entries;
   record.pull_outs = state.pull_outs;
@@ -278,7 +307,7 @@ void World::State::publish_scope(const Model& model) noexcept {
   if (model.map == nullptr) return;
   view.shaft_turn_deg = scope_state.shaft_turn_deg;
   view.camera_turn_deg = scope_state.camera_turn_deg;
-  view.facts = scope_facts();
+  view.facts = scope_facts(model);
   view.points_in_view = scope_state.points_in_view;
   view.pull_outs = scope_state.pull_outs;
   for (std::uint8_t h = 0; h < kHands; ++h) {

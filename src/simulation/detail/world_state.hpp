@@ -50,7 +50,6 @@ struct World::Model {
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
   const cases::ArthroscopicMap* map = nullptr;
-  std::uint8_t row_body = 0;  ///< with which the joint's distal wall goes
 };
 
 /// Everything that changes.
@@ -250,19 +249,23 @@ struct World::State {
                                    const Vec3& tip,
                                    const Vec3& shaft) const noexcept;
   [[nodiscard]] arthroscopy::OpenedSpace joint_space_at(const Model& model,
+                                                        std::uint8_t joint,
                                                         const Vec3& point) const noexcept;
   [[nodiscard]] Wall wall_at(const Model& model, std::uint8_t hand, const Vec3& tip) const noexcept;
   void follow_portal(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] bool is_in_sight(const Model& model,
+                                 std::uint8_t joint,
                                  const Vec3& eye,
                                  const Vec3& point) const noexcept;
-  void look_at_points(const Model& model, const arthroscopy::Sight& sight) noexcept;
-  void note_scope_look(const arthroscopy::Sight& sight) noexcept;
+  void look_at_points(const Model& model,
+                      std::uint8_t joint,
+                      const arthroscopy::Sight& sight) noexcept;
+  void note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept;
   void note_probing(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,
                                                            const detail::Item& item) const noexcept;
   void watch_scopes(const Model& model) noexcept;
-  [[nodiscard]] procedure::ScopeFacts scope_facts() const noexcept;
+  [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;
   [[nodiscard]] procedure::ScopeRecord scope_record(const Model& model) const;
 

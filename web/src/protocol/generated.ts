@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 15;
+export const PROTOCOL_VERSION = 16;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -309,6 +309,8 @@ export interface Instrument {
 export interface Portal {
   readonly id: string;
   readonly name: string;
+  /** id of the one that it leads into; its wall is the node joint_wall_<id> of /api/scene.glb */
+  readonly joint: string;
   /** how it is found */
   readonly landmarks: string;
   readonly skin_mm: Vec3;
@@ -326,6 +328,8 @@ export interface TourPoint {
   readonly number: number;
   readonly name: string;
   readonly found_by: string;
+  /** id of the one that it lies in */
+  readonly joint: string;
   /** to be touched, not only seen */
   readonly is_probed: boolean;
   readonly at_mm: Vec3;

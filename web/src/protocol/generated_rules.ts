@@ -160,6 +160,7 @@ export const SCHEMA: Schema = {
     portal: { fields: {
       id: {"type": "string", "max_length": 16},
       name: {"type": "string", "max_length": 64},
+      joint: {"type": "string", "max_length": 32},
       landmarks: {"type": "string", "max_length": 256},
       skin_mm: {"type": "vec3", "limit": 10000},
       inwards: {"type": "vec3", "limit": 2},
@@ -170,6 +171,7 @@ export const SCHEMA: Schema = {
       number: {"type": "integer", "min": 1, "max": 31},
       name: {"type": "string", "max_length": 128},
       found_by: {"type": "string", "max_length": 256},
+      joint: {"type": "string", "max_length": 32},
       is_probed: {"type": "boolean"},
       at_mm: {"type": "vec3", "limit": 10000},
       body: {"type": "string", "max_length": 32},

@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws the scope's round picture: the joint's wall and what the other hand holds in it.
+// Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
 import type { Vec3 } from "../protocol";
 import type { JointWall } from "./joint_wall";
@@ -34,20 +34,25 @@ export class ScopePicture {
   private readonly camera = new THREE.Camera();
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
-  private readonly wall: THREE.Mesh;
+  private readonly walls: ReadonlyMap<string, THREE.Mesh>;
   private readonly backdrop = new ScopeBackdrop(this.lens);
 
-  constructor(wall: JointWall) {
+  constructor(walls: readonly JointWall[]) {
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(1);
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader does it
     this.canvas = this.renderer.domElement;
     this.canvas.className = "scope-picture";
     this.canvas.setAttribute("aria-label", "The arthroscope's picture");
-    this.wall = new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle));
+    this.walls = new Map(
+      walls.map((wall) => [
+        wall.joint,
+        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle)),
+      ]),
+    );
     this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
     this.scene.add(this.backdrop.mesh);
-    for (const mesh of [this.wall, this.rod]) {
+    for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
     }
@@ -58,8 +63,12 @@ export class ScopePicture {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
   }
 
-  /** @param skin  the portal that the lens is before; undefined once it is under the skin */
+  /**
+   * @param joint  id of the one that the scope's portal leads into
+   * @param skin  the portal that the lens is before; undefined once it is under the skin
+   */
   draw(
+    joint: string,
     sight: ScopeSight,
     rod: Rod | undefined,
     sizePx: number,
@@ -76,7 +85,7 @@ export class ScopePicture {
       .copy(eye.value)
       .addScaledVector(up.value, LAMP_UP_MM)
       .addScaledVector(right.value, LAMP_RIGHT_MM);
-    this.wall.visible = skin === undefined;
+    for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.rod.visible = rod !== undefined;
     if (rod !== undefined) {
@@ -98,7 +107,7 @@ export class ScopePicture {
 
   dispose(): void {
     this.backdrop.dispose();
-    for (const mesh of [this.wall, this.rod]) {
+    for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();
     }

@@ -286,7 +286,10 @@ export class TrainPage {
   }
 
   private makeScope(stage: HTMLElement, scene: CaseScene): ScopeDesk {
-    const wall = scene.jointWall === undefined ? undefined : jointWallOf(scene.jointWall);
+    const walls = [...scene.jointWalls].flatMap(([joint, surface]) => {
+      const wall = jointWallOf(joint, surface);
+      return wall === undefined ? [] : [wall];
+    });
     const desk = new ScopeDesk(
       {
         stage,
@@ -310,7 +313,7 @@ export class TrainPage {
           this.theatre.setActiveHand(hand);
         },
       },
-      wall,
+      walls,
       this.abort.signal,
     );
     stage.after(desk.element);
