@@ -9,47 +9,26 @@
 #include <string>
 #include <utility>
 
+#include "arthroscopy/generic_wrist_test_support.hpp"
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
-#include "cases/make_hand_motion.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
-#include "soft_tissue/make_soft_tissue.hpp"
-#include "soft_tissue/model_case_test_support.hpp"
 
 namespace carpus::arthroscopy {
 namespace {
 
-/// The generic wrist, right and turned; made once.
 class MakeMap : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    const Mat3 turned = Mat3::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0});
-    data_ = new cases::CaseData(soft_tissue::test::model_case(Side::Right, 1.05, turned));
-    for (cases::Bone& bone : data_->bones) {
-      bone.distance_field = fields::build_distance_field(bone.surface, {0.6, 4.0});
-    }
-    cases::ensure_hand_motion(*data_);
-    tissue_ = new soft_tissue::SoftTissue(soft_tissue::make_soft_tissue(*data_));
-    map_ = new cases::ArthroscopicMap(make_map(*data_, *tissue_));
-  }
-  static void TearDownTestSuite() {
-    delete map_;
-    delete tissue_;
-    delete data_;
-  }
-  static Vec3 in_wrist(const Vec3& v) {
+  [[nodiscard]] Vec3 in_wrist(const Vec3& v) const {
     return (data_->wrist_from_patient * Point<frame::Patient>{v}).v;
   }
 
-  static cases::CaseData* data_;
-  static soft_tissue::SoftTissue* tissue_;
-  static cases::ArthroscopicMap* map_;
+  const cases::CaseData* data_ = &test::generic_wrist().data;
+  const soft_tissue::SoftTissue* tissue_ = &test::generic_wrist().tissue;
+  const cases::ArthroscopicMap* map_ = &test::generic_wrist().map;
 };
-cases::CaseData* MakeMap::data_ = nullptr;
-soft_tissue::SoftTissue* MakeMap::tissue_ = nullptr;
-cases::ArthroscopicMap* MakeMap::map_ = nullptr;
 
 TEST_F(MakeMap, PortalsLieDorsallyAndTheirWaysLeadIntoTheJoint) {
   ASSERT_NE(find_portal(*map_, "3-4"), nullptr) << ::testing::PrintToString(map_->problems);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/joint_lesions.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "procedure/situation.hpp"
@@ -64,6 +65,10 @@ struct ScopeRecord {
   Tick injury_ticks = 0;        ///< more than 8 N
   double most_force_n = 0;
   double least_cosine = 1;  ///< of half the scope's field
+  cases::Grades truth{};    ///< of an examination, by finding (data/pathology.json)
+  cases::Grades answers = cases::not_judged();
+  std::uint32_t lesions = 0;  ///< that there are
+  std::uint32_t lesions_seen = 0;
   std::vector<ScopeLook> looks;
 };
 

@@ -109,6 +109,7 @@ struct ScopeFacts {
   std::array<bool, kHands> is_in_joint{};
   std::uint32_t points_seen = 0;    ///< for a second at a useful distance, nothing before them
   std::uint32_t points_probed = 0;  ///< touched by the probe
+  std::uint8_t unanswered = 0;      ///< of what an examination asks
   bool operator==(const ScopeFacts&) const = default;
 };
 

@@ -49,7 +49,8 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 3U);
+  ASSERT_EQ(built_in().all().size(), 4U);
+  EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
   EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
   EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);

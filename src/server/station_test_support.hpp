@@ -29,8 +29,8 @@ using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
-inline constexpr const char* kHello = R"({"type":"hello","protocol":16,"page":"first"})";
-inline constexpr const char* kSecondHello = R"({"type":"hello","protocol":16,"page":"second"})";
+inline constexpr const char* kHello = R"({"type":"hello","protocol":17,"page":"first"})";
+inline constexpr const char* kSecondHello = R"({"type":"hello","protocol":17,"page":"second"})";
 inline constexpr const char* kStart =
     R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
     R"("input_device":"mouse","seed":7})";

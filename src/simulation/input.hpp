@@ -38,8 +38,17 @@ enum class CommandKind : std::uint8_t {
   UseAid = 11,     ///< `index`: which procedure::Aid; practice only
   SetTube = 12,    ///< `index`: a procedure::TubeSetting, from the next pulse on
   TurnScope = 13,  ///< the scope's shaft is turned to `rotation_deg`, its camera head to `tilt_deg`
+  Answer = 14,     ///< of an examination: `index` is packed by answer_index
 };
-inline constexpr std::uint8_t kCommandKinds = 14;
+inline constexpr std::uint8_t kCommandKinds = 15;
+
+/// What is answered of a finding; 15 takes the answer back.
+inline constexpr std::uint8_t kGradesAFinding = 16;
+inline constexpr std::uint8_t kNoGrade = kGradesAFinding - 1;
+[[nodiscard]] constexpr std::uint8_t answer_index(std::size_t finding,
+                                                  std::uint8_t grade) noexcept {
+  return static_cast<std::uint8_t>(finding * kGradesAFinding + grade);
+}
 
 struct Command {
   CommandKind kind = CommandKind::None;

@@ -10,6 +10,7 @@
 
 #include "arthroscopy/make_map.hpp"
 #include "arthroscopy/opened_space.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "cases/joint_under_block.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
@@ -48,9 +49,9 @@ bool is_arthroscopy(const procedure::Procedure& procedure) {
 ScopeSkill scope_skill_of(Skill skill) noexcept {
   ScopeSkill result;
   if (skill == Skill::Middle) {
-    result = {50.0, 9.0, 0.1, 0.5, 10.0, 9.0, 1.3, 1, 0.06, 1.2, 2.5, 0.7};
+    result = {50.0, 9.0, 0.1, 0.5, 10.0, 9.0, 1.3, 1, 0.06, 1.2, 2.5, 0.7, 0.82, 0.65, 0.07, 0.05};
   } else if (skill == Skill::Novice) {
-    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2, 3.0, 6.0, 1.0};
+    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2, 3.0, 6.0, 1.0, 0.6, 0.4, 0.14, 0.15};
   }
   return result;
 }
@@ -319,10 +320,48 @@ void ScriptedArthroscopist::plan(const simulation::Snapshot&) {
     if ((looked_round & joint_bit) == 0) look_round(stop);
     looked_round = static_cast<std::uint8_t>(looked_round | joint_bit);
   }
+  if (procedure_.examines) {
+    Task report;
+    report.to = {planned_[kScope], hands_[kScope].shaft};
+    report.answers = true;
+    tasks_.push_back(report);
+  }
   Task finish;
   finish.to = {planned_[kScope], {}};
   finish.finishes = true;
   tasks_.push_back(finish);
+}
+
+/// One finding a tick.
+void ScriptedArthroscopist::answer(const simulation::Snapshot& now, simulation::Input& input) {
+  if (answered_ >= arthroscopy::PathologyTable::generic().findings.size()) return;
+  const std::uint8_t grade = judged(answered_, now.scope.lesions_seen);
+  input.command.kind = CommandKind::Answer;
+  input.command.index = simulation::answer_index(answered_, grade);
+  ++answered_;
+}
+
+/// What is named of what came into view; what did not is taken for well.
+std::uint8_t ScriptedArthroscopist::judged(std::size_t finding, std::uint32_t lesions_seen) {
+  const auto grades = arthroscopy::PathologyTable::generic().scale_of(finding).grades.size();
+  const auto some = static_cast<std::uint8_t>(1 + rng_.below(grades - 1));
+  const double chance = rng_.uniform(0.0, 1.0);
+  const double exact = rng_.uniform(0.0, 1.0);
+  if (rng_.uniform(0.0, 1.0) < skill_.says_nothing) return simulation::kNoGrade;
+  const std::uint8_t truth = lesions_ != nullptr ? lesions_->grades[finding] : std::uint8_t{0};
+  bool is_seen = false;
+  for (std::size_t i = 0; truth != 0 && i < lesions_->lesions.size(); ++i) {
+    const bool is_of_it = lesions_->lesions[i].finding == finding;
+    is_seen = is_seen || (is_of_it && (lesions_seen >> i & 1U) != 0);
+  }
+  if (!is_seen) return chance < skill_.invents ? some : std::uint8_t{0};
+  if (chance >= skill_.recognises) return 0;
+  if (exact < skill_.grades_right) return truth;
+  // The grade beside it.
+  if (truth + 1U < grades && (truth == 1 || exact > 0.5 * (1.0 + skill_.grades_right))) {
+    return static_cast<std::uint8_t>(truth + 1);
+  }
+  return truth > 1 ? static_cast<std::uint8_t>(truth - 1) : truth;
 }
 
 void ScriptedArthroscopist::begin(const simulation::Snapshot& now) {
@@ -378,8 +417,9 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     const HandPose& from = hands_[task.hand];
     move_ticks_ = std::max(kLeastMoveTicks,
                            ticks_of(distance(from.tip, task.to.tip) / skill_.speed_mm_per_s));
-    if (task.finishes) move_ticks_ = 1;
-    move_ = MinimumJerkMove(from, task.finishes ? from : task.to, move_ticks_);
+    const bool stays = task.finishes || task.answers;
+    if (stays) move_ticks_ = 1;
+    move_ = MinimumJerkMove(from, stays ? from : task.to, move_ticks_);
     if (task.takes_probe) {
       hands_[task.hand] = task.to;
       move_ = MinimumJerkMove(task.to, task.to, 1);
@@ -394,6 +434,9 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     input.command.kind = CommandKind::Take;
     input.command.hand = task.hand;
     input.command.index = procedure_.tray.back();
+  } else if (task.answers) {
+    answer(now, input);
+    if (answered_ < arthroscopy::PathologyTable::generic().findings.size()) return input;
   } else if (task.finishes) {
     input.command.kind = CommandKind::Finish;
     is_finished_ = true;

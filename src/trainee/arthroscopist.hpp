@@ -15,6 +15,7 @@
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/optics.hpp"
 #include "cases/case_data.hpp"
+#include "cases/joint_lesions.hpp"
 #include "core/rng.hpp"
 #include "procedure/procedure.hpp"
 #include "simulation/input.hpp"
@@ -41,6 +42,10 @@ struct ScopeSkill {
   double presses_mm = 1.3;      ///< with which the probe goes beyond what it touches
   double yields_n = 2.0;        ///< pressed more, the hand gives way
   double reaction_s = 0.4;
+  double recognises = 0.96;  ///< chance to name what came into view
+  double grades_right = 0.88;
+  double invents = 0.02;  ///< chance to see something where nothing is
+  double says_nothing = 0.0;
 };
 [[nodiscard]] ScopeSkill scope_skill_of(Skill skill) noexcept;
 
@@ -51,6 +56,9 @@ class ScriptedArthroscopist {
                         const procedure::Procedure& procedure,
                         Skill skill,
                         std::uint64_t seed);
+
+  /// What it may come to see and is asked about at the end; nullptr: nothing. Must outlive it.
+  void examines(const cases::JointLesions* lesions) noexcept { lesions_ = lesions; }
 
   /// The input for the next tick, from the state that the last one left.
   [[nodiscard]] simulation::Input next(const simulation::Snapshot& now);
@@ -65,6 +73,7 @@ class ScriptedArthroscopist {
     Tick dwell = 0;
     bool takes_probe = false;
     bool turns = false;
+    bool answers = false;  ///< all that is asked, one a tick
     bool finishes = false;
   };
   struct View {
@@ -101,6 +110,8 @@ class ScriptedArthroscopist {
   void go(std::uint8_t hand, const HandPose& to, double dwell_s);
   void look(std::uint8_t portal, const View& view);
   [[nodiscard]] Vec3 error(double mm);
+  void answer(const simulation::Snapshot& now, simulation::Input& input);
+  [[nodiscard]] std::uint8_t judged(std::size_t finding, std::uint32_t lesions_seen);
 
   const cases::CaseData& data_;
   const procedure::Procedure& procedure_;
@@ -126,6 +137,8 @@ class ScriptedArthroscopist {
   std::array<Vec3, simulation::kHands> given_{};  ///< by which the hands gave way
   Tick in_task_ = 0;
   Tick move_ticks_ = 1;
+  const cases::JointLesions* lesions_ = nullptr;
+  std::size_t answered_ = 0;
   double turn_deg_ = 0.0;
   double tilt_deg_ = 0.0;
   std::array<Vec3, simulation::kHands> planned_{};  ///< where the plan so far leaves each tip

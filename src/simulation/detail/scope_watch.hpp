@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "cases/arthroscopic_map.hpp"
+#include "cases/joint_lesions.hpp"
 #include "procedure/operation_record.hpp"
 #include "simulation/detail/operation_state.hpp"
 
@@ -40,6 +41,9 @@ struct ScopeState {
   std::uint32_t injury_ticks = 0;
   double most_force_n = 0.0;
   std::uint32_t look_count = 0;
+  std::array<std::uint32_t, cases::kMaxLesions> lesion_ticks{};  ///< since it came into view
+  std::uint32_t lesions_seen = 0;
+  cases::Grades answers = cases::not_judged();
 };
 
 template <Is<ScopeState> SomeState, typename Visitor>
@@ -65,6 +69,9 @@ void visit(SomeState& state, Visitor&& v) noexcept {
   v(state.injury_ticks);
   v(state.most_force_n);
   v(state.look_count);
+  for (auto& ticks : state.lesion_ticks) v(ticks);
+  v(state.lesions_seen);
+  for (auto& grade : state.answers) v(grade);
 }
 
 template <typename SomeLook, typename Visitor>

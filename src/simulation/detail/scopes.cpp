@@ -4,9 +4,11 @@
 // What enters joints: it goes in by a portal, whose hole in the skin it pivots in, and stops at the
 // walls of the joint's space, which are rigid. What the scope shows for how long; how it was led.
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "arthroscopy/optics.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "arthroscopy/seen_share.hpp"
 #include "simulation/detail/world_state.hpp"
 
@@ -67,8 +69,15 @@ arthroscopy::OpenedSpace World::State::joint_space_at(const Model& model,
                                                       std::uint8_t joint,
                                                       const Vec3& point) const noexcept {
   const cases::JointSpace& space = model.map->joints[joint];
-  return arthroscopy::opened_space_at(space.wall, inverses[space.proximal], inverses[space.distal],
-                                      point);
+  arthroscopy::OpenedSpace opened = arthroscopy::opened_space_at(
+      space.wall, inverses[space.proximal], inverses[space.distal], point);
+  // What tore loose takes its part of the wall along.
+  for (std::size_t i = 0; i < model.loose_count; ++i) {
+    const auto& loose = inverses[model.loose[i]];
+    const auto at = arthroscopy::opened_space_at(space.wall, loose, loose, point);
+    if (at.is_near && (!opened.is_near || at.distance_mm < opened.distance_mm)) opened = at;
+  }
+  return opened;
 }
 
 /// How deep a tip is in what does not yield, and which way is out; depth 0 where it is in none.
@@ -90,6 +99,8 @@ World::State::Wall World::State::wall_at(const Model& model,
   const arthroscopy::OpenedSpace space =
       joint_space_at(model, model.map->portals[portal].joint, tip);
   if (space.is_near && space.distance_mm <= kWallMm) return {};
+  const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
+  if (is_in_hole(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
   const Vec3 aside = tip - way.skin - way.inwards * deep;
@@ -186,6 +197,54 @@ void World::State::look_at_points(const Model& model,
   }
 }
 
+/// Where it is in the body's own frame, as if nothing had torn loose.
+Vec3 World::State::unshifted(const Model& model, std::uint8_t body, const Vec3& at) const noexcept {
+  return (inverses[body] * Point<frame::Patient>{at}).v +
+         model.lesions->shift_of(body, spent.wrist.traction_n);
+}
+
+/// Through a torn ligament or disc what is thin enough goes on, out of the joint.
+bool World::State::is_in_hole(const Model& model,
+                              std::uint8_t joint,
+                              const Vec3& at,
+                              double radius_mm) const noexcept {
+  if (!model.lesions) return false;
+  for (const cases::Lesion& lesion : model.lesions->lesions) {
+    if (lesion.joint != joint || !(lesion.passes_mm > radius_mm)) continue;
+    if (cases::passes(lesion, unshifted(model, lesion.body, at), radius_mm)) return true;
+  }
+  return false;
+}
+
+/// As look_at_points.
+void World::State::look_at_lesions(const Model& model,
+                                   std::uint8_t joint,
+                                   const arthroscopy::Sight& sight) noexcept {
+  if (!model.lesions || model.lesions->lesions.empty()) return;
+  const auto& lesions = model.lesions->lesions;
+  const auto count = static_cast<std::uint32_t>(lesions.size());
+  const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
+  const cases::Lesion& lesion = lesions[turn];
+  const Vec3 middle = (lesion.from + lesion.to) * 0.5 -
+                      model.lesions->shift_of(lesion.body, spent.wrist.traction_n);
+  const Vec3 at = (poses[lesion.body] * Point<frame::Bone>{middle}).v;
+  const bool is_seen = lesion.joint == joint && arthroscopy::is_in_field(sight, at) &&
+                       distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
+                       is_in_sight(model, joint, sight.eye, at);
+  std::uint32_t& ticks = scope_state.lesion_ticks[turn];
+  ticks = is_seen ? ticks + count : 0;
+  if (ticks >= detail::kSeenTicks) scope_state.lesions_seen |= 1U << turn;
+}
+
+std::uint8_t World::State::unanswered(const Model& model) const noexcept {
+  if (!model.lesions) return 0;
+  std::uint8_t count = 0;
+  for (std::size_t f = 0; f < arthroscopy::PathologyTable::generic().findings.size(); ++f) {
+    if (scope_state.answers[f] == cases::kNotJudged) ++count;
+  }
+  return count;
+}
+
 void World::State::note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept {
   detail::ScopeState& state = scope_state;
   if (state.look_count >= detail::kMaxLooks) return;
@@ -259,6 +318,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
       const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
       if (arthroscopy::horizon_cosine(*sight, level) < kLevelCosine) ++state.tilted_ticks;
       look_at_points(model, joint, *sight);
+      look_at_lesions(model, joint, *sight);
       note_scope_look(joint, *sight);
     } else {
       note_probing(model, h, *item);
@@ -276,6 +336,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.is_in_joint = scope_state.is_in_joint;
   facts.points_seen = scope_state.points_seen;
   facts.points_probed = scope_state.points_probed;
+  facts.unanswered = unanswered(model);
   return facts;
 }
 
@@ -297,6 +358,12 @@ procedure::ScopeRecord World::State::scope_record(const Model& model) const {
     record.least_cosine = arthroscopy::cos_sin_deg(optic->field_deg / 2)[0];
     break;
   }
+  record.answers = state.answers;
+  if (model.lesions) {
+    record.truth = model.lesions->grades;
+    record.lesions = static_cast<std::uint32_t>(model.lesions->lesions.size());
+    record.lesions_seen = static_cast<std::uint32_t>(std::popcount(state.lesions_seen));
+  }
   record.looks.assign(looks.begin(), looks.begin() + state.look_count);
   return record;
 }
@@ -310,6 +377,8 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.facts = scope_facts(model);
   view.points_in_view = scope_state.points_in_view;
   view.pull_outs = scope_state.pull_outs;
+  view.lesions_seen = scope_state.lesions_seen;
+  view.answers = scope_state.answers;
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

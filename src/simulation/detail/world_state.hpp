@@ -50,6 +50,9 @@ struct World::Model {
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
   const cases::ArthroscopicMap* map = nullptr;
+  std::optional<cases::JointLesions> lesions;    ///< of an examination
+  std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
+  std::size_t loose_count = 0;
 };
 
 /// Everything that changes.
@@ -260,6 +263,17 @@ struct World::State {
   void look_at_points(const Model& model,
                       std::uint8_t joint,
                       const arthroscopy::Sight& sight) noexcept;
+  void look_at_lesions(const Model& model,
+                       std::uint8_t joint,
+                       const arthroscopy::Sight& sight) noexcept;
+  [[nodiscard]] bool is_in_hole(const Model& model,
+                                std::uint8_t joint,
+                                const Vec3& at,
+                                double radius_mm) const noexcept;
+  [[nodiscard]] Vec3 unshifted(const Model& model,
+                               std::uint8_t body,
+                               const Vec3& at) const noexcept;
+  [[nodiscard]] std::uint8_t unanswered(const Model& model) const noexcept;
   void note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept;
   void note_probing(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,

@@ -33,7 +33,7 @@ class FakeSocket implements Socket {
 
 const welcome = JSON.stringify({
   type: "welcome",
-  protocol: 16,
+  protocol: 17,
   program: "carpus",
   exercise: 0,
   trainee: "",
@@ -72,7 +72,7 @@ describe("HostLink", () => {
   it("says hello first and sends nothing else before the welcome", () => {
     expect(link.send({ type: "pause", on: true })).toBe(false);
     last().open();
-    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 16, page: "word" });
+    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 17, page: "word" });
     expect(link.send({ type: "pause", on: true })).toBe(false);
     last().bring(welcome);
     expect(link.send({ type: "pause", on: true })).toBe(true);

@@ -47,6 +47,7 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
   for (const name of ["_lining", "_proximal", "_distal", "_distal_share", "_fibre"])
     geometry.deleteAttribute(name);
   const rest = new Float32Array(surface.getAttribute("position").array);
+  geometry.setAttribute("rest", new THREE.BufferAttribute(rest, 3));
   const position = new THREE.BufferAttribute(new Float32Array(rest), 3);
   position.setUsage(THREE.DynamicDrawUsage);
   geometry.setAttribute("position", position);

@@ -14,6 +14,7 @@ import type {
   Vec3,
 } from "../protocol";
 import { add, dot, rotated, scaled, subtract } from "../tool_placement";
+import { FindingsDialog } from "./findings_dialog";
 import { makeScopeControls } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import {
@@ -43,6 +44,7 @@ export interface ScopeRoom {
   take(instrument: string, hand: HandIndex): void;
   /** @param byN  more traction, or less */
   pull(byN: number): void;
+  answer(finding: string, grade: string): void;
   say(text: string): void;
   /** Mouse and keys move this hand from now on. */
   showHand(hand: HandIndex): void;
@@ -66,6 +68,7 @@ export class ScopeDesk {
   readonly element = make("section.scope", { "aria-label": "Arthroscope" });
   /** Under the picture. */
   readonly controls: HTMLElement;
+  private readonly findings: FindingsDialog;
   private readonly readings = new ScopeReadings();
   private picture: ScopePicture | undefined;
   private plan: Plan | undefined;
@@ -111,7 +114,10 @@ export class ScopeDesk {
         this.room.pull(byN);
       },
     });
-    this.element.append(this.readings.column, this.readings.words);
+    this.findings = new FindingsDialog((finding, grade) => {
+      this.room.answer(finding, grade);
+    });
+    this.element.append(this.readings.column, this.readings.words, this.findings.element);
     this.controls.hidden = true;
     this.element.hidden = true;
     this.listen(signal);
@@ -143,6 +149,12 @@ export class ScopeDesk {
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
+    this.picture.setLesions(
+      this.plan.lesions,
+      exercise.bodies.map((one) => one.name),
+    );
+    this.findings.set(this.plan.findings);
+    this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.showPoints();
@@ -163,7 +175,7 @@ export class ScopeDesk {
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) {
       this.poses = snapshot.bodies;
-      this.posed.clear();
+      this.posed.clear(); // the scope's joint is laid when it is drawn
     }
     this.holdBack();
   }
@@ -223,6 +235,7 @@ export class ScopeDesk {
     const { joint } = this;
     if (!this.posed.has(joint)) {
       this.walls.find((wall) => wall.joint === joint)?.pose(this.poses);
+      picture.lay(joint, this.poses);
       this.posed.add(joint);
     }
     const box = picture.canvas.getBoundingClientRect();
@@ -348,6 +361,9 @@ export class ScopeDesk {
       case "panorama":
         this.hasPanorama = !this.hasPanorama;
         this.room.stage.hidden = !this.hasPanorama;
+        return;
+      case "findings":
+        this.findings.open(this.scope?.answers ?? []);
         return;
       case "level":
         // Up in the picture is distal where the camera head is not turned.

@@ -3,9 +3,10 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { Vec3 } from "../protocol";
+import type { BodyPose, Vec3 } from "../protocol";
 import type { JointWall } from "./joint_wall";
 import { ScopeBackdrop } from "./scope_backdrop";
+import { lesionUniforms, LooseBodies, setLesions, type Lesion } from "./scope_lesions";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 
 export interface ScopeSight {
@@ -35,6 +36,9 @@ export class ScopePicture {
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
   private readonly walls: ReadonlyMap<string, THREE.Mesh>;
+  private readonly lesions = lesionUniforms();
+  private wrong: readonly Lesion[] = [];
+  private readonly loose: LooseBodies;
   private readonly backdrop = new ScopeBackdrop(this.lens);
 
   constructor(walls: readonly JointWall[]) {
@@ -47,11 +51,12 @@ export class ScopePicture {
     this.walls = new Map(
       walls.map((wall) => [
         wall.joint,
-        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle)),
+        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle, this.lesions)),
       ]),
     );
     this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
-    this.scene.add(this.backdrop.mesh);
+    this.loose = new LooseBodies(wetMaterial(this.lens, false));
+    this.scene.add(this.backdrop.mesh, this.loose.group);
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
@@ -61,6 +66,18 @@ export class ScopePicture {
   /** @param fieldDeg  across the picture */
   setField(fieldDeg: number): void {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
+  }
+
+  /** What is wrong in the joints of this exercise. @param bodies  names in the order of the poses */
+  setLesions(lesions: readonly Lesion[], bodies: readonly string[]): void {
+    this.wrong = lesions;
+    this.loose.set(lesions, bodies);
+  }
+
+  /** The bones have moved, or the scope has gone to another joint. */
+  lay(joint: string, poses: readonly BodyPose[]): void {
+    setLesions(this.lesions, this.wrong, joint);
+    this.loose.lay(joint, poses);
   }
 
   /**
@@ -87,6 +104,7 @@ export class ScopePicture {
       .addScaledVector(right.value, LAMP_RIGHT_MM);
     for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
+    this.loose.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
     if (rod !== undefined) {
       this.rod.position.set(...rod.tipMm);
@@ -107,6 +125,7 @@ export class ScopePicture {
 
   dispose(): void {
     this.backdrop.dispose();
+    this.loose.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();
@@ -124,5 +143,6 @@ function rodGeometry(): THREE.BufferGeometry {
   const count = geometry.getAttribute("position").count;
   geometry.setAttribute("lining", new THREE.BufferAttribute(new Float32Array(4 * count), 4));
   geometry.setAttribute("fibre", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  geometry.setAttribute("rest", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
   return geometry;
 }

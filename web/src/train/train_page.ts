@@ -306,6 +306,9 @@ export class TrainPage {
         pull: (byN) => {
           this.panels.wrist.move("traction_n", byN);
         },
+        answer: (finding, grade) => {
+          this.connection.tell({ type: "answer", finding, grade });
+        },
         say: (text) => {
           this.panels.notice.say(text);
         },
