@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "cases/case_data.hpp"
@@ -14,17 +15,18 @@
 namespace carpus::arthroscopy {
 
 struct JointWall {
+  std::string joint;     ///< id: "radiocarpal"
   TriangleMesh surface;  ///< outward from the joint's space, frame Patient as scanned [mm]
   // By vertex:
   std::vector<soft_tissue::Lining> lining;
   std::vector<Vec3> fibre;             ///< unit, along the ligament; zero where there is none
-  std::vector<std::uint8_t> proximal;  ///< body that it goes with: forearm ...
-  std::vector<std::uint8_t> distal;    ///< ... and proximal row
+  std::vector<std::uint8_t> proximal;  ///< body that it goes with: of the proximal side ...
+  std::vector<std::uint8_t> distal;    ///< ... and of the distal one
   std::vector<float> distal_share;     ///< of that one's motion, 0 to 1
 };
 
-/// Of the radiocarpal joint; empty where its space could not be made.
-[[nodiscard]] JointWall make_joint_wall(const cases::CaseData& data,
-                                        const soft_tissue::SoftTissue& tissue);
+/// Of the joints that a scope looks into (data/portals.json), as far as their spaces could be made.
+[[nodiscard]] std::vector<JointWall> make_joint_walls(const cases::CaseData& data,
+                                                      const soft_tissue::SoftTissue& tissue);
 
 }  // namespace carpus::arthroscopy

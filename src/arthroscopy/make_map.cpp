@@ -7,10 +7,12 @@
 #include "arthroscopy/make_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
 #include "fields/distance_field.hpp"
@@ -23,12 +25,13 @@ using soft_tissue::Lining;
 using soft_tissue::SoftTissue;
 using soft_tissue::Space;
 
-constexpr const char* kJoint = "radiocarpal";
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr double kStepMm = 0.25;
 constexpr double kTiltStepDeg = 5;
 /// Room for which a mark a millimetre farther off is taken [E].
 constexpr double kPerMmOff = 0.03;
+/// A place between two bones so much nearer to both is taken for each mm away from the usual [E].
+constexpr double kPerMmAside = 0.15;
 /// A scope's tip looks about from so far beyond the capsule at least [E]; farther in, where the
 /// convex row lies nearer to the radius, bone stops it.
 constexpr double kWorkingMm = 4.0;
@@ -67,7 +70,7 @@ class Wrist {
   double mirror_;
 };
 
-/// Least distance to any bone as the hand is pulled.
+/// The bones as the hand is pulled: how far they are, where each has gone.
 class PulledBones {
  public:
   PulledBones(const cases::CaseData& data, double traction_n) : data_(data) {
@@ -77,6 +80,10 @@ class PulledBones {
       from_patient_.push_back(cases::pose_under_block(data.hand_motion, bone.bone, pose).inverse());
     }
   }
+  [[nodiscard]] const Pose<frame::Bone, frame::Patient>& inverse(std::uint8_t body) const {
+    return from_patient_[body];
+  }
+  /// Least distance to any of them.
   [[nodiscard]] double distance_mm(const Vec3& point) const {
     double least = kFarMm;
     for (std::size_t b = 0; b < data_.bones.size(); ++b) {
@@ -137,6 +144,13 @@ std::optional<double> way_to_skin(const MeshIn<frame::Patient>& skin,
   return farthest;
 }
 
+/// The wall of one joint's space, with the body nearest to each of its vertices.
+struct Walls {
+  const Space* space = nullptr;
+  fields::TriangleTree tree;
+  std::vector<std::uint8_t> nearest;
+};
+
 struct WayIn {
   Vec3 capsule;
   Vec3 inwards;
@@ -144,7 +158,7 @@ struct WayIn {
 };
 
 /// From the capsule to the working depth along a line: how thick a tip goes there.
-std::optional<WayIn> way_in(const Grid<float>& space,
+std::optional<WayIn> way_in(const cases::JointSpace& joint,
                             const PulledBones& bones,
                             const Vec3& from,
                             const Vec3& inwards) {
@@ -152,8 +166,9 @@ std::optional<WayIn> way_in(const Grid<float>& space,
   double in = 0;
   for (double s = 0; s < 30; s += kStepMm) {
     const Vec3 p = from + inwards * s;
-    const fields::DistanceSample wall = fields::sample_distance(space, p);
-    const bool is_in = wall.is_inside_grid && wall.distance_mm < 0;
+    const OpenedSpace wall =
+        opened_space_at(joint.wall, bones.inverse(joint.proximal), bones.inverse(joint.distal), p);
+    const bool is_in = wall.is_near && wall.distance_mm < 0;
     if (!way) {
       if (!is_in && bones.distance_mm(p) < kLeastRoomMm) return std::nullopt;  // bone is before it
       if (!is_in) continue;
@@ -170,22 +185,23 @@ std::optional<WayIn> way_in(const Grid<float>& space,
 
 class MapMaker {
  public:
-  MapMaker(const cases::CaseData& data, const SoftTissue& tissue, const Space& space)
+  MapMaker(const cases::CaseData& data, const SoftTissue& tissue)
       : data_(data),
         tissue_(tissue),
-        space_(space),
         table_(PortalTable::generic()),
         wrist_(data, tissue.size),
-        bones_(data, table_.traction_n),
-        wall_(space.surface) {
-    map_.space = fields::build_distance_field(space.surface, {0.4, kFarMm});
-    map_.space_body = body_of(BoneId::Radius);
+        bones_(data, table_.traction_n) {
+    map_.forearm = body_of(BoneId::Radius).value_or(0);
     map_.disc = tissue.disc.body;
     map_.distal = wrist_.way({-1, 0, 0});
   }
 
   cases::ArthroscopicMap make() {
+    take_joints();
     place_portals();
+    for (std::uint8_t j = 0; j < map_.joints.size(); ++j) {
+      if (!is_reached(j)) map_.problems.push_back(map_.joints[j].name + ": no portal leads there");
+    }
     if (map_.portals.empty()) return std::move(map_);
     place_points();
     collect_cartilage();
@@ -193,11 +209,41 @@ class MapMaker {
   }
 
  private:
-  [[nodiscard]] std::uint8_t body_of(BoneId bone) const {
+  [[nodiscard]] std::optional<std::uint8_t> body_of(BoneId bone) const {
     for (std::size_t b = 0; b < data_.bones.size(); ++b) {
       if (data_.bones[b].bone == bone) return static_cast<std::uint8_t>(b);
     }
-    return 0;
+    return std::nullopt;
+  }
+
+  void take_joints() {
+    for (const TabledJoint& joint : table_.joints) {
+      const Space* space = space_of(tissue_, joint.id);
+      const auto proximal = body_of(joint.between[0]);
+      const auto distal = body_of(joint.between[1]);
+      if (space == nullptr || !proximal || !distal) {
+        map_.problems.push_back("the " + joint.name + "'s space could not be made");
+        continue;
+      }
+      map_.joints.push_back({joint.id, joint.name,
+                             fields::build_distance_field(space->surface, {0.4, kFarMm}), *proximal,
+                             *distal});
+      Walls walls{space, fields::TriangleTree(space->surface), {}};
+      for (const Vec3& v : space->surface.vertices) walls.nearest.push_back(nearest_body(v));
+      walls_.push_back(std::move(walls));
+    }
+  }
+
+  [[nodiscard]] std::optional<std::uint8_t> joint_of(const std::string& id) const {
+    for (std::uint8_t j = 0; j < map_.joints.size(); ++j) {
+      if (map_.joints[j].id == id) return j;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_reached(std::uint8_t joint) const {
+    return std::any_of(map_.portals.begin(), map_.portals.end(),
+                       [&](const cases::Portal& portal) { return portal.joint == joint; });
   }
 
   void place_portals() {
@@ -214,13 +260,17 @@ class MapMaker {
         map_.problems.push_back(portal.name + ": " + portal.from + " was not found");
         continue;
       }
+      const auto joint = joint_of(portal.joint);
+      if (!joint) continue;  // named already
       const Vec3 nominal = mark->second + Vec3{-portal.distal_mm, portal.ulnar_mm, 0};
-      if (const std::optional<Vec3> at = place(portal, nominal)) marks.emplace_back(portal.id, *at);
+      if (const std::optional<Vec3> at = place(portal, *joint, nominal))
+        marks.emplace_back(portal.id, *at);
     }
   }
 
   /// @return where it was placed, in the frame of the generic wrist.
-  std::optional<Vec3> place(const TabledPortal& portal, const Vec3& nominal) {
+  std::optional<Vec3> place(const TabledPortal& portal, std::uint8_t in, const Vec3& nominal) {
+    const cases::JointSpace& joint = map_.joints[in];
     std::optional<WayIn> best;
     Vec3 mark;
     double best_value = -1e9;
@@ -230,7 +280,7 @@ class MapMaker {
       for (double x = -portal.search_mm[0]; x <= portal.search_mm[0]; x += 0.5) {
         for (double y = -portal.search_mm[1]; y <= portal.search_mm[1]; y += 0.5) {
           const Vec3 left{nominal.x + x, nominal.y + y, -18};
-          const auto way = way_in(map_.space, bones_, wrist_.point(left), inwards);
+          const auto way = way_in(joint, bones_, wrist_.point(left), inwards);
           // Of two ways with much the same room the one nearer to the mark.
           const double value = way ? way->room_mm - kPerMmOff * std::hypot(x, y) : -1e9;
           if (!way || value <= best_value) continue;
@@ -250,56 +300,100 @@ class MapMaker {
     placed.id = portal.id;
     placed.name = portal.name;
     placed.landmarks = portal.landmarks;
-    placed.joint = portal.joint;
-    placed.inwards = best->inwards;
+    placed.joint = in;
+    placed.body = joint.proximal;  // which carries it from where it was found under traction
+    const auto& as_scanned = bones_.inverse(placed.body);
+    const Vec3 capsule = (as_scanned * Point<frame::Patient>{best->capsule}).v;
+    placed.inwards = (as_scanned * Direction<frame::Patient>{best->inwards}).v;
     placed.capsule_mm =
-        way_to_skin(data_.skin, best->capsule, -best->inwards).value_or(kSkinOverCapsuleMm);
-    placed.skin = best->capsule - best->inwards * placed.capsule_mm;
+        way_to_skin(data_.skin, capsule, -placed.inwards).value_or(kSkinOverCapsuleMm);
+    placed.skin = capsule - placed.inwards * placed.capsule_mm;
     placed.room_mm = best->room_mm;
-    placed.body = map_.space_body;
     map_.portals.push_back(placed);
     return Vec3{mark.x, mark.y, nominal.z};
   }
 
   /// The vertex of the joint's wall nearest to a point: of this lining, and beside this body, where
   /// they are asked for.
-  [[nodiscard]] Vec3 on_wall(const Vec3& point,
-                             std::optional<Lining> lining,
-                             std::optional<std::uint8_t> body = std::nullopt) const {
-    Vec3 best = point;
+  [[nodiscard]] std::optional<Vec3> on_wall(const Walls& walls,
+                                            const Vec3& point,
+                                            std::optional<Lining> lining,
+                                            std::optional<std::uint8_t> body = std::nullopt) const {
+    const std::vector<Vec3>& vertices = walls.space->surface.vertices;
+    std::optional<Vec3> best;
     double least = 1e18;
-    for (std::size_t i = 0; i < space_.surface.vertices.size(); ++i) {
-      if (lining && space_.lining[i] != *lining) continue;
-      const double far = squared_length(space_.surface.vertices[i] - point);
-      if (far < least && (!body || nearest_body(space_.surface.vertices[i]) == *body)) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (lining && walls.space->lining[i] != *lining) continue;
+      const double far = squared_length(vertices[i] - point);
+      if (far < least && (!body || walls.nearest[i] == *body)) {
         least = far;
-        best = space_.surface.vertices[i];
+        best = vertices[i];
       }
     }
     return best;
   }
 
-  [[nodiscard]] std::optional<Vec3> place_of(const TabledPoint& point) const {
-    if (point.on) {
-      const cases::Bone* bone = cases::find_bone(data_, *point.on);
-      if (bone == nullptr && *point.on == BoneId::Scaphoid) {
-        bone = cases::find_bone(data_, *point.on, BonePart::Proximal);
-      }
-      if (bone == nullptr) return std::nullopt;
-      const auto body = static_cast<std::uint8_t>(bone - data_.bones.data());
-      return on_wall(wrist_.point(point.at), Lining::Cartilage, body);
+  /// The bone's body; of a broken one the part on the joint's side, proximal.
+  [[nodiscard]] std::optional<std::uint8_t> body_at(BoneId bone) const {
+    const cases::Bone* found = cases::find_bone(data_, bone);
+    if (found == nullptr) found = cases::find_bone(data_, bone, BonePart::Proximal);
+    if (found == nullptr) return std::nullopt;
+    return static_cast<std::uint8_t>(found - data_.bones.data());
+  }
+
+  /// Where two bones' surfaces come nearest to the joint's wall at once, not far from a place.
+  [[nodiscard]] std::optional<Vec3> between(const Walls& walls,
+                                            const std::array<BoneId, 2>& bones,
+                                            const Vec3& near) const {
+    std::optional<Vec3> best;
+    double least = 1e18;
+    for (const Vec3& v : walls.space->surface.vertices) {
+      double cost = kPerMmAside * distance(v, near);
+      for (const BoneId bone : bones) cost += distance_to(bone, v);
+      if (cost >= least) continue;
+      least = cost;
+      best = v;
     }
+    for (const BoneId bone : bones) {
+      if (best && distance_to(bone, *best) >= kFarMm) return std::nullopt;
+    }
+    return best;
+  }
+
+  /// To the nearest part of it; kFarMm where it is farther or missing.
+  [[nodiscard]] double distance_to(BoneId id, const Vec3& point) const {
+    double least = kFarMm;
+    for (const cases::Bone& bone : data_.bones) {
+      if (bone.bone != id || bone.distance_field.values().empty()) continue;
+      const auto s = fields::sample_distance(bone.distance_field, point);
+      if (s.is_inside_grid) least = std::min(least, s.distance_mm);
+    }
+    return least;
+  }
+
+  [[nodiscard]] std::optional<Vec3> place_of(const TabledPoint& point, const Walls& walls) const {
+    if (point.on) {
+      const auto body = body_at(*point.on);
+      if (!body) return std::nullopt;
+      // Where no other bone or disc came near in any posture, cartilage was not made.
+      const Vec3 near = wrist_.point(point.at);
+      const auto cartilage = on_wall(walls, near, Lining::Cartilage, body);
+      return cartilage ? cartilage : on_wall(walls, near, std::nullopt, body);
+    }
+    if (point.between) return between(walls, *point.between, wrist_.point(point.at));
+    if (point.is_place) return on_wall(walls, wrist_.point(point.at), std::nullopt);
     if (point.is_disc) {
       if (tissue_.disc.middle.vertices.empty()) return std::nullopt;
       Vec3 sum;
       for (const Vec3& v : tissue_.disc.middle.vertices) sum += v;
-      return on_wall(sum / static_cast<double>(tissue_.disc.middle.vertices.size()), Lining::Disc);
+      return on_wall(walls, sum / static_cast<double>(tissue_.disc.middle.vertices.size()),
+                     Lining::Disc);
     }
     for (const soft_tissue::Ligament& l : tissue_.ligaments) {
       if (l.id != point.ligament || l.strands.empty()) continue;
       const std::vector<Vec3>& course = l.strands[l.strands.size() / 2].course;
       const double at = point.fraction * static_cast<double>(course.size() - 1);
-      return on_wall(course[static_cast<std::size_t>(at + 0.5)], std::nullopt);
+      return on_wall(walls, course[static_cast<std::size_t>(at + 0.5)], std::nullopt);
     }
     return std::nullopt;
   }
@@ -320,14 +414,38 @@ class MapMaker {
 
   void place_points() {
     for (const TabledPoint& point : table_.points) {
-      const std::optional<Vec3> at = place_of(point);
+      const auto joint = joint_of(point.joint);
+      if (!joint || !is_reached(*joint)) continue;  // the joint is named already
+      const std::optional<Vec3> at = place_of(point, walls_[*joint]);
       if (!at) {
         map_.problems.push_back(point.name + ": is missing in this case");
         continue;
       }
-      map_.points.push_back({point.number, point.id, point.name, point.found_by, *at,
-                             point.is_disc ? map_.space_body : nearest_body(*at), point.is_probed});
+      cases::TourPoint placed;
+      placed.number = point.number;
+      placed.id = point.id;
+      placed.name = point.name;
+      placed.found_by = point.found_by;
+      placed.at = *at;
+      placed.body = lies_on_disc(walls_[*joint], *at) ? map_.forearm : nearest_body(*at);
+      placed.is_probed = point.is_probed;
+      placed.joint = *joint;
+      for (const std::string& by : point.by) {
+        for (std::uint8_t p = 0; p < map_.portals.size(); ++p) {
+          if (map_.portals[p].id == by) placed.by.push_back(p);
+        }
+      }
+      map_.points.push_back(std::move(placed));
     }
+  }
+
+  /// The disc goes with the forearm, whatever bone is nearest.
+  [[nodiscard]] static bool lies_on_disc(const Walls& walls, const Vec3& at) {
+    const std::vector<Vec3>& vertices = walls.space->surface.vertices;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (vertices[i] == at) return walls.space->lining[i] == Lining::Disc;
+    }
+    return false;
   }
 
   void collect_cartilage() {
@@ -356,33 +474,29 @@ class MapMaker {
     const Vec3& b = surface.vertices[f[1]];
     const Vec3& c = surface.vertices[f[2]];
     const Vec3 middle = (a + b + c) / 3.0;
-    if (!wall_.nearest(middle, kOnWallMm)) return;
     const Vec3 normal = cross(b - a, c - a);
     const double twice = length(normal);
     if (!(twice > 0)) return;
-    map_.cartilage.push_back({middle, normal / twice, twice / 2, body});
+    for (std::uint8_t j = 0; j < walls_.size(); ++j) {
+      if (!is_reached(j) || !walls_[j].tree.nearest(middle, kOnWallMm)) continue;
+      map_.cartilage.push_back({middle, normal / twice, twice / 2, body, j});
+      return;
+    }
   }
 
   const cases::CaseData& data_;
   const SoftTissue& tissue_;
-  const Space& space_;
   const PortalTable& table_;
   Wrist wrist_;
   PulledBones bones_;
-  fields::TriangleTree wall_;
+  std::vector<Walls> walls_;  ///< by joint
   cases::ArthroscopicMap map_;
 };
 
 }  // namespace
 
 cases::ArthroscopicMap make_map(const cases::CaseData& data, const SoftTissue& tissue) {
-  cases::ArthroscopicMap map;
-  const Space* space = space_of(tissue, kJoint);
-  if (space == nullptr) {
-    map.problems.emplace_back("the radiocarpal joint's space could not be made");
-    return map;
-  }
-  return MapMaker(data, tissue, *space).make();
+  return MapMaker(data, tissue).make();
 }
 
 }  // namespace carpus::arthroscopy

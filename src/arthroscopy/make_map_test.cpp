@@ -4,43 +4,31 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "arthroscopy/generic_wrist_test_support.hpp"
+#include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/portal_table.hpp"
+#include "cases/joint_under_block.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
-#include "soft_tissue/make_soft_tissue.hpp"
-#include "soft_tissue/model_case_test_support.hpp"
 
 namespace carpus::arthroscopy {
 namespace {
 
-/// The generic wrist, right and turned; made once.
 class MakeMap : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    const Mat3 turned = Mat3::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0});
-    data_ = new cases::CaseData(soft_tissue::test::model_case(Side::Right, 1.05, turned));
-    for (cases::Bone& bone : data_->bones) {
-      bone.distance_field = fields::build_distance_field(bone.surface, {0.6, 4.0});
-    }
-    tissue_ = new soft_tissue::SoftTissue(soft_tissue::make_soft_tissue(*data_));
-    map_ = new cases::ArthroscopicMap(make_map(*data_, *tissue_));
-  }
-  static void TearDownTestSuite() {
-    delete map_;
-    delete tissue_;
-    delete data_;
-  }
-  static Vec3 in_wrist(const Vec3& v) {
+  [[nodiscard]] Vec3 in_wrist(const Vec3& v) const {
     return (data_->wrist_from_patient * Point<frame::Patient>{v}).v;
   }
 
-  static cases::CaseData* data_;
-  static soft_tissue::SoftTissue* tissue_;
-  static cases::ArthroscopicMap* map_;
+  const cases::CaseData* data_ = &test::generic_wrist().data;
+  const soft_tissue::SoftTissue* tissue_ = &test::generic_wrist().tissue;
+  const cases::ArthroscopicMap* map_ = &test::generic_wrist().map;
 };
-cases::CaseData* MakeMap::data_ = nullptr;
-soft_tissue::SoftTissue* MakeMap::tissue_ = nullptr;
-cases::ArthroscopicMap* MakeMap::map_ = nullptr;
 
 TEST_F(MakeMap, PortalsLieDorsallyAndTheirWaysLeadIntoTheJoint) {
   ASSERT_NE(find_portal(*map_, "3-4"), nullptr) << ::testing::PrintToString(map_->problems);
@@ -48,10 +36,22 @@ TEST_F(MakeMap, PortalsLieDorsallyAndTheirWaysLeadIntoTheJoint) {
   for (const cases::Portal& portal : map_->portals) {
     EXPECT_LT(in_wrist(portal.skin).z, -5) << portal.id << " is dorsal";
     EXPECT_GE(portal.room_mm, kLeastRoomMm);
-    const Vec3 within = portal.skin + portal.inwards * (portal.capsule_mm + 1.5);
-    EXPECT_LT(fields::sample_distance(map_->space, within).distance_mm, 0) << portal.id;
-    const Vec3 before = portal.skin + portal.inwards * (portal.capsule_mm - 1.5);
-    EXPECT_GT(fields::sample_distance(map_->space, before).distance_mm, 0) << portal.id;
+    // Where the bones are as the hand is pulled.
+    anatomy::HandPose pulled = data_->hand_motion.scan;
+    pulled.traction_n = PortalTable::generic().traction_n;
+    const auto pose_of = [&](std::uint8_t body) {
+      return cases::pose_under_block(data_->hand_motion, data_->bones[body].bone, pulled);
+    };
+    const cases::JointSpace& joint = map_->joints[portal.joint];
+    const auto beyond_capsule = [&](double mm) {
+      const Vec3 at = portal.skin + portal.inwards * (portal.capsule_mm + mm);
+      return opened_space_at(joint.wall, pose_of(joint.proximal).inverse(),
+                             pose_of(joint.distal).inverse(),
+                             (pose_of(portal.body) * Point<frame::Bone>{at}).v)
+          .distance_mm;
+    };
+    EXPECT_LT(beyond_capsule(1.5), 0) << portal.id;
+    EXPECT_GT(beyond_capsule(-1.5), 0) << portal.id;
   }
 }
 
@@ -62,10 +62,29 @@ TEST_F(MakeMap, TheSecondPortalIsACentimetreUlnarOfTheFirst) {
   EXPECT_NEAR(first.y - second.y, 10, 4) << "ulnar is -y of a right wrist";
 }
 
+/// [K]: MCR about 1 cm distal to 3-4, MCU 1 to 1.5 cm distal to 4-5; both into the other joint.
+TEST_F(MakeMap, MidcarpalPortalsLieACentimetreDistalOfTheRadiocarpalOnes) {
+  for (const auto& [midcarpal, radiocarpal] : {std::pair{"MCR", "3-4"}, std::pair{"MCU", "4-5"}}) {
+    const cases::Portal* distal = find_portal(*map_, midcarpal);
+    ASSERT_NE(distal, nullptr) << midcarpal << ::testing::PrintToString(map_->problems);
+    EXPECT_EQ(map_->joints[distal->joint].id, "midcarpal");
+    const double by = in_wrist(find_portal(*map_, radiocarpal)->skin).x - in_wrist(distal->skin).x;
+    EXPECT_GT(by, 5) << midcarpal;
+    EXPECT_LT(by, 20) << midcarpal;
+  }
+}
+
 TEST_F(MakeMap, ThePointsOfTheTourLieOnTheJointsWall) {
-  EXPECT_EQ(map_->points.size(), PortalTable::generic().points.size());
+  EXPECT_EQ(map_->points.size(), PortalTable::generic().points.size())
+      << ::testing::PrintToString(map_->problems);
+  EXPECT_EQ(map_->points.size(), 24U) << "[K, B8]";
   for (const cases::TourPoint& point : map_->points) {
-    EXPECT_NEAR(fields::sample_distance(map_->space, point.at).distance_mm, 0, 0.3) << point.id;
+    const Grid<float>& wall = map_->joints[point.joint].wall;
+    EXPECT_NEAR(fields::sample_distance(wall, point.at).distance_mm, 0, 0.3) << point.id;
+    EXPECT_FALSE(point.by.empty()) << point.id;
+    for (const std::uint8_t by : point.by) {
+      EXPECT_EQ(map_->portals[by].joint, point.joint) << point.id << ": from its own joint";
+    }
   }
   for (const TabledPoint& tabled : PortalTable::generic().points) {
     for (const cases::TourPoint& point : map_->points) {
@@ -76,15 +95,19 @@ TEST_F(MakeMap, ThePointsOfTheTourLieOnTheJointsWall) {
 }
 
 TEST_F(MakeMap, TheJointsCartilageIsOfFourBonesAtLeastAndFacesIt) {
-  std::array<double, 16> area{};
+  std::array<std::array<double, 16>, cases::kMaxJoints> area{};
   for (const cases::CartilageFacet& f : map_->cartilage) {
-    area[static_cast<std::size_t>(data_->bones[f.body].bone)] += f.area_mm2;
+    area.at(f.joint)[static_cast<std::size_t>(data_->bones[f.body].bone)] += f.area_mm2;
     EXPECT_NEAR(length(f.normal), 1, 1e-9);
   }
   for (const BoneId bone : {BoneId::Radius, BoneId::Scaphoid, BoneId::Lunate}) {
-    EXPECT_GT(area[static_cast<std::size_t>(bone)], 80) << name_of(bone);
+    EXPECT_GT(area[0][static_cast<std::size_t>(bone)], 80) << name_of(bone);
   }
-  EXPECT_LT(area[static_cast<std::size_t>(BoneId::Capitate)], 5);
+  EXPECT_LT(area[0][static_cast<std::size_t>(BoneId::Capitate)], 5);
+  for (const BoneId bone : {BoneId::Scaphoid, BoneId::Lunate, BoneId::Capitate, BoneId::Hamate}) {
+    EXPECT_GT(area[1][static_cast<std::size_t>(bone)], 40) << name_of(bone);
+  }
+  EXPECT_LT(area[1][static_cast<std::size_t>(BoneId::Radius)], 5);
 }
 
 TEST_F(MakeMap, NamesWhatIsMissingAndGoesOn) {
@@ -93,6 +116,14 @@ TEST_F(MakeMap, NamesWhatIsMissingAndGoesOn) {
   const cases::ArthroscopicMap without = make_map(*data_, less);
   EXPECT_EQ(without.points.size() + 1, map_->points.size());
   EXPECT_EQ(without.problems.size(), map_->problems.size() + 1);
+
+  std::erase_if(less.spaces, [](const auto& space) { return space.id == "midcarpal"; });
+  const cases::ArthroscopicMap proximal = make_map(*data_, less);
+  EXPECT_EQ(find_portal(proximal, "MCR"), nullptr);
+  EXPECT_NE(find_portal(proximal, "3-4"), nullptr);
+  EXPECT_EQ(proximal.points.size(), 16U) << "those of the radiocarpal joint but one";
+  EXPECT_TRUE(std::any_of(proximal.problems.begin(), proximal.problems.end(),
+                          [](const auto& p) { return p.find("midcarpal") != std::string::npos; }));
 
   less.spaces.clear();
   const cases::ArthroscopicMap none = make_map(*data_, less);
@@ -107,8 +138,19 @@ TEST(PortalTable, NamesTheEntryThatIsWrong) {
       InvalidInput);
   EXPECT_THROW(
       PortalTable::parse(
-          R"({"traction_n":{"value":1},"portals":[],"points":[{"number":1,"id":"a","name":"a","found_by":"b"}]})"),
+          R"({"traction_n":{"value":1},"joints":[],"portals":[],"points":[{"number":1,"id":"a","name":"a","found_by":"b","joint":"x","by":[]}]})"),
       InvalidInput);
+  // Whole, but for a portal that is not there, a joint that is not, a number without a bit.
+  const auto table = [](const std::string& number, const std::string& joint,
+                        const std::string& by) {
+    return R"({"traction_n":{"value":1},"joints":[{"id":"j","name":"j","between":["radius","lunate"]}],"portals":[],"points":[{"number":)" +
+           number + R"(,"id":"a","name":"a","found_by":"b","joint":")" + joint + R"(","by":[)" +
+           by + R"(],"disc":true}]})";
+  };
+  EXPECT_EQ(PortalTable::parse(table("1", "j", "")).points.size(), 1U);
+  EXPECT_THROW(PortalTable::parse(table("1", "j", R"("3-4")")), InvalidInput);
+  EXPECT_THROW(PortalTable::parse(table("1", "k", "")), InvalidInput);
+  EXPECT_THROW(PortalTable::parse(table("32", "j", "")), InvalidInput);
 }
 
 }  // namespace

@@ -15,6 +15,12 @@
 
 namespace carpus::arthroscopy {
 
+struct TabledJoint {
+  std::string id;  ///< of the soft tissue's space
+  std::string name;
+  std::array<BoneId, 2> between{};  ///< with which its proximal and its distal wall go
+};
+
 struct TabledPortal {
   std::string id;
   std::string name;
@@ -27,14 +33,18 @@ struct TabledPortal {
   std::array<double, 2> search_mm{};     ///< along the forearm, across it
 };
 
-/// Exactly one of `on`, `ligament`, `is_disc`.
+/// Exactly one of `on`, `between`, `ligament`, `is_disc`, `is_place`.
 struct TabledPoint {
   int number = 0;
   std::string id;
   std::string name;
   std::string found_by;
+  std::string joint;
+  std::vector<std::string> by;  ///< ids of portals
   std::optional<BoneId> on;
-  Vec3 at;  ///< frame Wrist of a left wrist [mm]
+  std::optional<std::array<BoneId, 2>> between;  ///< where these two come nearest, near `at`
+  bool is_place = false;                         ///< whatever lines the joint near `at`
+  Vec3 at;                                       ///< frame Wrist of a left wrist [mm]
   std::string ligament;
   double fraction = 0;
   bool is_disc = false;
@@ -43,6 +53,7 @@ struct TabledPoint {
 
 struct PortalTable {
   double traction_n = 0;
+  std::vector<TabledJoint> joints;
   std::vector<TabledPortal> portals;
   std::vector<TabledPoint> points;
 

@@ -27,7 +27,7 @@ bool SeenCartilage::is_hidden(const Vec3& eye, const Vec3& at) const {
   const auto local = [&](std::size_t body, const Vec3& p) {
     return (inverses_[body] * Point<frame::Patient>{p}).v;
   };
-  const std::size_t with_disc = map_.space_body;
+  const std::size_t with_disc = map_.forearm;
   if (disc_.is_between(local(with_disc, eye), local(with_disc, at))) return true;
   for (std::size_t b = 0; b < trees_.size(); ++b) {
     if (trees_[b].is_between(local(b, eye), local(b, at))) return true;
@@ -35,7 +35,7 @@ bool SeenCartilage::is_hidden(const Vec3& eye, const Vec3& at) const {
   return false;
 }
 
-void SeenCartilage::look(const Sight& sight, const anatomy::HandPose& wrist) {
+void SeenCartilage::look(const Sight& sight, const anatomy::HandPose& wrist, std::uint8_t joint) {
   std::vector<Pose<frame::Patient, frame::Bone>> poses;
   inverses_.clear();
   for (const cases::Bone& bone : data_.bones) {
@@ -44,7 +44,7 @@ void SeenCartilage::look(const Sight& sight, const anatomy::HandPose& wrist) {
   }
   const std::vector<cases::CartilageFacet>& facets = map_.cartilage;
   for (std::size_t i = 0; i < facets.size(); ++i) {
-    if (seen_[i]) continue;
+    if (seen_[i] || facets[i].joint != joint) continue;
     const Vec3 at = (poses[facets[i].body] * Point<frame::Bone>{facets[i].at}).v;
     const Vec3 to = at - sight.eye;
     const double far = length(to);

@@ -27,7 +27,8 @@ class SeenCartilage {
 
   /// One look: what it shows counts from now on.
   /// @param wrist  how the hand is held then.
-  void look(const Sight& sight, const anatomy::HandPose& wrist);
+  /// @param joint  that the scope is in: cartilage of others is not seen.
+  void look(const Sight& sight, const anatomy::HandPose& wrist, std::uint8_t joint = 0);
 
   /// Of the joint's cartilage, by area, 0 to 1.
   [[nodiscard]] double share() const noexcept;

@@ -192,5 +192,18 @@ TEST(SeenShare, TheDiscStandsBeforeWhatLiesBehindIt) {
   EXPECT_LT(covered.share_of(0), 1e-9);
 }
 
+TEST(SeenCartilage, ALookIntoOneJointShowsNothingOfAnother) {
+  Scene scene = scene_of(6);
+  scene.map.cartilage.front().joint = 1;
+  const double other = scene.map.cartilage.front().area_mm2;
+  double all = 0;
+  for (const cases::CartilageFacet& f : scene.map.cartilage) all += f.area_mm2;
+  SeenCartilage seen(scene.data, scene.map);
+  for (double turn = 0; turn < 360; turn += 30) {
+    for (const double x : {-4.0, 0.0, 4.0}) seen.look(sight_at({x, -2, 8}, turn), {}, 1);
+  }
+  EXPECT_LE(seen.share(), other / all);
+}
+
 }  // namespace
 }  // namespace carpus::arthroscopy

@@ -319,7 +319,8 @@ int add_scalars(tinygltf::Model& model, const std::vector<T>& values) {
 }
 
 tinygltf::Node add_joint(tinygltf::Model& model, const arthroscopy::JointWall& joint) {
-  const int mesh = add_mesh(model, {"joint_wall", &joint.surface, {}});
+  const std::string name = "joint_wall_" + joint.joint;
+  const int mesh = add_mesh(model, {name, &joint.surface, {}});
   auto& attributes = model.meshes.back().primitives.front().attributes;
   attributes["_LINING"] = add_scalars(model, joint.lining);
   attributes["_FIBRE"] = add_accessor(model, as_floats(joint.fibre), TINYGLTF_COMPONENT_TYPE_FLOAT,
@@ -328,10 +329,11 @@ tinygltf::Node add_joint(tinygltf::Model& model, const arthroscopy::JointWall& j
   attributes["_DISTAL"] = add_scalars(model, joint.distal);
   attributes["_DISTAL_SHARE"] = add_scalars(model, joint.distal_share);
   tinygltf::Node node;
-  node.name = "joint_wall";
+  node.name = name;
   node.mesh = mesh;
   tinygltf::Value::Object extras;
   extras["generated"] = tinygltf::Value(true);
+  extras["joint"] = tinygltf::Value(joint.joint);
   node.extras = tinygltf::Value(extras);
   return node;
 }
@@ -351,7 +353,7 @@ std::vector<Vec3> smooth_normals(const TriangleMesh& mesh) {
 
 std::string make_glb(std::span<const NamedMesh> meshes,
                      std::span<const NamedTube> tubes,
-                     const arthroscopy::JointWall* joint) {
+                     std::span<const arthroscopy::JointWall> joints) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "carpus";
@@ -369,8 +371,9 @@ std::string make_glb(std::span<const NamedMesh> meshes,
     scene.nodes.push_back(static_cast<int>(model.nodes.size()));
     model.nodes.push_back(std::move(node));
   }
-  if (joint != nullptr && !joint->surface.facets.empty()) {
-    tinygltf::Node node = add_joint(model, *joint);
+  for (const arthroscopy::JointWall& joint : joints) {
+    if (joint.surface.facets.empty()) continue;
+    tinygltf::Node node = add_joint(model, joint);
     scene.nodes.push_back(static_cast<int>(model.nodes.size()));
     model.nodes.push_back(std::move(node));
   }
@@ -385,7 +388,8 @@ std::string make_glb(std::span<const NamedMesh> meshes,
   return out.str();
 }
 
-std::string make_case_glb(const cases::CaseData& data, const arthroscopy::JointWall* joint) {
+std::string make_case_glb(const cases::CaseData& data,
+                          std::span<const arthroscopy::JointWall> joints) {
   std::vector<NamedMesh> meshes;
   std::deque<BoneBitmap> bitmaps;
   for (const cases::Bone& bone : data.bones) {
@@ -399,7 +403,7 @@ std::string make_case_glb(const cases::CaseData& data, const arthroscopy::JointW
   meshes.push_back({"skin", &data.skin, {}, anatomy::Tissue::Skin});
   std::vector<NamedTube> tubes;
   for (const cases::Structure& structure : data.structures) tubes.push_back({&structure});
-  return make_glb(meshes, tubes, joint);
+  return make_glb(meshes, tubes, joints);
 }
 
 }  // namespace carpus::case_io

@@ -41,16 +41,15 @@ struct NamedTube {
 /// split vertices, whose normals stay those of the whole surface.
 [[nodiscard]] std::string make_glb(std::span<const NamedMesh> meshes,
                                    std::span<const NamedTube> tubes = {},
-                                   const arthroscopy::JointWall* joint = nullptr);
+                                   std::span<const arthroscopy::JointWall> joints = {});
 
 /// Bones (where they are now, each with its bitmap), skin and structures of a case, named as in the
 /// case.
-/// @param joint  where there is one, a node `joint_wall` more: `extras` {generated: true}, and by
-/// vertex
-///     `_LINING` (soft_tissue::Lining), `_FIBRE`, `_PROXIMAL` and `_DISTAL` (place of a bone in the
-///     case), `_DISTAL_SHARE`.
+/// @param joints  for each a node `joint_wall_<its id>` more: `extras` {generated: true, joint: its
+///     id}, and by vertex `_LINING` (soft_tissue::Lining), `_FIBRE`, `_PROXIMAL` and `_DISTAL`
+///     (place of a bone in the case), `_DISTAL_SHARE`.
 [[nodiscard]] std::string make_case_glb(const cases::CaseData& data,
-                                        const arthroscopy::JointWall* joint = nullptr);
+                                        std::span<const arthroscopy::JointWall> joints = {});
 
 /// Vertex normals: the mean of the facets' normals, weighted by their area.
 [[nodiscard]] std::vector<Vec3> smooth_normals(const TriangleMesh& mesh);

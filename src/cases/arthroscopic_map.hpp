@@ -21,13 +21,13 @@ namespace carpus::cases {
 struct Portal {
   std::string id;  ///< "3-4"
   std::string name;
-  std::string landmarks;  ///< in words: how it is found
-  std::string joint;      ///< id of the space that it leads into
-  Vec3 skin;              ///< [mm]
-  Vec3 inwards;           ///< unit
-  double capsule_mm = 0;  ///< from the skin along `inwards`
-  double room_mm = 0;     ///< radius of what goes in there under traction, to its working depth
-  std::uint8_t body = 0;  ///< that takes it along, in CaseData::bones
+  std::string landmarks;   ///< in words: how it is found
+  std::uint8_t joint = 0;  ///< that it leads into, in ArthroscopicMap::joints
+  Vec3 skin;               ///< [mm]
+  Vec3 inwards;            ///< unit
+  double capsule_mm = 0;   ///< from the skin along `inwards`
+  double room_mm = 0;      ///< radius of what goes in there under traction, to its working depth
+  std::uint8_t body = 0;   ///< that takes it along, in CaseData::bones
 };
 
 /// A place of the diagnostic tour.
@@ -39,6 +39,9 @@ struct TourPoint {
   Vec3 at;               ///< on the surface that is looked at [mm]
   std::uint8_t body = 0;
   bool is_probed = false;  ///< seen is not enough: the probe is to touch it
+  std::uint8_t joint = 0;
+  /// From where it is looked at, in ArthroscopicMap::portals, the usual one first.
+  std::vector<std::uint8_t> by;
 };
 
 /// A piece of a joint's cartilage.
@@ -47,21 +50,31 @@ struct CartilageFacet {
   Vec3 normal;  ///< unit, out of the bone
   double area_mm2 = 0;
   std::uint8_t body = 0;
+  std::uint8_t joint = 0;
+};
+
+/// The space of one joint as scanned.
+struct JointSpace {
+  std::string id;  ///< "radiocarpal"
+  std::string name;
+  Grid<float> wall;           ///< signed distance to the wall of the space, negative in it
+  std::uint8_t proximal = 0;  ///< body that its proximal wall goes with
+  std::uint8_t distal = 0;    ///< ... and its distal one
 };
 
 /// Most portals and points of a tour that a case may hold: what the tick keeps room for.
 inline constexpr std::size_t kMaxPortals = 16;
+inline constexpr std::size_t kMaxJoints = 3;
 inline constexpr std::size_t kMaxTourPoints = 32;
 
 struct ArthroscopicMap {
+  std::vector<JointSpace> joints;  ///< that a portal leads into; the radiocarpal one first
   std::vector<Portal> portals;
   std::vector<TourPoint> points;
-  std::vector<CartilageFacet> cartilage;  ///< of the joint that the tour goes through
-  /// Signed distance to the wall of that joint's space, negative in it; goes with `space_body`.
-  Grid<float> space;
-  std::uint8_t space_body = 0;
-  TriangleMesh disc;  ///< stands before what lies behind it; goes with `space_body`
-  Vec3 distal;        ///< unit: up in a level picture
+  std::vector<CartilageFacet> cartilage;  ///< of these joints
+  std::uint8_t forearm = 0;               ///< the radius's body
+  TriangleMesh disc;  ///< stands before what lies behind it; goes with the forearm
+  Vec3 distal;        ///< unit: up in a level picture; goes with the forearm
   /// Why there is none, or what of it is missing, in words.
   std::vector<std::string> problems;
 

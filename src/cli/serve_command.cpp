@@ -230,8 +230,7 @@ void offer_devices(server::Station& station, const server::Log& log_line) {
 std::string scene_of(const cases::CaseData& data, const fs::path& folder) {
   const auto tissue = case_io::read_soft_tissue(folder);
   if (!tissue) return case_io::make_case_glb(data);
-  const arthroscopy::JointWall wall = arthroscopy::make_joint_wall(data, *tissue);
-  return case_io::make_case_glb(data, &wall);
+  return case_io::make_case_glb(data, arthroscopy::make_joint_walls(data, *tissue));
 }
 
 /// Serves the open case until it is stopped, or another is chosen: returns that one's id, or "".

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/joint_lesions.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "procedure/situation.hpp"
@@ -48,6 +49,7 @@ struct ScopeLook {
   double flexion_rad = 0;
   double radial_deviation_rad = 0;
   double pronation_rad = 0;
+  std::uint8_t joint = 0;  ///< in ArthroscopicMap::joints
   bool operator==(const ScopeLook&) const = default;
 };
 
@@ -56,13 +58,17 @@ struct ScopeRecord {
   ScopeFacts facts;                      ///< at the end
   std::array<double, kHands> path_mm{};  ///< of the scope's tip and the other's, in the joint
   std::uint32_t entries = 0;             ///< of the scope into the joint
-  std::uint32_t pull_outs = 0;           ///< times that the scope came out of it
-  Tick looking_ticks = 0;                ///< with the scope in the joint
-  Tick tilted_ticks = 0;                 ///< of these, with the horizon off by more than 15 degrees
-  Tick warn_ticks = 0;                   ///< pressed with more than 3 N in the joint
-  Tick injury_ticks = 0;                 ///< more than 8 N
+  std::uint32_t pull_outs = 0;  ///< times that the scope had to go back in by the portal it left
+  Tick looking_ticks = 0;       ///< with the scope in the joint
+  Tick tilted_ticks = 0;        ///< of these, with the horizon off by more than 15 degrees
+  Tick warn_ticks = 0;          ///< pressed with more than 3 N in the joint
+  Tick injury_ticks = 0;        ///< more than 8 N
   double most_force_n = 0;
   double least_cosine = 1;  ///< of half the scope's field
+  cases::Grades truth{};    ///< of an examination, by finding (data/pathology.json)
+  cases::Grades answers = cases::not_judged();
+  std::uint32_t lesions = 0;  ///< that there are
+  std::uint32_t lesions_seen = 0;
   std::vector<ScopeLook> looks;
 };
 

@@ -144,6 +144,7 @@ Procedure read_procedure(std::string_view json,
   for (JsonFields& entry : fields.objects("views")) procedure.views.push_back(read_view(entry));
   procedure.rules = detail::read_score_rules(fields);
   procedure.decline = detail::read_decline_rules(fields);
+  procedure.examines = fields.boolean_or("examines", false);
   refuse_twins(fields, "steps", procedure.steps);
   refuse_twins(fields, "views", procedure.views);
   fields.refuse_unknown_fields();

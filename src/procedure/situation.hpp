@@ -105,9 +105,11 @@ struct FractureFacts {
 struct ScopeFacts {
   /// By hand: in CaseData::arthroscopy the portal through which its instrument goes.
   std::array<std::uint8_t, kHands> portal{kNoBody, kNoBody};
+  std::array<std::uint8_t, kHands> joint{};  ///< into which that leads, in its joints
   std::array<bool, kHands> is_in_joint{};
   std::uint32_t points_seen = 0;    ///< for a second at a useful distance, nothing before them
   std::uint32_t points_probed = 0;  ///< touched by the probe
+  std::uint8_t unanswered = 0;      ///< of what an examination asks
   bool operator==(const ScopeFacts&) const = default;
 };
 

@@ -18,7 +18,7 @@
 namespace carpus::procedures {
 namespace {
 
-/// Two portals dorsal of the radius and nothing else.
+/// Two portals dorsal of the radius into a joint without walls, and nothing else.
 cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
   cases::ArthroscopicMap map;
   for (std::size_t b = 0; b < data.bones.size(); ++b) {
@@ -26,8 +26,9 @@ cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
     const auto body = static_cast<std::uint8_t>(b);
     const Vec3 dorsal = (data.wrist_from_patient.inverse() * Direction<frame::Wrist>{{0, 0, -1}}).v;
     const Vec3 skin = data.bones[b].surface.vertices.front() + dorsal * 30.0;
-    map.portals.push_back({"3-4", "3-4 portal", "", "radiocarpal", skin, -dorsal, 12, 1, body});
-    map.portals.push_back({"4-5", "4-5 portal", "", "radiocarpal", skin, -dorsal, 12, 1, body});
+    map.joints.push_back({"radiocarpal", "radiocarpal joint", {}, body, body});
+    map.portals.push_back({"3-4", "3-4 portal", "", 0, skin, -dorsal, 12, 1, body});
+    map.portals.push_back({"4-5", "4-5 portal", "", 0, skin, -dorsal, 12, 1, body});
   }
   return map;
 }
@@ -48,7 +49,8 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 3U);
+  ASSERT_EQ(built_in().all().size(), 4U);
+  EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
   EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
   EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);

@@ -124,6 +124,17 @@ void write(FieldWriter& out, const Act& in) {
   }
 }
 
+void read(FieldReader& in, Answer& out) {
+  out.finding = in.string("finding", 64);
+  out.grade = in.string("grade", 16);
+}
+
+void write(FieldWriter& out, const Answer& in) {
+  out.name("type", "answer");
+  out.text("finding", in.finding, 64);
+  out.text("grade", in.grade, 16);
+}
+
 void read(FieldReader& in, TakeShot& out) {
   out.rotation_deg = in.number("rotation_deg", -180.0, 180.0);
   out.tilt_deg = in.number("tilt_deg", -60.0, 60.0);
@@ -402,6 +413,7 @@ void read(FieldReader& in, Scope& out) {
   in.list("points_probed", 0, 32, 1, 31, out.points_probed);
   in.list("points_in_view", 0, 32, 1, 31, out.points_in_view);
   out.pull_outs = in.integer("pull_outs", 0, 4294967295);
+  in.list("answers", 0, 16, -1, 14, out.answers);
 }
 
 void write(FieldWriter& out, const Scope& in) {
@@ -417,6 +429,7 @@ void write(FieldWriter& out, const Scope& in) {
   out.list("points_probed", in.points_probed);
   out.list("points_in_view", in.points_in_view);
   out.value("pull_outs", in.pull_outs);
+  out.list("answers", in.answers);
 }
 
 void read(FieldReader& in, Actions& out) { in.records("actions", 0, 512, out.actions); }
@@ -560,7 +573,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 21> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 22> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -568,6 +581,7 @@ constexpr std::array<MessageKind<PageMessage>, 21> kPageMessageKinds{
      {"hand", &read_as<PageMessage, Hand>},
      {"wrist", &read_as<PageMessage, Wrist>},
      {"act", &read_as<PageMessage, Act>},
+     {"answer", &read_as<PageMessage, Answer>},
      {"take_shot", &read_as<PageMessage, TakeShot>},
      {"tube", &read_as<PageMessage, Tube>},
      {"c_arm", &read_as<PageMessage, CArm>},

@@ -101,6 +101,15 @@ struct Act {
   bool operator==(const Act&) const = default;
 };
 
+/// What was found of one thing that an examination asks about; the newest counts.
+struct Answer {
+  /// its id
+  std::string finding;
+  /// its id; empty takes the answer back
+  std::string grade;
+  bool operator==(const Answer&) const = default;
+};
+
 /// One fluoroscopy picture.
 struct TakeShot {
   /// [deg] -180 to 180
@@ -225,6 +234,7 @@ using PageMessage = std::variant<Hello,
                                  Hand,
                                  Wrist,
                                  Act,
+                                 Answer,
                                  TakeShot,
                                  Tube,
                                  CArm,
@@ -353,6 +363,8 @@ struct Scope {
   std::vector<std::int64_t> points_in_view;
   /// 0 to 4294967295
   std::int64_t pull_outs = 0;
+  /// by finding: place of the grade that was answered; -1: none yet
+  std::vector<std::int64_t> answers;
   bool operator==(const Scope&) const = default;
 };
 

@@ -314,6 +314,7 @@ void write(FieldWriter& out, const Instrument& in) {
 void read(FieldReader& in, Portal& out) {
   out.id = in.string("id", 16);
   out.name = in.string("name", 64);
+  out.joint = in.string("joint", 32);
   out.landmarks = in.string("landmarks", 256);
   out.skin_mm = in.vec3("skin_mm", 10000.0, 0.0);
   out.inwards = in.vec3("inwards", 2.0, 0.0);
@@ -324,6 +325,7 @@ void read(FieldReader& in, Portal& out) {
 void write(FieldWriter& out, const Portal& in) {
   out.text("id", in.id, 16);
   out.text("name", in.name, 64);
+  out.text("joint", in.joint, 32);
   out.text("landmarks", in.landmarks, 256);
   out.vec3("skin_mm", in.skin_mm);
   out.vec3("inwards", in.inwards);
@@ -335,6 +337,7 @@ void read(FieldReader& in, TourPoint& out) {
   out.number = in.integer("number", 1, 31);
   out.name = in.string("name", 128);
   out.found_by = in.string("found_by", 256);
+  out.joint = in.string("joint", 32);
   out.is_probed = in.boolean("is_probed");
   out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
   out.body = in.string("body", 32);
@@ -344,9 +347,52 @@ void write(FieldWriter& out, const TourPoint& in) {
   out.value("number", in.number);
   out.text("name", in.name, 128);
   out.text("found_by", in.found_by, 256);
+  out.text("joint", in.joint, 32);
   out.value("is_probed", in.is_probed);
   out.vec3("at_mm", in.at_mm);
   out.text("body", in.body, 32);
+}
+
+void read(FieldReader& in, Lesion& out) {
+  out.look = static_cast<LesionLook>(in.choice("look", kLesionLookNames));
+  out.joint = in.string("joint", 32);
+  out.body = in.string("body", 32);
+  out.from_mm = in.vec3("from_mm", 10000.0, 0.0);
+  out.to_mm = in.vec3("to_mm", 10000.0, 0.0);
+  out.radius_mm = in.number("radius_mm", 0.0, 100.0);
+}
+
+void write(FieldWriter& out, const Lesion& in) {
+  out.name("look", name_of(in.look));
+  out.text("joint", in.joint, 32);
+  out.text("body", in.body, 32);
+  out.vec3("from_mm", in.from_mm);
+  out.vec3("to_mm", in.to_mm);
+  out.value("radius_mm", in.radius_mm);
+}
+
+void read(FieldReader& in, FindingGrade& out) {
+  out.id = in.string("id", 16);
+  out.label = in.string("label", 128);
+}
+
+void write(FieldWriter& out, const FindingGrade& in) {
+  out.text("id", in.id, 16);
+  out.text("label", in.label, 128);
+}
+
+void read(FieldReader& in, Finding& out) {
+  out.id = in.string("id", 64);
+  out.label = in.string("label", 128);
+  out.scale = in.string("scale", 64);
+  in.records("grades", 0, 15, out.grades);
+}
+
+void write(FieldWriter& out, const Finding& in) {
+  out.text("id", in.id, 64);
+  out.text("label", in.label, 128);
+  out.text("scale", in.scale, 64);
+  out.records("grades", in.grades);
 }
 
 void read(FieldReader& in, Arthroscopy& out) {
@@ -356,6 +402,8 @@ void read(FieldReader& in, Arthroscopy& out) {
   out.distal = in.vec3("distal", 2.0, 0.0);
   in.records("portals", 0, 16, out.portals);
   in.records("points", 0, 32, out.points);
+  in.records("lesions", 0, 24, out.lesions);
+  in.records("findings", 0, 16, out.findings);
 }
 
 void write(FieldWriter& out, const Arthroscopy& in) {
@@ -365,6 +413,8 @@ void write(FieldWriter& out, const Arthroscopy& in) {
   out.vec3("distal", in.distal);
   out.records("portals", in.portals);
   out.records("points", in.points);
+  out.records("lesions", in.lesions);
+  out.records("findings", in.findings);
 }
 
 void read(FieldReader& in, Body& out) {

@@ -19,7 +19,7 @@
 
 namespace carpus::protocol {
 
-inline constexpr std::int64_t kProtocolVersion = 16;
+inline constexpr std::int64_t kProtocolVersion = 18;
 /// Deepest nesting of arrays and objects in a message.
 inline constexpr int kMaxDepth = 16;
 
@@ -133,6 +133,14 @@ inline constexpr std::array<std::string_view, 4> kScrewPlaceNames{"inside", "dis
                                                                   "side"};
 [[nodiscard]] constexpr std::string_view name_of(ScrewPlace value) noexcept {
   return kScrewPlaceNames[static_cast<std::size_t>(value)];
+}
+
+/// How something that is wrong in a joint shows.
+enum class LesionLook : std::uint8_t { Stain, Tear, Worn, Soft, Fissured, Frayed, Bare, Loose };
+inline constexpr std::array<std::string_view, 8> kLesionLookNames{
+    "stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"};
+[[nodiscard]] constexpr std::string_view name_of(LesionLook value) noexcept {
+  return kLesionLookNames[static_cast<std::size_t>(value)];
 }
 
 /// How a device is, in its own word.
@@ -449,6 +457,8 @@ struct Instrument {
 struct Portal {
   std::string id;
   std::string name;
+  /// id of the one that it leads into; its wall is the node joint_wall_<id> of /api/scene.glb
+  std::string joint;
   /// how it is found
   std::string landmarks;
   Vec3 skin_mm;
@@ -467,12 +477,46 @@ struct TourPoint {
   std::int64_t number = 0;
   std::string name;
   std::string found_by;
+  /// id of the one that it lies in
+  std::string joint;
   /// to be touched, not only seen
   bool is_probed = false;
   Vec3 at_mm;
   /// that takes it along
   std::string body;
   bool operator==(const TourPoint&) const = default;
+};
+
+/// Something wrong in a joint, for the scope's picture: a band about the line between two places of
+/// its wall as scanned, or a ball. Generated.
+struct Lesion {
+  LesionLook look = LesionLook::Stain;
+  std::string joint;
+  /// that it goes with
+  std::string body;
+  Vec3 from_mm;
+  Vec3 to_mm;
+  /// [mm] 0 to 100
+  double radius_mm = 0.0;
+  bool operator==(const Lesion&) const = default;
+};
+
+/// One answer of several.
+struct FindingGrade {
+  std::string id;
+  std::string label;
+  bool operator==(const FindingGrade&) const = default;
+};
+
+/// What an examination asks about.
+struct Finding {
+  std::string id;
+  std::string label;
+  /// for people; may be empty
+  std::string scale;
+  /// what is well first
+  std::vector<FindingGrade> grades;
+  bool operator==(const Finding&) const = default;
 };
 
 /// What an arthroscopy goes by; all of it generated, not seen in the CT.
@@ -487,6 +531,10 @@ struct Arthroscopy {
   Vec3 distal;
   std::vector<Portal> portals;
   std::vector<TourPoint> points;
+  /// of this exercise, to be drawn and not to be told
+  std::vector<Lesion> lesions;
+  /// none: nothing is asked
+  std::vector<Finding> findings;
   bool operator==(const Arthroscopy&) const = default;
 };
 

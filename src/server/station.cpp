@@ -190,6 +190,13 @@ void Station::on_message(const protocol::TurnScope& turn) {
   if (has_exercise()) command(session::Session::take(turn));
 }
 
+void Station::on_message(const protocol::Answer& answer) {
+  if (!has_exercise()) return;
+  const Result<Command> asked = session::Session::take(answer);
+  if (!asked) return refuse(asked.error(), "Choose one of the findings that the page shows.");
+  command(*asked);
+}
+
 void Station::on_message(const protocol::CArm& c_arm) {
   if (has_exercise()) exercise_->loop().hold(exercise_->session().take(c_arm));
 }

@@ -17,6 +17,7 @@
 #include <string>
 #include <thread>
 
+#include "protocol/types.hpp"
 #include "server/loopback_client_test_support.hpp"
 #include "server/station.hpp"
 #include "server/station_http.hpp"
@@ -29,8 +30,12 @@ using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
-inline constexpr const char* kHello = R"({"type":"hello","protocol":15,"page":"first"})";
-inline constexpr const char* kSecondHello = R"({"type":"hello","protocol":15,"page":"second"})";
+inline std::string hello_of(const std::string& page) {
+  return R"({"type":"hello","protocol":)" + std::to_string(protocol::kProtocolVersion) +
+         R"(,"page":")" + page + R"("})";
+}
+inline const std::string kHello = hello_of("first");
+inline const std::string kSecondHello = hello_of("second");
 inline constexpr const char* kStart =
     R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
     R"("input_device":"mouse","seed":7})";
@@ -97,7 +102,9 @@ class StationTest : public ::testing::Test {
     return page;
   }
   /// Says hello until it is answered by a message of this type, and returns that.
-  static std::string say_hello(PageClient& page, const char* hello, const std::string& type) {
+  static std::string say_hello(PageClient& page,
+                               const std::string& hello,
+                               const std::string& type) {
     std::string answer;
     for (int i = 0; i < 200 && answer.find("\"type\":\"" + type) == std::string::npos; ++i) {
       if (i > 0) std::this_thread::sleep_for(20ms);

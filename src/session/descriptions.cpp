@@ -146,7 +146,8 @@ protocol::InstrumentList instrument_list() {
 
 protocol::Exercise exercise_message(const cases::CaseData& data,
                                     const procedure::Procedure& procedure,
-                                    procedure::Mode mode) {
+                                    procedure::Mode mode,
+                                    std::uint64_t seed) {
   protocol::Exercise message;
   message.mode = static_cast<protocol::Mode>(mode);
   message.procedure = summary_of(procedure);
@@ -166,7 +167,7 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
         {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
   }
   if (mode == procedure::Mode::Practice) message.ideal = ideal_of(procedure.opening(data).aim);
-  message.arthroscopy = arthroscopy_of(data, procedure);
+  message.arthroscopy = arthroscopy_of(data, procedure, seed);
   message.wrist_limits = message_of(data.hand_motion.limits);
   for (const procedure::DeclineReason& reason : procedure.decline.reasons) {
     message.decline_reasons.push_back({reason.id, reason.label});

@@ -20,7 +20,8 @@ namespace carpus::session {
 /// What is being done.
 [[nodiscard]] protocol::Exercise exercise_message(const cases::CaseData& data,
                                                   const procedure::Procedure& procedure,
-                                                  procedure::Mode mode);
+                                                  procedure::Mode mode,
+                                                  std::uint64_t seed);
 
 [[nodiscard]] protocol::WristPose message_of(const procedure::WristPose& wrist) noexcept;
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/page_input.hpp"
 
+#include "arthroscopy/pathology_table.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -171,6 +173,27 @@ Command command_of(const protocol::TurnScope& message) noexcept {
   command.rotation_deg = message.shaft_deg;
   command.tilt_deg = message.camera_deg;
   return command;
+}
+
+Result<Command> command_of(const protocol::Answer& message) {
+  const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+  for (std::size_t f = 0; f < table.findings.size(); ++f) {
+    if (table.findings[f].id != message.finding) continue;
+    Command command;
+    command.kind = CommandKind::Answer;
+    if (message.grade.empty()) {
+      command.index = simulation::answer_index(f, simulation::kNoGrade);
+      return command;
+    }
+    const auto& grades = table.scale_of(f).grades;
+    for (std::uint8_t g = 0; g < grades.size(); ++g) {
+      if (grades[g].id != message.grade) continue;
+      command.index = simulation::answer_index(f, g);
+      return command;
+    }
+    return Refusal{"Of " + message.finding + " there is no grade '" + message.grade + "'"};
+  }
+  return Refusal{"Nothing is asked of '" + message.finding + "'"};
 }
 
 Command command_of(const protocol::TakeShot& message, const simulation::WristPose& wrist) noexcept {

@@ -3,8 +3,10 @@
 #include "session/scope_message.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "arthroscopy/make_lesions.hpp"
 #include "session/body_names.hpp"
 
 namespace carpus::session {
@@ -20,10 +22,34 @@ std::vector<std::int64_t> numbers_in(std::uint32_t bits) {
   return numbers;
 }
 
+void add_examination(protocol::Arthroscopy& message,
+                     const cases::CaseData& data,
+                     const BodyNames& names,
+                     std::uint64_t seed) {
+  const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+  const cases::ArthroscopicMap& map = *data.arthroscopy;
+  const cases::JointLesions made =
+      arthroscopy::make_lesions(data, map, table, arthroscopy::grades_by(seed, table), seed);
+  for (const cases::Lesion& lesion : made.lesions) {
+    message.lesions.push_back({static_cast<protocol::LesionLook>(lesion.look),
+                               map.joints[lesion.joint].id, names.name(lesion.body), lesion.from,
+                               lesion.to, lesion.radius_mm});
+  }
+  for (std::size_t f = 0; f < table.findings.size(); ++f) {
+    protocol::Finding finding{
+        table.findings[f].id, table.findings[f].label, table.scale_of(f).name, {}};
+    for (const arthroscopy::Grade& grade : table.scale_of(f).grades) {
+      finding.grades.push_back({grade.id, grade.label});
+    }
+    message.findings.push_back(std::move(finding));
+  }
+}
+
 }  // namespace
 
 std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
-                                                    const procedure::Procedure& procedure) {
+                                                    const procedure::Procedure& procedure,
+                                                    std::uint64_t seed) {
   if (data.arthroscopy == nullptr) return std::nullopt;
   const auto all = instruments::catalogue();
   protocol::Arthroscopy message;
@@ -38,13 +64,16 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
   message.distal = data.arthroscopy->distal;
   const BodyNames names(data);
   for (const cases::Portal& portal : data.arthroscopy->portals) {
-    message.portals.push_back({portal.id, portal.name, portal.landmarks, portal.skin,
-                               portal.inwards, portal.capsule_mm, names.name(portal.body)});
+    message.portals.push_back({portal.id, portal.name, data.arthroscopy->joints[portal.joint].id,
+                               portal.landmarks, portal.skin, portal.inwards, portal.capsule_mm,
+                               names.name(portal.body)});
   }
   for (const cases::TourPoint& point : data.arthroscopy->points) {
-    message.points.push_back({point.number, point.name, point.found_by, point.is_probed, point.at,
+    message.points.push_back({point.number, point.name, point.found_by,
+                              data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});
   }
+  if (procedure.examines) add_examination(message, data, names, seed);
   return message;
 }
 
@@ -70,6 +99,9 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
     message.points_in_view = numbers_in(scope.points_in_view);
   }
   message.pull_outs = scope.pull_outs;
+  for (const std::uint8_t grade : scope.answers) {
+    message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
+  }
   return message;
 }
 

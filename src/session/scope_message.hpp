@@ -4,6 +4,7 @@
 // What a page is told of an arthroscopy: once what it goes by, then the scope as it is.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "cases/case_data.hpp"
@@ -13,10 +14,12 @@
 
 namespace carpus::session {
 
-/// None where no scope is on the tray or the case has no map.
+/// None where no scope is on the tray or the case has no map. Of an examination with what is wrong.
+/// @param seed  of the exercise.
 [[nodiscard]] std::optional<protocol::Arthroscopy> arthroscopy_of(
     const cases::CaseData& data,
-    const procedure::Procedure& procedure);
+    const procedure::Procedure& procedure,
+    std::uint64_t seed);
 
 /// None where no hand holds a scope. What is in view now is told in practice alone.
 [[nodiscard]] std::optional<protocol::Scope> scope_message(const cases::CaseData& data,

@@ -49,6 +49,10 @@ simulation::Command Session::take(const protocol::Tube& message) noexcept {
   return command_of(message);
 }
 
+Result<simulation::Command> Session::take(const protocol::Answer& message) {
+  return command_of(message);
+}
+
 simulation::Command Session::take(const protocol::TurnScope& message) noexcept {
   return command_of(message);
 }
@@ -71,7 +75,7 @@ const HeldInput& Session::let_go() noexcept {
 }
 
 protocol::Exercise Session::exercise() const {
-  return exercise_message(data_, procedure_, latest_.mode);
+  return exercise_message(data_, procedure_, latest_.mode, latest_.seed);
 }
 
 std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& now,

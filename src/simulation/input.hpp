@@ -38,15 +38,24 @@ enum class CommandKind : std::uint8_t {
   UseAid = 11,     ///< `index`: which procedure::Aid; practice only
   SetTube = 12,    ///< `index`: a procedure::TubeSetting, from the next pulse on
   TurnScope = 13,  ///< the scope's shaft is turned to `rotation_deg`, its camera head to `tilt_deg`
+  Answer = 14,     ///< of an examination: `index` is packed by answer_index
   /// Back to the last checkpoint at which step `index` was not done; practice only, counted as one
   /// undo.
-  ReturnToStep = 14,
+  ReturnToStep = 15,
 };
-inline constexpr std::uint8_t kCommandKinds = 15;
+inline constexpr std::uint8_t kCommandKinds = 16;
 
 /// After it the state is not one that follows from the tick before.
 [[nodiscard]] constexpr bool goes_back(CommandKind kind) noexcept {
   return kind == CommandKind::Undo || kind == CommandKind::ReturnToStep;
+}
+
+/// What is answered of a finding; 15 takes the answer back.
+inline constexpr std::uint8_t kGradesAFinding = 16;
+inline constexpr std::uint8_t kNoGrade = kGradesAFinding - 1;
+[[nodiscard]] constexpr std::uint8_t answer_index(std::size_t finding,
+                                                  std::uint8_t grade) noexcept {
+  return static_cast<std::uint8_t>(finding * kGradesAFinding + grade);
 }
 
 struct Command {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/permission.hpp"
 
+#include "arthroscopy/pathology_table.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -154,6 +156,15 @@ Refusal why_not(const procedure::Procedure& procedure,
     case CommandKind::UseAid:
       if (command.index >= procedure::kAidCount) return Refusal::UnknownCommand;
       return now.mode == procedure::Mode::Assessed ? Refusal::NoAidsWhenAssessed : Refusal::None;
+    case CommandKind::Answer: {
+      if (!procedure.examines) return Refusal::UnknownCommand;
+      const auto& table = arthroscopy::PathologyTable::generic();
+      const std::size_t finding = command.index / kGradesAFinding;
+      const std::uint8_t grade = command.index % kGradesAFinding;
+      const bool is_asked = finding < table.findings.size() &&
+                            (grade == kNoGrade || grade < table.scale_of(finding).grades.size());
+      return is_asked ? Refusal::None : Refusal::UnknownCommand;
+    }
     case CommandKind::TurnScope: {
       const bool is_turn = command.rotation_deg >= -180.0 && command.rotation_deg <= 180.0 &&
                            command.tilt_deg >= -180.0 && command.tilt_deg <= 180.0;

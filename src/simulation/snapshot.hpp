@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "cases/joint_lesions.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
@@ -85,6 +86,8 @@ struct ScopeView {
   procedure::ScopeFacts facts;
   std::uint32_t points_in_view = 0;  ///< now, by their numbers
   std::uint32_t pull_outs = 0;
+  std::uint32_t lesions_seen = 0;  ///< bits, in the order of World::lesions
+  cases::Grades answers = cases::not_judged();
   bool operator==(const ScopeView&) const = default;
 };
 
@@ -146,6 +149,7 @@ struct Snapshot {
   Tick tick = 0;
   std::uint64_t state_hash = 0;
   procedure::Mode mode = procedure::Mode::Practice;
+  std::uint64_t seed = 0;             ///< of the exercise
   std::uint8_t step = 0;              ///< current one; the number of steps when finished
   std::uint32_t completed_steps = 0;  ///< bit i: step i is done
   std::array<HandView, kHands> hands{};

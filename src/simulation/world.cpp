@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "arthroscopy/make_lesions.hpp"
 #include "core/error.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
@@ -70,10 +71,13 @@ World::Model::Model(const cases::CaseData& case_data,
   for (const InstrumentIndex index : declared.tray) {
     if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
   }
-  if (map != nullptr) {
-    row_body = map->space_body;
-    const cases::Bone* lunate = cases::find_bone(case_data, BoneId::Lunate);
-    if (lunate != nullptr) row_body = static_cast<std::uint8_t>(lunate - case_data.bones.data());
+  if (declared.examines && map != nullptr) {
+    const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+    lesions = arthroscopy::make_lesions(case_data, *map, table, arthroscopy::grades_by(seed, table),
+                                        seed);
+    for (std::uint8_t b = 0; b < case_data.bones.size(); ++b) {
+      if (squared_length(lesions->shifts[b]) > 0) loose[loose_count++] = b;
+    }
   }
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
@@ -87,6 +91,7 @@ World::State::State(const Model& model)
   structure_state.count = static_cast<std::uint8_t>(structures.size());
   snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
   snapshot.mode = model.mode;
+  snapshot.seed = model.seed;
   scene.set_cuts(tissue.cuts().fields());
 }
 
@@ -284,6 +289,9 @@ const TickFaults& World::faults() const noexcept { return state_->faults; }
 const procedure::Procedure& World::procedure() const noexcept { return model_->procedure; }
 procedure::Mode World::mode() const noexcept { return model_->mode; }
 std::uint64_t World::seed() const noexcept { return model_->seed; }
+const cases::JointLesions* World::lesions() const noexcept {
+  return model_->lesions ? &*model_->lesions : nullptr;
+}
 const cases::CaseData& World::case_data() const noexcept { return model_->data; }
 
 }  // namespace carpus::simulation

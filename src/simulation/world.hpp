@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cases/case_data.hpp"
+#include "cases/joint_lesions.hpp"
 #include "core/result.hpp"
 #include "procedure/mode.hpp"
 #include "procedure/operation_record.hpp"
@@ -74,6 +75,8 @@ class World {
   [[nodiscard]] const TickFaults& faults() const noexcept;
   [[nodiscard]] const procedure::Procedure& procedure() const noexcept;
   [[nodiscard]] std::uint64_t seed() const noexcept;
+  /// What is wrong in the joints of this exercise; nullptr where it is no examination.
+  [[nodiscard]] const cases::JointLesions* lesions() const noexcept;
   [[nodiscard]] procedure::Mode mode() const noexcept;
   [[nodiscard]] const cases::CaseData& case_data() const noexcept;
 

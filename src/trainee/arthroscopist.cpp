@@ -10,6 +10,7 @@
 
 #include "arthroscopy/make_map.hpp"
 #include "arthroscopy/opened_space.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "cases/joint_under_block.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
@@ -19,8 +20,8 @@ namespace {
 
 using simulation::CommandKind;
 
-constexpr std::uint8_t kLook = 0;  // portals, in the map's order
-constexpr std::uint8_t kWork = 1;
+constexpr std::uint8_t kScope = 0;  // hands
+constexpr std::uint8_t kProbe = 1;
 constexpr double kOutsideMm = 12.0;
 constexpr double kInsideMm = 2.0;    // beyond the capsule, to begin with
 constexpr double kDeepestMm = 14.0;  // of the working depth [S81]
@@ -48,9 +49,9 @@ bool is_arthroscopy(const procedure::Procedure& procedure) {
 ScopeSkill scope_skill_of(Skill skill) noexcept {
   ScopeSkill result;
   if (skill == Skill::Middle) {
-    result = {50.0, 9.0, 0.1, 0.5, 10.0, 9.0, 1.3, 1, 0.06, 1.2, 2.5, 0.7};
+    result = {50.0, 9.0, 0.1, 0.5, 10.0, 9.0, 1.3, 1, 0.06, 1.2, 2.5, 0.7, 0.82, 0.65, 0.07, 0.05};
   } else if (skill == Skill::Novice) {
-    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2, 3.0, 6.0, 1.0};
+    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2, 3.0, 6.0, 1.0, 0.6, 0.4, 0.14, 0.15};
   }
   return result;
 }
@@ -75,14 +76,10 @@ ScriptedArthroscopist::ScriptedArthroscopist(const cases::CaseData& data,
   wrist_ = opening_.wrist;
   wrist_.traction_n = skill_.traction_n;
   for (const cases::Bone& bone : data.bones) {
-    const bool is_near = belongs_to_forearm(bone.bone) || bone.bone == BoneId::Scaphoid ||
-                         bone.bone == BoneId::Lunate || bone.bone == BoneId::Triquetrum;
-    if (!is_near || bone.distance_field.values().empty()) continue;
-    if (bone.bone == BoneId::Lunate) {
-      row_from_patient_ = cases::pose_under_block(data.hand_motion, bone.bone, wrist_).inverse();
-    }
-    bones_.emplace_back(&bone,
-                        cases::pose_under_block(data.hand_motion, bone.bone, wrist_).inverse());
+    poses_.push_back(cases::pose_under_block(data.hand_motion, bone.bone, wrist_));
+    const bool bounds_joint = bone.bone <= BoneId::Hamate && bone.bone != BoneId::Pisiform;
+    if (!bounds_joint || bone.distance_field.values().empty()) continue;
+    bones_.emplace_back(&bone, poses_.back().inverse());
   }
 }
 
@@ -90,24 +87,38 @@ Vec3 ScriptedArthroscopist::error(double mm) {
   return {rng_.normal() * mm, rng_.normal() * mm, rng_.normal() * mm};
 }
 
-Vec3 ScriptedArthroscopist::in_portal(std::uint8_t portal, double beyond_capsule_mm) const {
+/// The hole in the skin where it is now.
+HandPose ScriptedArthroscopist::hole(std::uint8_t portal) const {
   const cases::Portal& p = map_.portals[portal];
-  return p.skin + p.inwards * (p.capsule_mm + beyond_capsule_mm);
+  return {(poses_[p.body] * Point<frame::Bone>{p.skin}).v,
+          -(poses_[p.body] * Direction<frame::Bone>{p.inwards}).v};
+}
+
+Vec3 ScriptedArthroscopist::place_of(std::size_t point) const {
+  const cases::TourPoint& p = map_.points[point];
+  return (poses_[p.body] * Point<frame::Bone>{p.at}).v;
+}
+
+Vec3 ScriptedArthroscopist::in_portal(std::uint8_t portal, double beyond_capsule_mm) const {
+  const HandPose at = hole(portal);
+  return at.tip - at.shaft * (map_.portals[portal].capsule_mm + beyond_capsule_mm);
 }
 
 HandPose ScriptedArthroscopist::through(std::uint8_t portal, const Vec3& tip) const {
-  const cases::Portal& p = map_.portals[portal];
-  const double deep = dot(tip - p.skin, p.inwards);
-  return {tip, deep > 4.0 ? normalized_or(p.skin - tip, -p.inwards) : -p.inwards};
+  const HandPose at = hole(portal);
+  const double deep = -dot(tip - at.tip, at.shaft);
+  return {tip, deep > 4.0 ? normalized_or(at.tip - tip, at.shaft) : at.shaft};
 }
 
-arthroscopy::OpenedSpace ScriptedArthroscopist::space_at(const Vec3& at) const {
-  return arthroscopy::opened_space_at(map_.space, {}, row_from_patient_, at);
+arthroscopy::OpenedSpace ScriptedArthroscopist::space_at(std::uint8_t joint, const Vec3& at) const {
+  const cases::JointSpace& space = map_.joints[joint];
+  return arthroscopy::opened_space_at(space.wall, poses_[space.proximal].inverse(),
+                                      poses_[space.distal].inverse(), at);
 }
 
 /// Between the pulled bones, and not behind the joint's wall.
-bool ScriptedArthroscopist::has_room(const Vec3& at, double room_mm) const {
-  const arthroscopy::OpenedSpace wall = space_at(at);
+bool ScriptedArthroscopist::has_room(std::uint8_t joint, const Vec3& at, double room_mm) const {
+  const arthroscopy::OpenedSpace wall = space_at(joint, at);
   if (!wall.is_near || wall.distance_mm > kBehindMm) return false;
   for (const auto& [bone, from_patient] : bones_) {
     const Vec3 local = (from_patient * Point<frame::Patient>{at}).v;
@@ -119,7 +130,7 @@ bool ScriptedArthroscopist::has_room(const Vec3& at, double room_mm) const {
 
 /// Tip and shaft have room from the capsule on.
 bool ScriptedArthroscopist::goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const {
-  const arthroscopy::OpenedSpace wall = space_at(tip);
+  const arthroscopy::OpenedSpace wall = space_at(map_.portals[portal].joint, tip);
   if (!wall.is_near || wall.distance_mm > 0.1) return false;
   const HandPose held = through(portal, tip);
   for (double s = 0; s < 12.0; s += 1.0) {
@@ -133,39 +144,43 @@ bool ScriptedArthroscopist::goes_in(const Vec3& tip, std::uint8_t portal, double
   return true;
 }
 
-bool ScriptedArthroscopist::is_free(const Vec3& from, const Vec3& to) const {
+bool ScriptedArthroscopist::is_free(std::uint8_t joint, const Vec3& from, const Vec3& to) const {
   const double far = distance(from, to);
   for (double s = 0.5; s < far - 0.8; s += 0.5) {
-    if (!has_room(from + (to - from) * (s / far), 0.0)) return false;
+    if (!has_room(joint, from + (to - from) * (s / far), 0.0)) return false;
   }
   return true;
 }
 
 /// Tries tips about the capsule's hole and turns of the shaft.
-ScriptedArthroscopist::View ScriptedArthroscopist::view_of(const Vec3& point,
+ScriptedArthroscopist::View ScriptedArthroscopist::view_of(std::uint8_t portal,
+                                                           const Vec3& point,
                                                            const Vec3& from) const {
-  const cases::Portal& portal = map_.portals[kLook];
+  const std::uint8_t joint = map_.portals[portal].joint;
+  const Vec3 inwards = -hole(portal).shaft;
   const double scope_radius =
       instruments::catalogue()[procedure_.tray.front()].shape.greatest_radius_mm();
-  const Vec3 across = normalized_or(cross(portal.inwards, map_.distal), {1, 0, 0});
+  const Vec3 across = normalized_or(cross(inwards, map_.distal), {1, 0, 0});
   View best;
   double least = 1e9;
   for (double deep = 1.0; deep <= kDeepestMm; deep += 1.0) {
     for (double aside = -8.0; aside <= 8.0; aside += 1.0) {
       for (double up = -2.0; up <= 3.5; up += 0.5) {
-        const Vec3 tip = in_portal(kLook, deep) + across * aside + map_.distal * up;
-        const Vec3 eye = tip + through(kLook, tip).shaft * scope_radius;
+        const Vec3 tip = in_portal(portal, deep) + across * aside + map_.distal * up;
+        const HandPose held = through(portal, tip);
+        const Vec3 eye = tip + held.shaft * scope_radius;
         const double far = distance(eye, point);
         if (far < 2.0 || far > 13.0) continue;
-        if (!goes_in(tip, kLook, scope_radius + kSpareMm) || !is_free(eye, point)) continue;
-        const HandPose held = through(kLook, tip);
+        const double way = 1.5 * distance(tip, from) + 0.5 * deep;
+        if (way >= least) continue;
+        if (!goes_in(tip, portal, scope_radius + kSpareMm) || !is_free(joint, eye, point)) continue;
         for (double turn = -180.0; turn < 180.0; turn += 15.0) {
           const arthroscopy::Sight sight =
               arthroscopy::sight_of(lens_, {eye, held.shaft, turn, 0.0}, map_.distal);
           const double cosine = dot(point - eye, sight.axis) / far;
           if (cosine < sight.least_cosine + 0.08) continue;
-          const double cost = 1.5 * distance(tip, from) + 6.0 * (1.0 - cosine) / 0.1 +
-                              0.01 * std::abs(wrapped(turn - planned_turn_deg_)) + 0.5 * deep;
+          const double cost =
+              way + 6.0 * (1.0 - cosine) / 0.1 + 0.01 * std::abs(wrapped(turn - planned_turn_deg_));
           if (cost >= least) continue;
           least = cost;
           best = {tip, turn, true};
@@ -186,58 +201,167 @@ void ScriptedArthroscopist::go(std::uint8_t hand, const HandPose& to, double dwe
   planned_[hand] = to.tip;
 }
 
-void ScriptedArthroscopist::look(const View& view) {
+void ScriptedArthroscopist::look(std::uint8_t portal, const View& view) {
   planned_turn_deg_ = wrapped(view.turn_deg + rng_.normal() * skill_.turn_error_deg);
   // Not across what lies between: back to the middle of the way in, then in again.
-  if (distance(view.tip, planned_[kLook]) > kAcrossMm) {
-    go(0, through(kLook, in_portal(kLook, kInsideMm)), 0.0);
+  if (distance(view.tip, planned_[kScope]) > kAcrossMm) {
+    go(kScope, through(portal, in_portal(portal, kInsideMm)), 0.0);
   }
-  go(0, through(kLook, view.tip + error(skill_.aim_error_mm)), skill_.dwell_s);
+  go(kScope, through(portal, view.tip + error(skill_.aim_error_mm)), skill_.dwell_s);
   tasks_.back().turns = true;
+}
+
+/// Each point is looked at by the first of its portals that shows it; portals in the map's order.
+std::vector<ScriptedArthroscopist::Stop> ScriptedArthroscopist::stops() const {
+  std::vector<Stop> all(map_.portals.size());
+  for (std::size_t i = 0; i < map_.points.size(); ++i) {
+    for (const std::uint8_t portal : map_.points[i].by) {
+      if (!view_of(portal, place_of(i), in_portal(portal, kInsideMm)).is_found) continue;
+      all[portal].points.push_back(i);
+      all[portal].is_probing = all[portal].is_probing || map_.points[i].is_probed;
+      break;
+    }
+  }
+  std::vector<Stop> used;
+  for (std::uint8_t portal = 0; portal < all.size(); ++portal) {
+    if (all[portal].points.empty()) continue;
+    all[portal].look = portal;
+    all[portal].work = work_portal(portal);
+    used.push_back(std::move(all[portal]));
+  }
+  return used;
+}
+
+/// The next portal into the same joint; its own where there is no other.
+std::uint8_t ScriptedArthroscopist::work_portal(std::uint8_t look) const {
+  const auto count = static_cast<std::uint8_t>(map_.portals.size());
+  for (std::uint8_t by = 1; by < count; ++by) {
+    const auto other = static_cast<std::uint8_t>((look + by) % count);
+    if (map_.portals[other].joint == map_.portals[look].joint) return other;
+  }
+  return look;
+}
+
+void ScriptedArthroscopist::draw_out(std::uint8_t hand) {
+  const std::uint8_t portal = in_[hand];
+  if (portal == procedure::kNoBody) return;
+  go(hand, through(portal, in_portal(portal, kInsideMm)), 0.0);  // to the hole first
+  go(hand, through(portal, in_portal(portal, -map_.portals[portal].capsule_mm - kOutsideMm)),
+     skill_.reaction_s);
+  in_[hand] = procedure::kNoBody;
+}
+
+void ScriptedArthroscopist::enter(std::uint8_t hand, std::uint8_t portal) {
+  if (in_[hand] == portal) return;
+  draw_out(hand);
+  go(hand, through(portal, in_portal(portal, -map_.portals[portal].capsule_mm - kOutsideMm)),
+     skill_.reaction_s);
+  go(hand, through(portal, in_portal(portal, kInsideMm)), skill_.reaction_s);
+  in_[hand] = portal;
+}
+
+void ScriptedArthroscopist::look_at(const Stop& stop, std::size_t point) {
+  for (int i = 0; i < skill_.wanderings; ++i) {
+    look(stop.look, {planned_[kScope] + error(2.0), rng_.uniform(-180.0, 180.0), true});
+    tasks_.back().dwell = ticks_of(0.4);
+  }
+  if (rng_.uniform(0.0, 1.0) < skill_.falls_out) {
+    go(kScope, through(stop.look, in_portal(stop.look, kBackMm)), skill_.reaction_s);
+    go(kScope, through(stop.look, in_portal(stop.look, kInsideMm)), skill_.reaction_s);
+  }
+  const View view = view_of(stop.look, place_of(point), planned_[kScope]);
+  if (view.is_found) look(stop.look, view);
+}
+
+void ScriptedArthroscopist::probe(const Stop& stop, std::size_t point) {
+  const Vec3 at = place_of(point);
+  const Vec3 down =
+      normalized_or(space_at(map_.portals[stop.look].joint, at).outwards, map_.distal);
+  go(kProbe, through(stop.work, at + down * skill_.presses_mm), skill_.dwell_s);
+  go(kProbe, through(stop.work, in_portal(stop.work, kInsideMm)), skill_.reaction_s);
+}
+
+/// Once round, from two depths: what was planned for and missed may be found so.
+void ScriptedArthroscopist::look_round(const Stop& stop) {
+  for (const double deep : {2.0, 4.0}) {
+    for (double turn = -180.0; turn < 180.0; turn += 45.0) {
+      look(stop.look, {in_portal(stop.look, deep), turn, true});
+    }
+  }
 }
 
 void ScriptedArthroscopist::plan(const simulation::Snapshot&) {
   tilt_deg_ = rng_.normal() * skill_.tilt_deg;
-  planned_[0] = hands_[0].tip;
-  go(0, through(kLook, in_portal(kLook, -map_.portals[kLook].capsule_mm - kOutsideMm)),
-     skill_.reaction_s);
-  go(0, through(kLook, in_portal(kLook, kInsideMm)), skill_.reaction_s);
-  Task take;
-  take.hand = 1;
-  take.takes_probe = true;
-  take.to = through(kWork, in_portal(kWork, -map_.portals[kWork].capsule_mm - 60.0));
-  take.dwell = ticks_of(0.5);
-  tasks_.push_back(take);
-  go(1, through(kWork, in_portal(kWork, -map_.portals[kWork].capsule_mm - kOutsideMm)),
-     skill_.reaction_s);
-  go(1, through(kWork, in_portal(kWork, kInsideMm)), skill_.reaction_s);
-  for (const cases::TourPoint& point : map_.points) {
-    for (int i = 0; i < skill_.wanderings; ++i) {
-      look({planned_[0] + error(2.0), rng_.uniform(-180.0, 180.0), true});
-      tasks_.back().dwell = ticks_of(0.4);
+  planned_[kScope] = hands_[kScope].tip;
+  std::uint8_t looked_round = 0;  // joints
+  bool has_probe = false;
+  for (const Stop& stop : stops()) {
+    // The probe leaves a portal that the scope needs.
+    if (in_[kProbe] != procedure::kNoBody) draw_out(kProbe);
+    enter(kScope, stop.look);
+    if (stop.is_probing && stop.work != stop.look) {
+      if (!has_probe) {
+        Task take;
+        take.hand = kProbe;
+        take.takes_probe = true;
+        take.to =
+            through(stop.work, in_portal(stop.work, -map_.portals[stop.work].capsule_mm - 60.0));
+        take.dwell = ticks_of(0.5);
+        tasks_.push_back(take);
+        has_probe = true;
+      }
+      enter(kProbe, stop.work);
     }
-    if (rng_.uniform(0.0, 1.0) < skill_.falls_out) {
-      go(0, through(kLook, in_portal(kLook, kBackMm)), skill_.reaction_s);
-      go(0, through(kLook, in_portal(kLook, kInsideMm)), skill_.reaction_s);
+    for (const std::size_t point : stop.points) {
+      look_at(stop, point);
+      if (map_.points[point].is_probed && in_[kProbe] == stop.work) probe(stop, point);
     }
-    const View view = view_of(point.at, planned_[0]);
-    if (view.is_found) look(view);
-    if (!point.is_probed) continue;
-    const Vec3 way_in = in_portal(kWork, kInsideMm);
-    const Vec3 down =
-        normalized_or(fields::sample_distance(map_.space, point.at).gradient, map_.distal);
-    go(1, through(kWork, point.at + down * skill_.presses_mm), skill_.dwell_s);
-    go(1, through(kWork, way_in), skill_.reaction_s);
+    const auto joint_bit = static_cast<std::uint8_t>(1U << map_.portals[stop.look].joint);
+    if ((looked_round & joint_bit) == 0) look_round(stop);
+    looked_round = static_cast<std::uint8_t>(looked_round | joint_bit);
   }
-  // Once round, from two depths: what was planned for and missed may be found so.
-  for (const double deep : {2.0, 4.0}) {
-    for (double turn = -180.0; turn < 180.0; turn += 45.0)
-      look({in_portal(kLook, deep), turn, true});
+  if (procedure_.examines) {
+    Task report;
+    report.to = {planned_[kScope], hands_[kScope].shaft};
+    report.answers = true;
+    tasks_.push_back(report);
   }
   Task finish;
-  finish.to = {planned_[0], {}};
+  finish.to = {planned_[kScope], {}};
   finish.finishes = true;
   tasks_.push_back(finish);
+}
+
+/// One finding a tick.
+void ScriptedArthroscopist::answer(const simulation::Snapshot& now, simulation::Input& input) {
+  if (answered_ >= arthroscopy::PathologyTable::generic().findings.size()) return;
+  const std::uint8_t grade = judged(answered_, now.scope.lesions_seen);
+  input.command.kind = CommandKind::Answer;
+  input.command.index = simulation::answer_index(answered_, grade);
+  ++answered_;
+}
+
+/// What is named of what came into view; what did not is taken for well.
+std::uint8_t ScriptedArthroscopist::judged(std::size_t finding, std::uint32_t lesions_seen) {
+  const auto grades = arthroscopy::PathologyTable::generic().scale_of(finding).grades.size();
+  const auto some = static_cast<std::uint8_t>(1 + rng_.below(grades - 1));
+  const double chance = rng_.uniform(0.0, 1.0);
+  const double exact = rng_.uniform(0.0, 1.0);
+  if (rng_.uniform(0.0, 1.0) < skill_.says_nothing) return simulation::kNoGrade;
+  const std::uint8_t truth = lesions_ != nullptr ? lesions_->grades[finding] : std::uint8_t{0};
+  bool is_seen = false;
+  for (std::size_t i = 0; truth != 0 && i < lesions_->lesions.size(); ++i) {
+    const bool is_of_it = lesions_->lesions[i].finding == finding;
+    is_seen = is_seen || (is_of_it && (lesions_seen >> i & 1U) != 0);
+  }
+  if (!is_seen) return chance < skill_.invents ? some : std::uint8_t{0};
+  if (chance >= skill_.recognises) return 0;
+  if (exact < skill_.grades_right) return truth;
+  // The grade beside it.
+  if (truth + 1U < grades && (truth == 1 || exact > 0.5 * (1.0 + skill_.grades_right))) {
+    return static_cast<std::uint8_t>(truth + 1);
+  }
+  return truth > 1 ? static_cast<std::uint8_t>(truth - 1) : truth;
 }
 
 void ScriptedArthroscopist::begin(const simulation::Snapshot& now) {
@@ -293,8 +417,9 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     const HandPose& from = hands_[task.hand];
     move_ticks_ = std::max(kLeastMoveTicks,
                            ticks_of(distance(from.tip, task.to.tip) / skill_.speed_mm_per_s));
-    if (task.finishes) move_ticks_ = 1;
-    move_ = MinimumJerkMove(from, task.finishes ? from : task.to, move_ticks_);
+    const bool stays = task.finishes || task.answers;
+    if (stays) move_ticks_ = 1;
+    move_ = MinimumJerkMove(from, stays ? from : task.to, move_ticks_);
     if (task.takes_probe) {
       hands_[task.hand] = task.to;
       move_ = MinimumJerkMove(task.to, task.to, 1);
@@ -309,6 +434,9 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     input.command.kind = CommandKind::Take;
     input.command.hand = task.hand;
     input.command.index = procedure_.tray.back();
+  } else if (task.answers) {
+    answer(now, input);
+    if (answered_ < arthroscopy::PathologyTable::generic().findings.size()) return input;
   } else if (task.finishes) {
     input.command.kind = CommandKind::Finish;
     is_finished_ = true;

@@ -1,8 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scripted operator of a diagnostic arthroscopy: pulls, goes in by both portals, looks for each
-// place of the tour in turn and probes what is to be probed, through the same input as a person.
+// A scripted operator of a diagnostic arthroscopy: pulls, goes from portal to portal, looks for
+// each place of the tour from where it is seen and probes what is to be probed, through the same
+// input as a person.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/optics.hpp"
 #include "cases/case_data.hpp"
+#include "cases/joint_lesions.hpp"
 #include "core/rng.hpp"
 #include "procedure/procedure.hpp"
 #include "simulation/input.hpp"
@@ -40,6 +42,10 @@ struct ScopeSkill {
   double presses_mm = 1.3;      ///< with which the probe goes beyond what it touches
   double yields_n = 2.0;        ///< pressed more, the hand gives way
   double reaction_s = 0.4;
+  double recognises = 0.96;  ///< chance to name what came into view
+  double grades_right = 0.88;
+  double invents = 0.02;  ///< chance to see something where nothing is
+  double says_nothing = 0.0;
 };
 [[nodiscard]] ScopeSkill scope_skill_of(Skill skill) noexcept;
 
@@ -50,6 +56,9 @@ class ScriptedArthroscopist {
                         const procedure::Procedure& procedure,
                         Skill skill,
                         std::uint64_t seed);
+
+  /// What it may come to see and is asked about at the end; nullptr: nothing. Must outlive it.
+  void examines(const cases::JointLesions* lesions) noexcept { lesions_ = lesions; }
 
   /// The input for the next tick, from the state that the last one left.
   [[nodiscard]] simulation::Input next(const simulation::Snapshot& now);
@@ -64,6 +73,7 @@ class ScriptedArthroscopist {
     Tick dwell = 0;
     bool takes_probe = false;
     bool turns = false;
+    bool answers = false;  ///< all that is asked, one a tick
     bool finishes = false;
   };
   struct View {
@@ -74,17 +84,34 @@ class ScriptedArthroscopist {
 
   void plan(const simulation::Snapshot& now);
   void begin(const simulation::Snapshot& now);
+  struct Stop {
+    std::uint8_t look = 0;  ///< portal of the scope
+    std::uint8_t work = 0;  ///< of the probe
+    bool is_probing = false;
+    std::vector<std::size_t> points;  ///< in the map's order
+  };
+  [[nodiscard]] std::vector<Stop> stops() const;
+  [[nodiscard]] std::uint8_t work_portal(std::uint8_t look) const;
+  void enter(std::uint8_t hand, std::uint8_t portal);
+  void draw_out(std::uint8_t hand);
+  void look_at(const Stop& stop, std::size_t point);
+  void probe(const Stop& stop, std::size_t point);
+  void look_round(const Stop& stop);
+  [[nodiscard]] Vec3 place_of(std::size_t point) const;
+  [[nodiscard]] HandPose hole(std::uint8_t portal) const;
   [[nodiscard]] HandPose through(std::uint8_t portal, const Vec3& tip) const;
   [[nodiscard]] Vec3 in_portal(std::uint8_t portal, double beyond_capsule_mm) const;
-  [[nodiscard]] View view_of(const Vec3& point, const Vec3& from) const;
-  [[nodiscard]] arthroscopy::OpenedSpace space_at(const Vec3& at) const;
-  [[nodiscard]] bool has_room(const Vec3& tip, double room_mm) const;
+  [[nodiscard]] View view_of(std::uint8_t portal, const Vec3& point, const Vec3& from) const;
+  [[nodiscard]] arthroscopy::OpenedSpace space_at(std::uint8_t joint, const Vec3& at) const;
+  [[nodiscard]] bool has_room(std::uint8_t joint, const Vec3& tip, double room_mm) const;
   [[nodiscard]] bool goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const;
-  [[nodiscard]] bool is_free(const Vec3& from, const Vec3& to) const;
+  [[nodiscard]] bool is_free(std::uint8_t joint, const Vec3& from, const Vec3& to) const;
   void give_way(const simulation::Snapshot& now);
   void go(std::uint8_t hand, const HandPose& to, double dwell_s);
-  void look(const View& view);
+  void look(std::uint8_t portal, const View& view);
   [[nodiscard]] Vec3 error(double mm);
+  void answer(const simulation::Snapshot& now, simulation::Input& input);
+  [[nodiscard]] std::uint8_t judged(std::size_t finding, std::uint32_t lesions_seen);
 
   const cases::CaseData& data_;
   const procedure::Procedure& procedure_;
@@ -95,9 +122,11 @@ class ScriptedArthroscopist {
   Tremor tremor_;
   procedure::Opening opening_;
   simulation::WristPose wrist_;
-  /// Of the bones about the joint, as the wrist is pulled.
+  /// Of the bones about the joints, as the wrist is pulled.
   std::vector<std::pair<const cases::Bone*, Pose<frame::Bone, frame::Patient>>> bones_;
-  Pose<frame::Bone, frame::Patient> row_from_patient_;
+  std::vector<Pose<frame::Patient, frame::Bone>> poses_;  ///< by body
+  /// By hand: the portal that it is in; none where it is outside.
+  std::array<std::uint8_t, simulation::kHands> in_{procedure::kNoBody, procedure::kNoBody};
   std::vector<Task> tasks_;
   std::size_t at_ = 0;
   bool has_planned_ = false;
@@ -108,6 +137,8 @@ class ScriptedArthroscopist {
   std::array<Vec3, simulation::kHands> given_{};  ///< by which the hands gave way
   Tick in_task_ = 0;
   Tick move_ticks_ = 1;
+  const cases::JointLesions* lesions_ = nullptr;
+  std::size_t answered_ = 0;
   double turn_deg_ = 0.0;
   double tilt_deg_ = 0.0;
   std::array<Vec3, simulation::kHands> planned_{};  ///< where the plan so far leaves each tip

@@ -11,6 +11,12 @@ namespace carpus::trainee {
 
 namespace {
 
+/// What is wrong is before the operator's eyes, as far as it comes into view.
+void show(ScriptedArthroscopist& trainee, const simulation::World& world) {
+  trainee.examines(world.lesions());
+}
+void show(ScriptedTrainee&, const simulation::World&) {}
+
 template <typename Trainee>
 Attempt operate_as(Trainee trainee,
                    const cases::CaseData& data,
@@ -18,6 +24,7 @@ Attempt operate_as(Trainee trainee,
                    std::uint64_t seed,
                    const std::string& program_version) {
   simulation::World world(data, procedure, seed);
+  show(trainee, world);
   simulation::Recorder recorder(program_version, simulation::fingerprint_of(data), procedure, seed);
   Attempt attempt;
   while (!world.now().finished) {
@@ -42,6 +49,7 @@ procedure::ScoreReport score_as(Trainee trainee,
                                 const procedure::Procedure& procedure,
                                 std::uint64_t seed) {
   simulation::World world(data, procedure, seed);
+  show(trainee, world);
   world.leave_out_hashes();
   while (!world.now().finished) world.step(trainee.next(world.now()));
   return procedure.score(data, world.operation_record());

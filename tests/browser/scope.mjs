@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// a touch, the score; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
@@ -94,6 +94,66 @@ export async function arthroscopy(browser, station) {
     await page.click("dialog[open] button[value=finish], dialog[open] .primary");
     await page.waitForURL(/#\/attempts\/\d+/);
     await page.getByText("Cartilage seen").first().waitFor();
+    await picture("score");
+  });
+  await page.context().close();
+}
+
+/** Through both joints, with a report of what was found. */
+export async function examination(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  const picture = async (name) => {
+    if (pictures === undefined) return;
+    await page.waitForTimeout(600);
+    await page.screenshot({ path: join(pictures, `examination_${name}.png`) });
+  };
+  await check(page, "the scope goes from one joint to the other", async () => {
+    await operator.start(station.url, TRAINEE, "arthroscopic_examination");
+    await atRest(operator);
+    for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
+    await operator.until((s) => s.wrist.traction_n >= 34, "traction");
+    await holdUntil(page, "a", "Scope in the joint by 3-4", "the scope");
+    await picture("radiocarpal");
+    await holdUntil(page, "d", "Scope outside", "the scope, out again");
+    for (let i = 0; i < 4; ++i) {
+      await page.keyboard.press("v");
+      const title = page.locator(".scope-points-title");
+      if (/Midcarpal/.test(await title.innerText())) break;
+    }
+    await holdUntil(page, "a", "Scope in the joint by MC", "the scope, midcarpal");
+    await hold(page, "a", 200);
+    for (let turn = 0; turn < 6; ++turn) {
+      const seen = await page.locator(".scope-points .is-seen").count();
+      if (seen >= 1 && pictures === undefined) break;
+      await hold(page, ",", 600);
+      await page.waitForTimeout(1300);
+      await picture(`midcarpal_${turn}`);
+    }
+    const seen = await page.locator(".scope-points .is-seen").count();
+    expect(seen >= 1, `${seen} midcarpal places were seen`);
+  });
+  await check(page, "what was found is reported, and judged", async () => {
+    await page.keyboard.press("9");
+    const rows = page.locator(".finding");
+    const count = await rows.count();
+    expect(count >= 10, `${count} things are asked`);
+    for (let i = 0; i < count; ++i) await rows.nth(i).locator("label").first().click();
+    await rows.first().locator("label").nth(2).click();
+    await picture("report");
+    await page.keyboard.press("Escape");
+    // It is the host's answer that stands there when it is opened again.
+    await page.waitForTimeout(300);
+    await page.keyboard.press("9");
+    const chosen = await page.locator(".finding input:checked").count();
+    expect(chosen === count, `${chosen} of ${count} answers were kept`);
+    await page.keyboard.press("Escape");
+    await page.waitForTimeout(10_000); // the least look that is judged
+    await page.keyboard.press("f");
+    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.waitForURL(/#\/attempts\/\d+/);
+    await page.getByText("Findings that are not there").first().waitFor();
     await picture("score");
   });
   await page.context().close();

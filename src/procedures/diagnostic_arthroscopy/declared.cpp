@@ -2,99 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedures/diagnostic_arthroscopy/declared.hpp"
 
-#include <array>
-#include <string>
-
-#include "core/error.hpp"
+#include "procedure/grading.hpp"
+#include "procedures/arthroscopy/conduct.hpp"
 
 namespace carpus::procedures::diagnostic_arthroscopy {
 namespace {
 
-using procedure::NamedPredicate;
-using procedure::Situation;
-
-/// The least that opens a wrist [S79].
-constexpr double kLeastTractionN = 34.0;
-/// Where the hand waits, outside all tissue.
-constexpr double kWaitsMm = 60.0;
-/// In the order of the map's portals, which opening() proves to be there.
-constexpr std::uint8_t kPortal34 = 0;
-constexpr std::uint8_t kPortal45 = 1;
-constexpr const char* kFirst = "3-4";
-constexpr const char* kSecond = "4-5";
-
-bool is_in_by(const Situation& now, std::uint8_t portal, bool is_scope) noexcept {
-  const auto all = instruments::catalogue();
-  for (std::size_t h = 0; h < procedure::kHands; ++h) {
-    const instruments::InstrumentIndex held = now.hands[h].instrument;
-    if (held >= all.size() || all[held].optic.has_value() != is_scope) continue;
-    if (now.scope.is_in_joint[h] && now.scope.portal[h] == portal) return true;
-  }
-  return false;
-}
-
-constexpr std::uint32_t bits_of(std::initializer_list<int> numbers) noexcept {
-  std::uint32_t bits = 0;
-  for (const int number : numbers) bits |= 1U << number;
-  return bits;
-}
-
-template <int... kNumbers>
-bool has_seen(const Situation& now) noexcept {
-  constexpr std::uint32_t kBits = bits_of({kNumbers...});
-  return (now.scope.points_seen & kBits) == kBits;
-}
-
-bool is_pulled(const Situation& now) noexcept { return now.wrist.traction_n >= kLeastTractionN; }
-bool is_scope_in(const Situation& now) noexcept { return is_in_by(now, kPortal34, true); }
-bool is_probe_in(const Situation& now) noexcept { return is_in_by(now, kPortal45, false); }
-bool has_probed_disc(const Situation& now) noexcept {
-  constexpr std::uint32_t kDisc = bits_of({11});
-  return has_seen<11>(now) && (now.scope.points_probed & kDisc) != 0;
-}
-bool has_seen_a_ligament(const Situation& now) noexcept {
-  constexpr std::uint32_t kLigaments = bits_of({4, 5, 6, 9, 13, 15});
-  return (now.scope.points_seen & kLigaments) != 0;
-}
-bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
-
 procedure::Opening opening(const cases::CaseData& data) {
-  if (cases::find_bone(data, BoneId::Radius) == nullptr) {
-    throw InvalidInput("diagnostic arthroscopy: the case has no radius");
-  }
-  if (data.arthroscopy == nullptr) {
-    throw InvalidInput(
-        "diagnostic arthroscopy: the case has no soft tissue; make it with 'carpus soft-tissue' "
-        "and open the case again");
-  }
-  const std::vector<cases::Portal>& portals = data.arthroscopy->portals;
-  if (portals.size() <= kPortal45 || portals[kPortal34].id != kFirst ||
-      portals[kPortal45].id != kSecond) {
-    std::string why;
-    for (const std::string& each : data.arthroscopy->problems) why += "; " + each;
-    throw InvalidInput("diagnostic arthroscopy: the 3-4 and 4-5 portals cannot be used" + why);
-  }
-  procedure::Opening opening;
-  opening.shaft_in_target = -portals[kPortal34].inwards;
-  opening.tip_in_target = portals[kPortal34].skin + opening.shaft_in_target * kWaitsMm;
-  return opening;
+  return arthroscopy::opening(data, "diagnostic arthroscopy");
 }
 
 }  // namespace
 
 const procedure::Procedure& declared() {
   static const procedure::Procedure kDeclared = [] {
-    constexpr std::array kPredicates{NamedPredicate{"is_pulled", is_pulled},
-                                     NamedPredicate{"is_scope_in", is_scope_in},
-                                     NamedPredicate{"is_probe_in", is_probe_in},
-                                     NamedPredicate{"has_seen_radial", has_seen<1, 2, 3>},
-                                     NamedPredicate{"has_seen_scapholunate", has_seen<7>},
-                                     NamedPredicate{"has_seen_lunate", has_seen<8, 10>},
-                                     NamedPredicate{"has_probed_disc", has_probed_disc},
-                                     NamedPredicate{"has_seen_a_ligament", has_seen_a_ligament},
-                                     NamedPredicate{"is_finishing", is_finishing}};
-    procedure::Procedure read =
-        procedure::read_procedure(json(), "diagnostic_arthroscopy/procedure.json", kPredicates);
+    procedure::Procedure read = procedure::read_procedure(
+        json(), "diagnostic_arthroscopy/procedure.json", arthroscopy::named_predicates());
     read.opening = opening;
     read.score = score;
     return read;

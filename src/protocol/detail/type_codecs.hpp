@@ -62,6 +62,15 @@ void write(FieldWriter& out, const Portal& in);
 void read(FieldReader& in, TourPoint& out);
 void write(FieldWriter& out, const TourPoint& in);
 
+void read(FieldReader& in, Lesion& out);
+void write(FieldWriter& out, const Lesion& in);
+
+void read(FieldReader& in, FindingGrade& out);
+void write(FieldWriter& out, const FindingGrade& in);
+
+void read(FieldReader& in, Finding& out);
+void write(FieldWriter& out, const Finding& in);
+
 void read(FieldReader& in, Arthroscopy& out);
 void write(FieldWriter& out, const Arthroscopy& in);
 

@@ -44,6 +44,12 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::SetTube:
       spent.tube = command.index;
       return;
+    case CommandKind::Answer: {
+      const std::uint8_t grade = command.index % kGradesAFinding;
+      scope_state.answers[command.index / kGradesAFinding] =
+          grade == kNoGrade ? cases::kNotJudged : grade;
+      return;
+    }
     case CommandKind::TurnScope:
       scope_state.shaft_turn_deg = command.rotation_deg;
       scope_state.camera_turn_deg = command.tilt_deg;

@@ -10,13 +10,14 @@
 #include <cstdint>
 
 #include "cases/arthroscopic_map.hpp"
+#include "cases/joint_lesions.hpp"
 #include "procedure/operation_record.hpp"
 #include "simulation/detail/operation_state.hpp"
 
 namespace carpus::simulation::detail {
 
 inline constexpr std::uint8_t kNoPortal = procedure::kNoBody;
-inline constexpr std::size_t kMaxLooks = 2048;
+inline constexpr std::size_t kMaxLooks = 4096;
 /// A point is seen once it was in view for so long without a break [E].
 inline constexpr std::uint32_t kSeenTicks = 1000;
 
@@ -33,12 +34,16 @@ struct ScopeState {
   std::uint32_t points_probed = 0;
   std::uint32_t entries = 0;
   std::uint32_t pull_outs = 0;
+  std::uint8_t last_entered = kNoPortal;  ///< by the scope
   std::uint32_t looking_ticks = 0;
   std::uint32_t tilted_ticks = 0;
   std::uint32_t warn_ticks = 0;
   std::uint32_t injury_ticks = 0;
   double most_force_n = 0.0;
   std::uint32_t look_count = 0;
+  std::array<std::uint32_t, cases::kMaxLesions> lesion_ticks{};  ///< since it came into view
+  std::uint32_t lesions_seen = 0;
+  cases::Grades answers = cases::not_judged();
 };
 
 template <Is<ScopeState> SomeState, typename Visitor>
@@ -57,12 +62,16 @@ void visit(SomeState& state, Visitor&& v) noexcept {
   v(state.points_probed);
   v(state.entries);
   v(state.pull_outs);
+  v(state.last_entered);
   v(state.looking_ticks);
   v(state.tilted_ticks);
   v(state.warn_ticks);
   v(state.injury_ticks);
   v(state.most_force_n);
   v(state.look_count);
+  for (auto& ticks : state.lesion_ticks) v(ticks);
+  v(state.lesions_seen);
+  for (auto& grade : state.answers) v(grade);
 }
 
 template <typename SomeLook, typename Visitor>
@@ -73,6 +82,7 @@ void visit_look(SomeLook& look, Visitor&& v) noexcept {
   v(look.flexion_rad);
   v(look.radial_deviation_rad);
   v(look.pronation_rad);
+  v(look.joint);
 }
 
 /// Whether a tick could have left it in a case with so many portals.

@@ -4,9 +4,11 @@
 // What enters joints: it goes in by a portal, whose hole in the skin it pivots in, and stops at the
 // walls of the joint's space, which are rigid. What the scope shows for how long; how it was led.
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "arthroscopy/optics.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "arthroscopy/seen_share.hpp"
 #include "simulation/detail/world_state.hpp"
 
@@ -64,9 +66,18 @@ Vec3 World::State::led_by_portal(const Model& model,
 }
 
 arthroscopy::OpenedSpace World::State::joint_space_at(const Model& model,
+                                                      std::uint8_t joint,
                                                       const Vec3& point) const noexcept {
-  return arthroscopy::opened_space_at(model.map->space, inverses[model.map->space_body],
-                                      inverses[model.row_body], point);
+  const cases::JointSpace& space = model.map->joints[joint];
+  arthroscopy::OpenedSpace opened = arthroscopy::opened_space_at(
+      space.wall, inverses[space.proximal], inverses[space.distal], point);
+  // What tore loose takes its part of the wall along.
+  for (std::size_t i = 0; i < model.loose_count; ++i) {
+    const auto& loose = inverses[model.loose[i]];
+    const auto at = arthroscopy::opened_space_at(space.wall, loose, loose, point);
+    if (at.is_near && (!opened.is_near || at.distance_mm < opened.distance_mm)) opened = at;
+  }
+  return opened;
 }
 
 /// How deep a tip is in what does not yield, and which way is out; depth 0 where it is in none.
@@ -75,14 +86,21 @@ World::State::Wall World::State::wall_at(const Model& model,
                                          const Vec3& tip) const noexcept {
   const Item& item = now.items[now.held[hand]];
   if (!enters_joints(model, item)) return {};
-  const arthroscopy::OpenedSpace space = joint_space_at(model, tip);
   const std::uint8_t portal = scope_state.portal[hand];
   if (portal == kNoPortal) {
-    const bool is_near = space.is_near && space.distance_mm < kKeptOutMm;
-    if (!is_near) return {};
-    return {kKeptOutMm - space.distance_mm, space.outwards};
+    Wall deepest;
+    for (std::uint8_t joint = 0; joint < model.map->joints.size(); ++joint) {
+      const arthroscopy::OpenedSpace space = joint_space_at(model, joint, tip);
+      const double deep = space.is_near ? kKeptOutMm - space.distance_mm : 0.0;
+      if (deep > deepest.depth_mm) deepest = {deep, space.outwards};
+    }
+    return deepest;
   }
+  const arthroscopy::OpenedSpace space =
+      joint_space_at(model, model.map->portals[portal].joint, tip);
   if (space.is_near && space.distance_mm <= kWallMm) return {};
+  const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
+  if (is_in_hole(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
   const Vec3 aside = tip - way.skin - way.inwards * deep;
@@ -118,16 +136,21 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   const double deep = dot(item.tip - way.skin, way.inwards);
   bool& is_in = state.is_in_joint[hand];
   const bool is_scope = kind_of(model, item).optic.has_value();
-  const arthroscopy::OpenedSpace space = joint_space_at(model, item.tip);
+  const arthroscopy::OpenedSpace space =
+      joint_space_at(model, model.map->portals[portal].joint, item.tip);
   const double out_mm = space.is_near ? space.distance_mm : kFarOutMm;
   if (!is_in && out_mm < 0.0) {
     is_in = true;
     state.last_tip[hand] = item.tip;
-    if (is_scope) ++state.entries;
+    if (is_scope) {
+      ++state.entries;
+      // Back by the way that it left: it had fallen out. To go to another portal is none.
+      if (state.last_entered == portal) ++state.pull_outs;
+      state.last_entered = portal;
+    }
     emit(EventKind::EnteredJoint, now.held[hand], portal, 0.0);
   } else if (is_in && out_mm > kLeftMm && deep < way.capsule_mm) {
     is_in = false;
-    if (is_scope) ++state.pull_outs;
     emit(EventKind::LeftJoint, now.held[hand], portal, 0.0);
   }
   if (deep < 0.0) portal = kNoPortal;
@@ -135,13 +158,14 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
 
 /// Whether nothing stands before the point: the line of sight stays in the joint and out of bone.
 bool World::State::is_in_sight(const Model& model,
+                               std::uint8_t joint,
                                const Vec3& eye,
                                const Vec3& point) const noexcept {
   const Vec3 way = point - eye;
   const double far = length(way);
   for (double s = kSightStepMm; s < far - kSightShortMm; s += kSightStepMm) {
     const Vec3 at = eye + way * (s / far);
-    const arthroscopy::OpenedSpace space = joint_space_at(model, at);
+    const arthroscopy::OpenedSpace space = joint_space_at(model, joint, at);
     if (!space.is_near || space.distance_mm > kBehindWallMm) return false;
     const Touched bone = surface_at(at);
     if (bone.body != kNoBody && bone.distance_mm < -kHiddenMm) return false;
@@ -149,17 +173,19 @@ bool World::State::is_in_sight(const Model& model,
   return true;
 }
 
-/// One of the points a tick: all of them many times a second.
-void World::State::look_at_points(const Model& model, const arthroscopy::Sight& sight) noexcept {
+/// One of the points a tick: all of them many times a second. Those of another joint are not seen.
+void World::State::look_at_points(const Model& model,
+                                  std::uint8_t joint,
+                                  const arthroscopy::Sight& sight) noexcept {
   const auto& points = model.map->points;
   if (points.empty()) return;
   const auto count = static_cast<std::uint32_t>(points.size());
   const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
   const cases::TourPoint& point = points[turn];
   const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
-  const bool is_seen = arthroscopy::is_in_field(sight, at) &&
+  const bool is_seen = point.joint == joint && arthroscopy::is_in_field(sight, at) &&
                        distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
-                       is_in_sight(model, sight.eye, at);
+                       is_in_sight(model, joint, sight.eye, at);
   detail::ScopeState& state = scope_state;
   const std::uint32_t bit = 1U << point.number;
   state.in_view_ticks[turn] = is_seen ? state.in_view_ticks[turn] + count : 0;
@@ -171,20 +197,71 @@ void World::State::look_at_points(const Model& model, const arthroscopy::Sight& 
   }
 }
 
-void World::State::note_scope_look(const arthroscopy::Sight& sight) noexcept {
+/// Where it is in the body's own frame, as if nothing had torn loose.
+Vec3 World::State::unshifted(const Model& model, std::uint8_t body, const Vec3& at) const noexcept {
+  return (inverses[body] * Point<frame::Patient>{at}).v +
+         model.lesions->shift_of(body, spent.wrist.traction_n);
+}
+
+/// Through a torn ligament or disc what is thin enough goes on, out of the joint.
+bool World::State::is_in_hole(const Model& model,
+                              std::uint8_t joint,
+                              const Vec3& at,
+                              double radius_mm) const noexcept {
+  if (!model.lesions) return false;
+  for (const cases::Lesion& lesion : model.lesions->lesions) {
+    if (lesion.joint != joint || !(lesion.passes_mm > radius_mm)) continue;
+    if (cases::passes(lesion, unshifted(model, lesion.body, at), radius_mm)) return true;
+  }
+  return false;
+}
+
+/// As look_at_points.
+void World::State::look_at_lesions(const Model& model,
+                                   std::uint8_t joint,
+                                   const arthroscopy::Sight& sight) noexcept {
+  if (!model.lesions || model.lesions->lesions.empty()) return;
+  const auto& lesions = model.lesions->lesions;
+  const auto count = static_cast<std::uint32_t>(lesions.size());
+  const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
+  const cases::Lesion& lesion = lesions[turn];
+  const Vec3 middle = (lesion.from + lesion.to) * 0.5 -
+                      model.lesions->shift_of(lesion.body, spent.wrist.traction_n);
+  const Vec3 at = (poses[lesion.body] * Point<frame::Bone>{middle}).v;
+  const bool is_seen = lesion.joint == joint && arthroscopy::is_in_field(sight, at) &&
+                       distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
+                       is_in_sight(model, joint, sight.eye, at);
+  std::uint32_t& ticks = scope_state.lesion_ticks[turn];
+  ticks = is_seen ? ticks + count : 0;
+  if (ticks >= detail::kSeenTicks) scope_state.lesions_seen |= 1U << turn;
+}
+
+std::uint8_t World::State::unanswered(const Model& model) const noexcept {
+  if (!model.lesions) return 0;
+  std::uint8_t count = 0;
+  for (std::size_t f = 0; f < arthroscopy::PathologyTable::generic().findings.size(); ++f) {
+    if (scope_state.answers[f] == cases::kNotJudged) ++count;
+  }
+  return count;
+}
+
+void World::State::note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept {
   detail::ScopeState& state = scope_state;
   if (state.look_count >= detail::kMaxLooks) return;
   if (state.look_count > 0) {
     const procedure::ScopeLook& last = looks[state.look_count - 1];
     const double moved = distance(last.eye, sight.eye);
-    if (moved < kNewLookMm && dot(last.axis, sight.axis) > kNewLookCosine) return;
+    if (moved < kNewLookMm && dot(last.axis, sight.axis) > kNewLookCosine && last.joint == joint) {
+      return;
+    }
   }
   looks[state.look_count++] = {sight.eye,
                                sight.axis,
                                spent.wrist.traction_n,
                                spent.wrist.flexion_rad,
                                spent.wrist.radial_deviation_rad,
-                               spent.wrist.pronation_rad};
+                               spent.wrist.pronation_rad,
+                               joint};
 }
 
 void World::State::note_probing(const Model& model, std::uint8_t hand, const Item& item) noexcept {
@@ -192,8 +269,11 @@ void World::State::note_probing(const Model& model, std::uint8_t hand, const Ite
       spent.hands[hand].touched_body != kNoBody ||
       distance(item.tip, spent.hands[hand].plan.tip) > kWallMm;  // a wall holds it back
   if (!touches) return;
+  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
   for (const cases::TourPoint& point : model.map->points) {
-    if (!point.is_probed || has_bit(scope_state.points_probed, point.number)) continue;
+    if (!point.is_probed || point.joint != joint ||
+        has_bit(scope_state.points_probed, point.number))
+      continue;
     const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
     if (distance(at, item.tip) > kProbedMm) continue;
     scope_state.points_probed |= 1U << point.number;
@@ -206,7 +286,7 @@ std::optional<arthroscopy::Sight> World::State::sight_of(const Model& model,
                                                          const Item& item) const noexcept {
   const instruments::Instrument& kind = kind_of(model, item);
   if (!kind.optic || model.map == nullptr) return std::nullopt;
-  const Vec3 level = (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
+  const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
   return arthroscopy::sight_of({kind.optic->view_angle_deg, kind.optic->field_deg},
                                {item.tip + item.shaft * kind.shape.front_z_mm(), item.shaft,
                                 scope_state.shaft_turn_deg, scope_state.camera_turn_deg},
@@ -224,7 +304,8 @@ void World::State::watch_scopes(const Model& model) noexcept {
       continue;
     }
     follow_portal(model, h, *item);
-    if (!state.is_in_joint[h]) continue;
+    if (!state.is_in_joint[h] || state.portal[h] == kNoPortal) continue;
+    const std::uint8_t joint = model.map->portals[state.portal[h]].joint;
     const std::size_t what = kind_of(model, *item).optic ? 0 : 1;
     state.path_mm[what] += distance(state.last_tip[h], item->tip);
     state.last_tip[h] = item->tip;
@@ -234,26 +315,35 @@ void World::State::watch_scopes(const Model& model) noexcept {
     state.most_force_n = std::max(state.most_force_n, force);
     if (const auto sight = sight_of(model, *item)) {
       ++state.looking_ticks;
-      const Vec3 level =
-          (poses[model.map->space_body] * Direction<frame::Bone>{model.map->distal}).v;
+      const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
       if (arthroscopy::horizon_cosine(*sight, level) < kLevelCosine) ++state.tilted_ticks;
-      look_at_points(model, *sight);
-      note_scope_look(*sight);
+      look_at_points(model, joint, *sight);
+      look_at_lesions(model, joint, *sight);
+      note_scope_look(joint, *sight);
     } else {
       note_probing(model, h, *item);
     }
   }
 }
 
-procedure::ScopeFacts World::State::scope_facts() const noexcept {
-  return {scope_state.portal, scope_state.is_in_joint, scope_state.points_seen,
-          scope_state.points_probed};
+procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexcept {
+  procedure::ScopeFacts facts;
+  facts.portal = scope_state.portal;
+  for (std::size_t h = 0; h < kHands && model.map != nullptr; ++h) {
+    const std::uint8_t portal = scope_state.portal[h];
+    if (portal != kNoPortal) facts.joint[h] = model.map->portals[portal].joint;
+  }
+  facts.is_in_joint = scope_state.is_in_joint;
+  facts.points_seen = scope_state.points_seen;
+  facts.points_probed = scope_state.points_probed;
+  facts.unanswered = unanswered(model);
+  return facts;
 }
 
 procedure::ScopeRecord World::State::scope_record(const Model& model) const {
   const detail::ScopeState& state = scope_state;
   procedure::ScopeRecord record;
-  record.facts = scope_facts();
+  record.facts = scope_facts(model);
   record.path_mm = state.path_mm;
   record.entries = state.entries;
   record.pull_outs = state.pull_outs;
@@ -268,6 +358,12 @@ procedure::ScopeRecord World::State::scope_record(const Model& model) const {
     record.least_cosine = arthroscopy::cos_sin_deg(optic->field_deg / 2)[0];
     break;
   }
+  record.answers = state.answers;
+  if (model.lesions) {
+    record.truth = model.lesions->grades;
+    record.lesions = static_cast<std::uint32_t>(model.lesions->lesions.size());
+    record.lesions_seen = static_cast<std::uint32_t>(std::popcount(state.lesions_seen));
+  }
   record.looks.assign(looks.begin(), looks.begin() + state.look_count);
   return record;
 }
@@ -278,9 +374,11 @@ void World::State::publish_scope(const Model& model) noexcept {
   if (model.map == nullptr) return;
   view.shaft_turn_deg = scope_state.shaft_turn_deg;
   view.camera_turn_deg = scope_state.camera_turn_deg;
-  view.facts = scope_facts();
+  view.facts = scope_facts(model);
   view.points_in_view = scope_state.points_in_view;
   view.pull_outs = scope_state.pull_outs;
+  view.lesions_seen = scope_state.lesions_seen;
+  view.answers = scope_state.answers;
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

@@ -52,7 +52,7 @@ void World::State::gather(const Model& model, Facts& facts) const noexcept {
   situation.wrist = spent.wrist;
   situation.fracture = fracture_now(model);
   situation.aim = model.opening.aim;
-  situation.scope = scope_facts();
+  situation.scope = scope_facts(model);
   situation.is_finishing = is_finishing;
 }
 

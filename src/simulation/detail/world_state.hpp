@@ -50,7 +50,9 @@ struct World::Model {
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
   const cases::ArthroscopicMap* map = nullptr;
-  std::uint8_t row_body = 0;  ///< with which the joint's distal wall goes
+  std::optional<cases::JointLesions> lesions;    ///< of an examination
+  std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
+  std::size_t loose_count = 0;
 };
 
 /// Everything that changes.
@@ -255,19 +257,34 @@ struct World::State {
                                    const Vec3& tip,
                                    const Vec3& shaft) const noexcept;
   [[nodiscard]] arthroscopy::OpenedSpace joint_space_at(const Model& model,
+                                                        std::uint8_t joint,
                                                         const Vec3& point) const noexcept;
   [[nodiscard]] Wall wall_at(const Model& model, std::uint8_t hand, const Vec3& tip) const noexcept;
   void follow_portal(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] bool is_in_sight(const Model& model,
+                                 std::uint8_t joint,
                                  const Vec3& eye,
                                  const Vec3& point) const noexcept;
-  void look_at_points(const Model& model, const arthroscopy::Sight& sight) noexcept;
-  void note_scope_look(const arthroscopy::Sight& sight) noexcept;
+  void look_at_points(const Model& model,
+                      std::uint8_t joint,
+                      const arthroscopy::Sight& sight) noexcept;
+  void look_at_lesions(const Model& model,
+                       std::uint8_t joint,
+                       const arthroscopy::Sight& sight) noexcept;
+  [[nodiscard]] bool is_in_hole(const Model& model,
+                                std::uint8_t joint,
+                                const Vec3& at,
+                                double radius_mm) const noexcept;
+  [[nodiscard]] Vec3 unshifted(const Model& model,
+                               std::uint8_t body,
+                               const Vec3& at) const noexcept;
+  [[nodiscard]] std::uint8_t unanswered(const Model& model) const noexcept;
+  void note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept;
   void note_probing(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,
                                                            const detail::Item& item) const noexcept;
   void watch_scopes(const Model& model) noexcept;
-  [[nodiscard]] procedure::ScopeFacts scope_facts() const noexcept;
+  [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;
   [[nodiscard]] procedure::ScopeRecord scope_record(const Model& model) const;
 

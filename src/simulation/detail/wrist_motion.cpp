@@ -94,6 +94,10 @@ void World::State::pose_bodies(const Model& model) noexcept {
                             : cases::poses_under_block(model.data.hand_motion, spent.wrist);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) {
     bases[b] = by_group[static_cast<std::size_t>(model.groups[b])];
+    if (model.lesions) {
+      const Vec3 by = model.lesions->shift_of(b, spent.wrist.traction_n);
+      bases[b].translation += (bases[b] * Direction<frame::Bone>{by}).v;
+    }
     const bool is_target = (model.kinds.target & detail::bit_of(static_cast<std::uint8_t>(b))) != 0;
     if (is_target && !now.carried.is_none()) bases[b] = bases[b] * now.carried.pose();
     poses[b] = now.moved[b].is_none() ? bases[b] : bases[b] * now.moved[b].pose();

@@ -3,6 +3,7 @@
 //
 // What the network may bring does not stop the page: broken frames, a lost host, a busy host.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { PROTOCOL_VERSION } from "../protocol";
 import { HostLink, type LinkHandlers, type Socket } from "./host_link";
 
 class FakeSocket implements Socket {
@@ -33,7 +34,7 @@ class FakeSocket implements Socket {
 
 const welcome = JSON.stringify({
   type: "welcome",
-  protocol: 15,
+  protocol: PROTOCOL_VERSION,
   program: "carpus",
   exercise: 0,
   trainee: "",
@@ -72,7 +73,11 @@ describe("HostLink", () => {
   it("says hello first and sends nothing else before the welcome", () => {
     expect(link.send({ type: "pause", on: true })).toBe(false);
     last().open();
-    expect(JSON.parse(last().sent[0] ?? "")).toEqual({ type: "hello", protocol: 15, page: "word" });
+    expect(JSON.parse(last().sent[0] ?? "")).toEqual({
+      type: "hello",
+      protocol: PROTOCOL_VERSION,
+      page: "word",
+    });
     expect(link.send({ type: "pause", on: true })).toBe(false);
     last().bring(welcome);
     expect(link.send({ type: "pause", on: true })).toBe(true);

@@ -6,7 +6,7 @@
 import * as rules from "./generated_rules";
 import { parseBody, parseTagged, type Parsed } from "./validator";
 
-export const PROTOCOL_VERSION = 16;
+export const PROTOCOL_VERSION = 18;
 
 /** Three finite numbers: a position in mm or a direction, frame Patient (LPS). */
 export type Vec3 = readonly [number, number, number];
@@ -49,6 +49,9 @@ export type Drive = "none" | "powered" | "by_hand";
 
 /** Where a screw is out of the scaphoid, farthest; or that it is inside. */
 export type ScrewPlace = "inside" | "distal" | "proximal" | "side";
+
+/** How something that is wrong in a joint shows. */
+export type LesionLook = "stain" | "tear" | "worn" | "soft" | "fissured" | "frayed" | "bare" | "loose";
 
 /** How a device is, in its own word. */
 export type DeviceHealth = "closed" | "starting" | "uncalibrated" | "good" | "holding_back" | "silent" | "faulty" | "gone";
@@ -309,6 +312,8 @@ export interface Instrument {
 export interface Portal {
   readonly id: string;
   readonly name: string;
+  /** id of the one that it leads into; its wall is the node joint_wall_<id> of /api/scene.glb */
+  readonly joint: string;
   /** how it is found */
   readonly landmarks: string;
   readonly skin_mm: Vec3;
@@ -326,11 +331,41 @@ export interface TourPoint {
   readonly number: number;
   readonly name: string;
   readonly found_by: string;
+  /** id of the one that it lies in */
+  readonly joint: string;
   /** to be touched, not only seen */
   readonly is_probed: boolean;
   readonly at_mm: Vec3;
   /** that takes it along */
   readonly body: string;
+}
+
+/** Something wrong in a joint, for the scope's picture: a band about the line between two places of its wall as scanned, or a ball. Generated. */
+export interface Lesion {
+  readonly look: LesionLook;
+  readonly joint: string;
+  /** that it goes with */
+  readonly body: string;
+  readonly from_mm: Vec3;
+  readonly to_mm: Vec3;
+  /** [mm] 0 to 100 */
+  readonly radius_mm: number;
+}
+
+/** One answer of several. */
+export interface FindingGrade {
+  readonly id: string;
+  readonly label: string;
+}
+
+/** What an examination asks about. */
+export interface Finding {
+  readonly id: string;
+  readonly label: string;
+  /** for people; may be empty */
+  readonly scale: string;
+  /** what is well first */
+  readonly grades: readonly FindingGrade[];
 }
 
 /** What an arthroscopy goes by; all of it generated, not seen in the CT. */
@@ -345,6 +380,10 @@ export interface Arthroscopy {
   readonly distal: Vec3;
   readonly portals: readonly Portal[];
   readonly points: readonly TourPoint[];
+  /** of this exercise, to be drawn and not to be told */
+  readonly lesions: readonly Lesion[];
+  /** none: nothing is asked */
+  readonly findings: readonly Finding[];
 }
 
 /** A body that moves as one: a bone or a fragment. Its pose takes places as they were scanned (and as /api/scene.glb has them) to where they are now. */
@@ -771,6 +810,15 @@ export interface ActMessage {
   readonly reasons: readonly string[] | null;
 }
 
+/** What was found of one thing that an examination asks about; the newest counts. */
+export interface AnswerMessage {
+  readonly type: "answer";
+  /** its id */
+  readonly finding: string;
+  /** its id; empty takes the answer back */
+  readonly grade: string;
+}
+
 /** One fluoroscopy picture. */
 export interface TakeShotMessage {
   readonly type: "take_shot";
@@ -889,6 +937,7 @@ export type PageMessage =
   | HandMessage
   | WristMessage
   | ActMessage
+  | AnswerMessage
   | TakeShotMessage
   | TubeMessage
   | CArmMessage
@@ -1012,6 +1061,8 @@ export interface ScopeMessage {
   readonly points_in_view: readonly number[];
   /** 0 to 4294967295 */
   readonly pull_outs: number;
+  /** by finding: place of the grade that was answered; -1: none yet */
+  readonly answers: readonly number[];
 }
 
 /** All that can be asked for, and whether it would be done; comes when any of it changed. */

@@ -21,6 +21,7 @@ export const SCHEMA: Schema = {
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
     screw_place: { values: ["inside", "distal", "proximal", "side"] },
+    lesion_look: { values: ["stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"] },
     device_health: { values: ["closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"] },
     calibration_step: { values: ["begin", "take", "cancel"] },
     device_aim: { values: ["page", "portal", "own"] },
@@ -160,6 +161,7 @@ export const SCHEMA: Schema = {
     portal: { fields: {
       id: {"type": "string", "max_length": 16},
       name: {"type": "string", "max_length": 64},
+      joint: {"type": "string", "max_length": 32},
       landmarks: {"type": "string", "max_length": 256},
       skin_mm: {"type": "vec3", "limit": 10000},
       inwards: {"type": "vec3", "limit": 2},
@@ -170,9 +172,28 @@ export const SCHEMA: Schema = {
       number: {"type": "integer", "min": 1, "max": 31},
       name: {"type": "string", "max_length": 128},
       found_by: {"type": "string", "max_length": 256},
+      joint: {"type": "string", "max_length": 32},
       is_probed: {"type": "boolean"},
       at_mm: {"type": "vec3", "limit": 10000},
       body: {"type": "string", "max_length": 32},
+    } },
+    lesion: { fields: {
+      look: {"type": "lesion_look"},
+      joint: {"type": "string", "max_length": 32},
+      body: {"type": "string", "max_length": 32},
+      from_mm: {"type": "vec3", "limit": 10000},
+      to_mm: {"type": "vec3", "limit": 10000},
+      radius_mm: {"type": "number", "min": 0, "max": 100},
+    } },
+    finding_grade: { fields: {
+      id: {"type": "string", "max_length": 16},
+      label: {"type": "string", "max_length": 128},
+    } },
+    finding: { fields: {
+      id: {"type": "string", "max_length": 64},
+      label: {"type": "string", "max_length": 128},
+      scale: {"type": "string", "max_length": 64},
+      grades: {"type": "array", "of": {"type": "finding_grade"}, "max_items": 15},
     } },
     arthroscopy: { fields: {
       scope: {"type": "string", "max_length": 64},
@@ -181,6 +202,8 @@ export const SCHEMA: Schema = {
       distal: {"type": "vec3", "limit": 2},
       portals: {"type": "array", "of": {"type": "portal"}, "max_items": 16},
       points: {"type": "array", "of": {"type": "tour_point"}, "max_items": 32},
+      lesions: {"type": "array", "of": {"type": "lesion"}, "max_items": 24},
+      findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
     } },
     body: { fields: {
       name: {"type": "string", "max_length": 32},
@@ -424,6 +447,10 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     aid: {"type": "aid", "optional": true},
     reasons: {"type": "array", "of": {"type": "string", "max_length": 32}, "max_items": 8, "optional": true},
   },
+  answer: {
+    finding: {"type": "string", "max_length": 64},
+    grade: {"type": "string", "max_length": 16},
+  },
   take_shot: {
     rotation_deg: {"type": "number", "min": -180, "max": 180},
     tilt_deg: {"type": "number", "min": -60, "max": 60},
@@ -539,6 +566,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     points_probed: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
     points_in_view: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
     pull_outs: {"type": "integer", "min": 0, "max": 4294967295},
+    answers: {"type": "array", "of": {"type": "integer", "min": -1, "max": 14}, "max_items": 16},
   },
   actions: {
     actions: {"type": "array", "of": {"type": "action"}, "max_items": 512},

@@ -6,14 +6,13 @@
 import * as THREE from "three";
 import type { BodyPose } from "../protocol";
 
-/** Its node in /api/scene.glb. */
-export const JOINT_WALL = "joint_wall";
-
 /** As soft_tissue::Lining counts: synovium, bone, cartilage, disc, ligament. */
 const LININGS = 5;
 const SMOOTHINGS = 2;
 
 export interface JointWall {
+  /** Its id. */
+  readonly joint: string;
   readonly geometry: THREE.BufferGeometry;
   readonly triangles: number;
   /** As scanned, Patient [mm]. */
@@ -23,7 +22,7 @@ export interface JointWall {
 }
 
 /** @param surface  of the node, in Patient [mm]. undefined where it is no joint's wall. */
-export function jointWallOf(surface: THREE.BufferGeometry): JointWall | undefined {
+export function jointWallOf(joint: string, surface: THREE.BufferGeometry): JointWall | undefined {
   const lining = surface.getAttribute("_lining");
   const [proximal, distal, share] = ["_proximal", "_distal", "_distal_share"].map((name) =>
     surface.getAttribute(name),
@@ -48,6 +47,7 @@ export function jointWallOf(surface: THREE.BufferGeometry): JointWall | undefine
   for (const name of ["_lining", "_proximal", "_distal", "_distal_share", "_fibre"])
     geometry.deleteAttribute(name);
   const rest = new Float32Array(surface.getAttribute("position").array);
+  geometry.setAttribute("rest", new THREE.BufferAttribute(rest, 3));
   const position = new THREE.BufferAttribute(new Float32Array(rest), 3);
   position.setUsage(THREE.DynamicDrawUsage);
   geometry.setAttribute("position", position);
@@ -64,6 +64,7 @@ export function jointWallOf(surface: THREE.BufferGeometry): JointWall | undefine
   };
   geometry.computeBoundingSphere();
   return {
+    joint,
     geometry,
     middle: geometry.boundingSphere?.center.clone() ?? new THREE.Vector3(),
     triangles: (surface.getIndex()?.count ?? 0) / 3,

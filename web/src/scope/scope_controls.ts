@@ -36,6 +36,8 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
     b.title = `${by > 0 ? "More" : "Less"} traction by ${Math.abs(by)} N; the key goes on while it is held`;
     return b;
   };
+  const findings = act("Findings", "9", "findings");
+  findings.classList.add("scope-findings");
   const held = TURNS.map(([label, keys, title, motion]) => {
     const b = make("button", { type: "button", title }, label, keyCap(keys));
     nameShortcut(b, keys);
@@ -60,5 +62,6 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
     act("Other hand", "{KeyH}", "switch_hand"),
     act("Portal", "{KeyV}", "next_portal"),
     act("Panorama", "7", "panorama"),
+    findings,
   );
 }

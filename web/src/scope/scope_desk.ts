@@ -14,6 +14,7 @@ import type {
   Vec3,
 } from "../protocol";
 import { add, dot, rotated, scaled, subtract } from "../tool_placement";
+import { FindingsDialog } from "./findings_dialog";
 import { makeScopeControls } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import {
@@ -43,6 +44,7 @@ export interface ScopeRoom {
   take(instrument: string, hand: HandIndex): void;
   /** @param byN  more traction, or less */
   pull(byN: number): void;
+  answer(finding: string, grade: string): void;
   say(text: string): void;
   /** Mouse and keys move this hand from now on. */
   showHand(hand: HandIndex): void;
@@ -66,6 +68,7 @@ export class ScopeDesk {
   readonly element = make("section.scope", { "aria-label": "Arthroscope" });
   /** Under the picture. */
   readonly controls: HTMLElement;
+  private readonly findings: FindingsDialog;
   private readonly readings = new ScopeReadings();
   private picture: ScopePicture | undefined;
   private plan: Plan | undefined;
@@ -73,6 +76,8 @@ export class ScopeDesk {
   private scope: ScopeMessage | undefined;
   private snapshot: SnapshotMessage | undefined;
   private poses: readonly BodyPose[] = [];
+  /** Joints whose wall lies as the bones do now: only one that is looked at is laid. */
+  private readonly posed = new Set<string>();
   private readonly hands: [Held, Held] = [
     { portal: 0, lean: OUTSIDE },
     { portal: 1, lean: OUTSIDE },
@@ -92,7 +97,7 @@ export class ScopeDesk {
 
   constructor(
     private readonly room: ScopeRoom,
-    private readonly wall: JointWall | undefined,
+    private readonly walls: readonly JointWall[],
     signal: AbortSignal,
   ) {
     this.controls = makeScopeControls({
@@ -109,7 +114,10 @@ export class ScopeDesk {
         this.room.pull(byN);
       },
     });
-    this.element.append(this.readings.column, this.readings.words);
+    this.findings = new FindingsDialog((finding, grade) => {
+      this.room.answer(finding, grade);
+    });
+    this.element.append(this.readings.column, this.readings.words, this.findings.element);
     this.controls.hidden = true;
     this.element.hidden = true;
     this.listen(signal);
@@ -131,19 +139,35 @@ export class ScopeDesk {
     this.moved = 0;
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
-    const isOn = this.plan !== undefined && this.wall !== undefined;
+    const isOn = this.plan !== undefined && this.walls.length > 0;
     this.element.hidden = this.controls.hidden = !isOn;
     this.room.stage.classList.toggle("is-panorama", isOn);
     this.room.stage.hidden = isOn && !this.hasPanorama;
-    if (!isOn || this.wall === undefined || this.plan === undefined) return;
+    if (!isOn || this.plan === undefined) return;
     if (this.picture === undefined) {
-      this.picture = new ScopePicture(this.wall);
+      this.picture = new ScopePicture(this.walls);
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
+    this.picture.setLesions(
+      this.plan.lesions,
+      exercise.bodies.map((one) => one.name),
+    );
+    this.findings.set(this.plan.findings);
+    this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
-    this.readings.showPoints(this.plan, this.scope);
+    this.showPoints();
+  }
+
+  /** The joint that the scope's portal leads into. */
+  private get joint(): string {
+    const hand = this.scope?.hand === 1 ? 1 : 0;
+    return this.plan?.portals[this.hands[hand].portal]?.joint ?? "";
+  }
+
+  private showPoints(): void {
+    if (this.plan !== undefined) this.readings.showPoints(this.plan, this.scope, this.joint);
   }
 
   see(snapshot: SnapshotMessage): void {
@@ -151,7 +175,7 @@ export class ScopeDesk {
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) {
       this.poses = snapshot.bodies;
-      this.wall?.pose(this.poses);
+      this.posed.clear(); // the scope's joint is laid when it is drawn
     }
     this.holdBack();
   }
@@ -159,8 +183,7 @@ export class ScopeDesk {
   seeScope(message: ScopeMessage): void {
     const before = this.scope?.points_seen.length;
     this.scope = message;
-    if (this.plan !== undefined && before !== message.points_seen.length)
-      this.readings.showPoints(this.plan, message);
+    if (before !== message.points_seen.length) this.showPoints();
   }
 
   /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */
@@ -209,8 +232,15 @@ export class ScopeDesk {
       portal !== undefined &&
       scope.in_joint[hand] !== 1 &&
       dot(subtract(eyeMm, portal.skinMm), portal.inwards) < 0;
+    const { joint } = this;
+    if (!this.posed.has(joint)) {
+      this.walls.find((wall) => wall.joint === joint)?.pose(this.poses);
+      picture.lay(joint, this.poses);
+      this.posed.add(joint);
+    }
     const box = picture.canvas.getBoundingClientRect();
     picture.draw(
+      joint,
       {
         eyeMm,
         axis: scope.axis,
@@ -332,6 +362,9 @@ export class ScopeDesk {
         this.hasPanorama = !this.hasPanorama;
         this.room.stage.hidden = !this.hasPanorama;
         return;
+      case "findings":
+        this.findings.open(this.scope?.answers ?? []);
+        return;
       case "level":
         // Up in the picture is distal where the camera head is not turned.
         this.turnBy(0, -this.cameraDeg);
@@ -347,6 +380,7 @@ export class ScopeDesk {
         if (next === taken) next = (next + 1) % plan.portals.length;
         this.hands[this.moved] = { portal: next, lean: OUTSIDE };
         this.changed = true;
+        this.showPoints();
         this.room.say(`${plan.portals[next]?.name ?? ""}: ${plan.portals[next]?.landmarks ?? ""}.`);
         return;
       }

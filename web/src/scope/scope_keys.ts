@@ -8,7 +8,7 @@ export type ScopeMotion =
   | { readonly kind: "turn_shaft"; readonly by: number }
   | { readonly kind: "turn_camera"; readonly by: number };
 
-export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level";
+export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level" | "findings";
 
 const LEANS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-1, 0],
@@ -52,6 +52,8 @@ export function scopeAct(code: string): ScopeAct | undefined {
       return "panorama";
     case "Digit8":
       return "level";
+    case "Digit9":
+      return "findings";
     default:
       return undefined;
   }

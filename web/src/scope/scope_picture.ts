@@ -1,11 +1,12 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws the scope's round picture: the joint's wall and what the other hand holds in it.
+// Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { Vec3 } from "../protocol";
+import type { BodyPose, Vec3 } from "../protocol";
 import type { JointWall } from "./joint_wall";
 import { ScopeBackdrop } from "./scope_backdrop";
+import { lesionUniforms, LooseBodies, setLesions, type Lesion } from "./scope_lesions";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 
 export interface ScopeSight {
@@ -34,20 +35,29 @@ export class ScopePicture {
   private readonly camera = new THREE.Camera();
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
-  private readonly wall: THREE.Mesh;
+  private readonly walls: ReadonlyMap<string, THREE.Mesh>;
+  private readonly lesions = lesionUniforms();
+  private wrong: readonly Lesion[] = [];
+  private readonly loose: LooseBodies;
   private readonly backdrop = new ScopeBackdrop(this.lens);
 
-  constructor(wall: JointWall) {
+  constructor(walls: readonly JointWall[]) {
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(1);
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader does it
     this.canvas = this.renderer.domElement;
     this.canvas.className = "scope-picture";
     this.canvas.setAttribute("aria-label", "The arthroscope's picture");
-    this.wall = new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle));
+    this.walls = new Map(
+      walls.map((wall) => [
+        wall.joint,
+        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle, this.lesions)),
+      ]),
+    );
     this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
-    this.scene.add(this.backdrop.mesh);
-    for (const mesh of [this.wall, this.rod]) {
+    this.loose = new LooseBodies(wetMaterial(this.lens, false));
+    this.scene.add(this.backdrop.mesh, this.loose.group);
+    for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
     }
@@ -58,8 +68,24 @@ export class ScopePicture {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
   }
 
-  /** @param skin  the portal that the lens is before; undefined once it is under the skin */
+  /** What is wrong in the joints of this exercise. @param bodies  names in the order of the poses */
+  setLesions(lesions: readonly Lesion[], bodies: readonly string[]): void {
+    this.wrong = lesions;
+    this.loose.set(lesions, bodies);
+  }
+
+  /** The bones have moved, or the scope has gone to another joint. */
+  lay(joint: string, poses: readonly BodyPose[]): void {
+    setLesions(this.lesions, this.wrong, joint);
+    this.loose.lay(joint, poses);
+  }
+
+  /**
+   * @param joint  id of the one that the scope's portal leads into
+   * @param skin  the portal that the lens is before; undefined once it is under the skin
+   */
   draw(
+    joint: string,
     sight: ScopeSight,
     rod: Rod | undefined,
     sizePx: number,
@@ -76,8 +102,9 @@ export class ScopePicture {
       .copy(eye.value)
       .addScaledVector(up.value, LAMP_UP_MM)
       .addScaledVector(right.value, LAMP_RIGHT_MM);
-    this.wall.visible = skin === undefined;
+    for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
+    this.loose.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
     if (rod !== undefined) {
       this.rod.position.set(...rod.tipMm);
@@ -98,7 +125,8 @@ export class ScopePicture {
 
   dispose(): void {
     this.backdrop.dispose();
-    for (const mesh of [this.wall, this.rod]) {
+    this.loose.dispose();
+    for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();
     }
@@ -115,5 +143,6 @@ function rodGeometry(): THREE.BufferGeometry {
   const count = geometry.getAttribute("position").count;
   geometry.setAttribute("lining", new THREE.BufferAttribute(new Float32Array(4 * count), 4));
   geometry.setAttribute("fibre", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  geometry.setAttribute("rest", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
   return geometry;
 }

@@ -31,6 +31,7 @@ export class ScopeReadings {
   private readonly next = make("span");
   private readonly nextKeys = { pull: keyCap("{KeyW}"), in: keyCap("{KeyA}") };
   private readonly status = make("p.scope-status", { role: "status" });
+  private readonly listTitle = make("h3.scope-points-title");
   private readonly list = make("ol.scope-points");
   private readonly gauge = new ForceGauge();
 
@@ -40,6 +41,7 @@ export class ScopeReadings {
       {},
       this.status,
       this.gauge.element,
+      this.listTitle,
       this.list,
       make("p.scope-keys", {}, KEYS_IN_WORDS),
     );
@@ -80,10 +82,14 @@ export class ScopeReadings {
     );
   }
 
-  /** Ticked off where they were seen. */
-  showPoints(plan: Plan, scope: ScopeMessage | undefined): void {
+  /** Those of one joint, ticked off where they were seen. */
+  showPoints(plan: Plan, scope: ScopeMessage | undefined, joint: string): void {
+    const points = plan.points.filter((point) => point.joint === joint);
+    const seen = points.filter((point) => scope?.points_seen.includes(point.number) ?? false);
+    const name = joint.charAt(0).toUpperCase() + joint.slice(1);
+    setText(this.listTitle, `${name} joint: ${seen.length} of ${points.length}`);
     this.list.replaceChildren(
-      ...plan.points.map((point) => {
+      ...points.map((point) => {
         const isSeen = scope?.points_seen.includes(point.number) ?? false;
         const item = make("li", { title: point.found_by }, `${isSeen ? "✓ " : ""}${point.name}`);
         item.classList.toggle("is-seen", isSeen);

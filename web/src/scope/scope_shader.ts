@@ -5,6 +5,7 @@
 // long, as arthroscopy/optics.hpp has it), light that comes from beside the lens and falls off, and
 // what lines the joint told apart by colour, gloss and grain, all procedural.
 import * as THREE from "three";
+import { LESIONS_GLSL, lesionUniforms, type LesionUniforms } from "./scope_lesions";
 
 export interface LensUniforms {
   readonly eye: THREE.IUniform<THREE.Vector3>;
@@ -26,12 +27,15 @@ uniform vec3 eye, axis, up, right;
 uniform float halfField;
 attribute vec4 lining;
 attribute vec3 fibre;
+attribute vec3 rest;
 varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
 varying vec3 vFibre;
 varying vec3 vScreen;
+varying vec3 vRest;
 void main() {
+  vRest = rest;
   vec3 at = (modelMatrix * vec4(position, 1.0)).xyz;
   vec3 to = at - eye;
   vec3 seen = vec3(dot(to, right), dot(to, up), dot(to, axis));
@@ -73,7 +77,7 @@ float noise(vec3 p) {
                  mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y), f.z);
 }
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
-
+${LESIONS_GLSL}
 void main() {
   vec3 to = vAt - eye;
   float far = length(to);
@@ -138,6 +142,8 @@ void main() {
   n = length(bent) > 1e-9 ? normalize(bent) : n;
   albedo = mix(albedo, vec3(0.62, 0.64, 0.66), isMetal);
   rough = mix(rough, 0.16, isMetal);
+  float wet = 1.0;
+  paintLesions(albedo, rough, wet);
 
   vec3 away = lamp - vAt;
   float d2 = dot(away, away);
@@ -157,11 +163,11 @@ void main() {
   float denominator = nh * nh * (a2 - 1.0) + 1.0;
   float ggx = a2 / (3.14159 * denominator * denominator);
   float fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(n, view), 0.18, 1.0), 5.0);
-  colour += e * step(0.0, nl) * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
+  colour += e * step(0.0, nl) * wet * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
   // A film of fluid over all of it, uneven: a small hard glare.
   vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
   float coat = pow(max(dot(film, h), 0.0), 420.0);
-  colour += (1.0 - isMetal) * e * step(0.0, nl) * 1.5 * coat;
+  colour += (1.0 - isMetal) * e * step(0.0, nl) * 1.5 * coat * wet;
   colour += 0.10 * e * fresnel * vec3(0.93, 0.98, 1.05);
   // Water between.
   colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));
@@ -180,9 +186,15 @@ export function wetMaterial(
   lens: LensUniforms,
   isMetal: boolean,
   middle = new THREE.Vector3(),
+  lesions: LesionUniforms = lesionUniforms(),
 ): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
-    uniforms: { ...lens, isMetal: { value: isMetal ? 1 : 0 }, middle: { value: middle } },
+    uniforms: {
+      ...lens,
+      ...lesions,
+      isMetal: { value: isMetal ? 1 : 0 },
+      middle: { value: middle },
+    },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     // The wall is closed and seen from within alone.

@@ -23,12 +23,12 @@ export interface CaseScene {
   readonly bitmaps: ReadonlyMap<string, THREE.Texture>;
   /** Empty in a case that was made before they were. */
   readonly structures: Structures;
-  /** The inside of the joint, generated, as scanned; undefined in a case without soft tissue. */
-  readonly jointWall: THREE.BufferGeometry | undefined;
+  /** The insides of joints by their ids, generated, as scanned; none in a case without soft tissue. */
+  readonly jointWalls: ReadonlyMap<string, THREE.BufferGeometry>;
 }
 
-/** Its node. */
-const JOINT_WALL = "joint_wall";
+/** Of their nodes; the joint's id follows. */
+const JOINT_WALL = "joint_wall_";
 
 /** Where no light reaches, bone is this part of its colour: warm, as fat and cartilage between. */
 const DARK: readonly [number, number, number] = [0.16, 0.1, 0.075];
@@ -40,7 +40,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   const bitmaps = new Map<string, THREE.Texture>();
   const structures: StructureSurface[] = [];
   let skinSurface: THREE.BufferGeometry | undefined;
-  let jointWall: THREE.BufferGeometry | undefined;
+  const jointWalls = new Map<string, THREE.BufferGeometry>();
   loaded.scene.updateMatrixWorld(true);
   loaded.scene.traverse((node) => {
     if (!(node instanceof THREE.Mesh)) return;
@@ -51,7 +51,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
     const facts = structureFacts(mesh.userData) ?? structureFacts(mesh.parent?.userData);
     if (facts !== undefined) structures.push({ facts, geometry });
     else if (name === "skin") skinSurface = geometry;
-    else if (name === JOINT_WALL) jointWall = geometry;
+    else if (name.startsWith(JOINT_WALL)) jointWalls.set(name.slice(JOINT_WALL.length), geometry);
     else {
       bones.push(makeBone(name, geometry));
       const { material } = mesh;
@@ -67,7 +67,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   if (skin !== undefined) root.add(skin.group);
   const tubes = new Structures(structures, new Set(bones.map((bone) => bone.name)));
   root.add(tubes.group);
-  return { root, bones, skin, bitmaps, structures: tubes, jointWall };
+  return { root, bones, skin, bitmaps, structures: tubes, jointWalls };
 }
 
 function makeBone(name: string, geometry: THREE.BufferGeometry): BoneMesh {

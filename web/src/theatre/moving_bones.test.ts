@@ -30,7 +30,7 @@ function makeScene(): CaseScene {
     skin: undefined,
     bitmaps: new Map(),
     structures: new Structures([], new Set()),
-    jointWall: undefined,
+    jointWalls: new Map(),
   };
 }
 

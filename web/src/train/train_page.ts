@@ -292,7 +292,10 @@ export class TrainPage {
   }
 
   private makeScope(stage: HTMLElement, scene: CaseScene): ScopeDesk {
-    const wall = scene.jointWall === undefined ? undefined : jointWallOf(scene.jointWall);
+    const walls = [...scene.jointWalls].flatMap(([joint, surface]) => {
+      const wall = jointWallOf(joint, surface);
+      return wall === undefined ? [] : [wall];
+    });
     const desk = new ScopeDesk(
       {
         stage,
@@ -309,6 +312,9 @@ export class TrainPage {
         pull: (byN) => {
           this.panels.wrist.move("traction_n", byN);
         },
+        answer: (finding, grade) => {
+          this.connection.tell({ type: "answer", finding, grade });
+        },
         say: (text) => {
           this.panels.notice.say(text);
         },
@@ -316,7 +322,7 @@ export class TrainPage {
           this.theatre.setActiveHand(hand);
         },
       },
-      wall,
+      walls,
       this.abort.signal,
     );
     stage.after(desk.element);

@@ -1,0 +1,235 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Places come from the tour's points on the joints' walls; what is moved off them is brought back
+// onto the wall by the wall's distance.
+#include "arthroscopy/make_lesions.hpp"
+
+#include <string>
+
+#include "core/rng.hpp"
+#include "fields/distance_field.hpp"
+
+namespace carpus::arthroscopy {
+namespace {
+
+using cases::Lesion;
+using cases::LesionLook;
+
+constexpr std::uint64_t kGradesStream = 0x9A7;  // apart from the operator's errors of the same seed
+constexpr std::uint64_t kPlacesStream = 0x51D;
+constexpr double kAsideMm = 1.5;  // so far from the tour's point a patch's middle may lie [E]
+// Parts of the disc, from its middle, for the generic wrist's size [E].
+constexpr double kRadialOfMiddleMm = 2.0;
+constexpr double kToRimMm = 4.2;
+
+class LesionMaker {
+ public:
+  LesionMaker(const cases::CaseData& data,
+              const cases::ArthroscopicMap& map,
+              const PathologyTable& table,
+              const cases::Grades& grades,
+              std::uint64_t seed)
+      : data_(data), map_(map), table_(table), rng_(seed ^ kPlacesStream) {
+    made_.grades = grades;
+    made_.full_traction_n = table.full_traction_n;
+    made_.shifts.assign(data.bones.size(), {});
+    const auto to_patient = data.wrist_from_patient.inverse();
+    volar_ = (to_patient * Direction<frame::Wrist>{{0, 0, 1}}).v;
+    radial_ =
+        (to_patient * Direction<frame::Wrist>{{0, data.side == Side::Left ? -1.0 : 1.0, 0}}).v;
+  }
+
+  cases::JointLesions make() {
+    for (std::size_t f = 0; f < table_.findings.size(); ++f) {
+      // The same draws for every grade: one finding's place does not hang on another's grade.
+      const Vec3 aside = Vec3{rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)};
+      const double choice = rng_.uniform();
+      std::uint8_t& grade = made_.grades[f];
+      const Scale& scale = table_.scale_of(f);
+      if (grade == 0 || grade >= scale.grades.size()) {
+        grade = 0;
+        continue;
+      }
+      const std::size_t before = made_.lesions.size();
+      add(f, grade, scale.grades[grade], aside, choice);
+      if (made_.lesions.size() == before) grade = 0;  // the case has no such place
+    }
+    return std::move(made_);
+  }
+
+ private:
+  [[nodiscard]] const cases::TourPoint* point(const std::string& id) const {
+    for (const cases::TourPoint& each : map_.points) {
+      if (each.id == id) return &each;
+    }
+    return nullptr;
+  }
+
+  void add(std::size_t finding,
+           std::uint8_t grade,
+           const Grade& how,
+           const Vec3& aside,
+           double choice) {
+    const Finding& what = table_.findings[finding];
+    Lesion lesion;
+    lesion.finding = static_cast<std::uint8_t>(finding);
+    lesion.grade = grade;
+    lesion.look = *how.shows;
+    lesion.radius_mm = how.radius_mm;
+    lesion.passes_mm = how.passes_mm;
+    if (what.line) return add_line(*what.line, how, lesion);
+    if (!what.at.empty()) {
+      if (const auto* at = point(what.at)) {
+        lay(lesion, *at, at->at + aside * kAsideMm, {}, 0);
+      }
+      return;
+    }
+    if (!what.among.empty()) return add_loose(what, lesion, choice);
+    add_disc_tear(table_.scale_of(finding).grades[grade].id, how, lesion);
+  }
+
+  /// Both joints show a ligament's line; only what has a step shows from distal.
+  void add_line(const TornLine& line, const Grade& how, Lesion lesion) {
+    const cases::TourPoint* proximal = point(line.in_radiocarpal);
+    const cases::TourPoint* distal = point(line.in_midcarpal);
+    if (proximal == nullptr || distal == nullptr) return;
+    part(line, how);
+    lay(lesion, *proximal, proximal->at, volar_, how.length_mm);
+    if (lesion.look == LesionLook::Tear) lay(lesion, *distal, distal->at, volar_, how.length_mm);
+  }
+
+  /// The bones on both sides move apart by half the gap each, so that the line between them stays;
+  /// the one that tears loose goes distally by the step, after the pull.
+  void part(const TornLine& line, const Grade& how) {
+    const Vec3 others = middle_of({line.away_from.front()});
+    Vec3 way = middle_of({line.moves}) - others;
+    way = normalized_or(way - map_.distal * dot(way, map_.distal), radial_);
+    shift({line.moves}, way * (how.gap_mm / 2) + map_.distal * how.step_mm);
+    shift(line.away_from, way * (-how.gap_mm / 2));
+  }
+
+  [[nodiscard]] Vec3 middle_of(const std::vector<std::string>& bones) const {
+    Vec3 sum;
+    double count = 0;
+    for (const cases::Bone& bone : data_.bones) {
+      for (const std::string& name : bones) {
+        if (name_of(bone.bone) != name) continue;
+        for (const Vec3& v : bone.surface.vertices) sum += v;
+        count += static_cast<double>(bone.surface.vertices.size());
+      }
+    }
+    return count > 0 ? sum / count : sum;
+  }
+
+  void shift(const std::vector<std::string>& bones, const Vec3& by) {
+    for (std::size_t b = 0; b < data_.bones.size(); ++b) {
+      for (const std::string& name : bones) {
+        if (name_of(data_.bones[b].bone) == name) made_.shifts[b] += by;
+      }
+    }
+  }
+
+  void add_disc_tear(const std::string& kind, const Grade& how, Lesion lesion) {
+    const cases::TourPoint* middle = point("disc");
+    const cases::TourPoint* edge = point("foveal_insertion");
+    const cases::TourPoint* ligaments = point("ulnolunate");
+    if (kind == "1A" && middle != nullptr) {
+      lay(lesion, *middle, middle->at + radial_ * kRadialOfMiddleMm, volar_, how.length_mm);
+    } else if (kind == "1D" && middle != nullptr) {
+      lay(lesion, *middle, middle->at + radial_ * kToRimMm, volar_, how.length_mm);
+    } else if (kind == "2C" && middle != nullptr) {
+      lay(lesion, *middle, middle->at, radial_, how.length_mm);
+    } else if (kind == "1B" && edge != nullptr) {
+      lay(lesion, *edge, edge->at, volar_, how.length_mm);
+    } else if (kind == "1C" && ligaments != nullptr) {
+      lay(lesion, *ligaments, ligaments->at, map_.distal, how.length_mm);
+    }
+  }
+
+  /// It lies on the wall by one of the places.
+  void add_loose(const Finding& what, Lesion lesion, double choice) {
+    const auto count = static_cast<double>(what.among.size());
+    const auto at = static_cast<std::size_t>(choice * count);
+    for (std::size_t i = 0; i < what.among.size(); ++i) {
+      const auto* place = point(what.among[(at + i) % what.among.size()]);
+      if (place == nullptr) continue;
+      const Vec3 out = outwards(place->joint, place->at);
+      lesion.joint = place->joint;
+      lesion.body = place->body;
+      lesion.outwards = out;
+      lesion.from = lesion.to = place->at - out * (lesion.radius_mm * 0.8);
+      made_.lesions.push_back(lesion);
+      return;
+    }
+  }
+
+  void lay(Lesion lesion,
+           const cases::TourPoint& place,
+           const Vec3& middle,
+           const Vec3& along,
+           double length_mm) {
+    lesion.joint = place.joint;
+    lesion.body = place.body;
+    const Vec3 at = on_wall(lesion.joint, middle);
+    lesion.outwards = outwards(lesion.joint, at);
+    const Vec3 way = normalized_or(along - lesion.outwards * dot(along, lesion.outwards), {});
+    lesion.from = on_wall(lesion.joint, at - way * (length_mm / 2));
+    lesion.to = on_wall(lesion.joint, at + way * (length_mm / 2));
+    if (made_.lesions.size() < cases::kMaxLesions) made_.lesions.push_back(lesion);
+  }
+
+  [[nodiscard]] Vec3 outwards(std::uint8_t joint, const Vec3& at) const {
+    return normalized_or(fields::sample_distance(map_.joints[joint].wall, at).gradient,
+                         -map_.distal);
+  }
+
+  [[nodiscard]] Vec3 on_wall(std::uint8_t joint, Vec3 at) const {
+    for (int i = 0; i < 4; ++i) {
+      const fields::DistanceSample s = fields::sample_distance(map_.joints[joint].wall, at);
+      if (!s.is_inside_grid) break;
+      at -= normalized_or(s.gradient, {}) * s.distance_mm;
+    }
+    return at;
+  }
+
+  const cases::CaseData& data_;
+  const cases::ArthroscopicMap& map_;
+  const PathologyTable& table_;
+  Rng rng_;
+  Vec3 volar_;
+  Vec3 radial_;
+  cases::JointLesions made_;
+};
+
+}  // namespace
+
+cases::Grades grades_by(std::uint64_t seed, const PathologyTable& table) {
+  Rng rng(seed ^ kGradesStream);
+  cases::Grades grades{};
+  const bool is_healthy = rng.uniform() < table.healthy_share;
+  bool has_any = false;
+  for (std::size_t f = 0; f < table.findings.size(); ++f) {
+    const bool is_there = rng.uniform() < table.findings[f].chance;
+    const auto wrong = table.scale_of(f).grades.size() - 1;
+    const auto grade = static_cast<std::uint8_t>(1 + rng.below(wrong));
+    if (is_healthy || !is_there) continue;
+    grades[f] = grade;
+    has_any = true;
+  }
+  // Not healthy by another name.
+  if (!is_healthy && !has_any && !table.findings.empty()) {
+    grades[0] = static_cast<std::uint8_t>(1 + rng.below(table.scale_of(0).grades.size() - 1));
+  }
+  return grades;
+}
+
+cases::JointLesions make_lesions(const cases::CaseData& data,
+                                 const cases::ArthroscopicMap& map,
+                                 const PathologyTable& table,
+                                 const cases::Grades& grades,
+                                 std::uint64_t seed) {
+  return LesionMaker(data, map, table, grades, seed).make();
+}
+
+}  // namespace carpus::arthroscopy

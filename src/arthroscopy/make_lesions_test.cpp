@@ -1,0 +1,213 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "arthroscopy/make_lesions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "arthroscopy/generic_wrist_test_support.hpp"
+#include "cases/joint_under_block.hpp"
+#include "core/error.hpp"
+
+namespace carpus::arthroscopy {
+namespace {
+
+using cases::Grades;
+using cases::JointLesions;
+using cases::Lesion;
+
+constexpr double kProbeMm = 0.5;  // radii of the catalogue
+constexpr double kThickScopeMm = 1.35;
+
+const PathologyTable& table() { return PathologyTable::generic(); }
+
+std::size_t finding(const std::string& id) {
+  for (std::size_t f = 0; f < table().findings.size(); ++f) {
+    if (table().findings[f].id == id) return f;
+  }
+  ADD_FAILURE() << "nothing is asked of " << id;
+  return 0;
+}
+
+JointLesions with(const std::string& id, std::uint8_t grade) {
+  Grades grades{};
+  grades[finding(id)] = grade;
+  const test::GenericWrist& wrist = test::generic_wrist();
+  return make_lesions(wrist.data, wrist.map, table(), grades, 1);
+}
+
+std::size_t body_of(BoneId id) {
+  const auto& bones = test::generic_wrist().data.bones;
+  return static_cast<std::size_t>(
+      std::find_if(bones.begin(), bones.end(), [&](const auto& b) { return b.bone == id; }) -
+      bones.begin());
+}
+
+/// Whether a tip of that radius goes through any of them, in its middle.
+bool lets_through(const JointLesions& made, double radius_mm) {
+  return std::any_of(made.lesions.begin(), made.lesions.end(), [&](const Lesion& lesion) {
+    return cases::passes(lesion, (lesion.from + lesion.to) * 0.5, radius_mm);
+  });
+}
+
+TEST(GradesBy, TheSameSeedIsTheSameWristAndAnotherIsAnother) {
+  EXPECT_EQ(grades_by(7, table()), grades_by(7, table()));
+  int same = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    same += grades_by(seed, table()) == grades_by(seed + 1, table()) ? 1 : 0;
+  }
+  EXPECT_LT(same, 10) << "two healthy ones in a row are the same";
+}
+
+TEST(GradesBy, HealthyWristsAndEveryGradeOccurAsOftenAsTheTableSays) {
+  constexpr int kSeeds = 4000;
+  int healthy = 0;
+  std::array<std::array<int, 16>, cases::kMaxFindings> count{};
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Grades grades = grades_by(seed, table());
+    healthy += grades == Grades{} ? 1 : 0;
+    for (std::size_t f = 0; f < table().findings.size(); ++f) {
+      ++count.at(f).at(grades[f]);
+    }
+  }
+  EXPECT_NEAR(healthy, table().healthy_share * kSeeds, 0.02 * kSeeds);
+  for (std::size_t f = 0; f < table().findings.size(); ++f) {
+    const auto grades = table().scale_of(f).grades.size();
+    const double wrong = kSeeds - count[f][0];
+    const double expected = (1 - table().healthy_share) * table().findings[f].chance;
+    // The first stands in where nothing else is wrong.
+    EXPECT_NEAR(wrong / kSeeds, expected, f == 0 ? 0.05 : 0.025) << table().findings[f].id;
+    for (std::size_t g = 1; g < grades; ++g) {
+      EXPECT_NEAR(count[f][g], wrong / static_cast<double>(grades - 1), 0.25 * wrong)
+          << table().findings[f].id << " " << g;
+    }
+  }
+}
+
+/// [K, B9]: a probe passes from III on, the 2.7 mm scope at IV.
+TEST(MakeLesions, WhatGoesThroughATornLigamentTellsItsGrade) {
+  for (const char* id : {"scapholunate", "lunotriquetral"}) {
+    EXPECT_FALSE(lets_through(with(id, 1), kProbeMm)) << id;
+    EXPECT_FALSE(lets_through(with(id, 2), kProbeMm)) << id;
+    EXPECT_TRUE(lets_through(with(id, 3), kProbeMm)) << id;
+    EXPECT_FALSE(lets_through(with(id, 3), kThickScopeMm)) << id;
+    EXPECT_TRUE(lets_through(with(id, 4), kThickScopeMm)) << id;
+  }
+}
+
+TEST(MakeLesions, ATornLigamentShowsInBothJointsABruisedOneInTheRadiocarpalAlone) {
+  const auto joints = [](const JointLesions& made) {
+    std::vector<std::string> ids;
+    for (const Lesion& lesion : made.lesions) {
+      ids.push_back(test::generic_wrist().map.joints[lesion.joint].id);
+    }
+    return ids;
+  };
+  EXPECT_EQ(joints(with("scapholunate", 1)), std::vector<std::string>{"radiocarpal"});
+  EXPECT_EQ(joints(with("scapholunate", 3)),
+            (std::vector<std::string>{"radiocarpal", "midcarpal"}));
+}
+
+/// Level and closed at I; from II on bones stand apart, and only while they are pulled.
+TEST(MakeLesions, BonesPartByGapAndStepUnderTraction) {
+  const std::size_t scaphoid = body_of(BoneId::Scaphoid);
+  const std::size_t lunate = body_of(BoneId::Lunate);
+  for (std::uint8_t grade = 1; grade <= 4; ++grade) {
+    const JointLesions made = with("scapholunate", grade);
+    const Grade& how = table().scale_of(finding("scapholunate")).grades[grade];
+    const auto apart = [&](double pull) {
+      return made.shift_of(scaphoid, pull) - made.shift_of(lunate, pull);
+    };
+    const Vec3 full = apart(69);
+    const Vec3& distal = test::generic_wrist().map.distal;
+    EXPECT_NEAR(dot(full, distal), how.step_mm, 1e-9);
+    EXPECT_NEAR(length(full - distal * dot(full, distal)), how.gap_mm, 1e-9);
+    EXPECT_EQ(apart(0), (Vec3{0, 0, 0}));
+    EXPECT_NEAR(length(apart(17)), length(full) / 2, 1e-9);
+  }
+}
+
+TEST(MakeLesions, EachFindingShowsOnTheWallOfItsJoint) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  for (std::size_t f = 0; f < table().findings.size(); ++f) {
+    const std::string& id = table().findings[f].id;
+    for (std::uint8_t g = 1; g < table().scale_of(f).grades.size(); ++g) {
+      const JointLesions made = with(id, g);
+      ASSERT_FALSE(made.lesions.empty()) << id << " " << int{g};
+      EXPECT_EQ(made.grades[f], g);
+      for (const Lesion& lesion : made.lesions) {
+        EXPECT_EQ(lesion.finding, f);
+        EXPECT_NEAR(length(lesion.outwards), 1, 1e-9);
+        const double off = lesion.look == cases::LesionLook::Loose ? lesion.radius_mm + 0.3 : 0.3;
+        for (const Vec3& end : {lesion.from, lesion.to}) {
+          const auto at = fields::sample_distance(wrist.map.joints[lesion.joint].wall, end);
+          EXPECT_NEAR(at.distance_mm, 0, off) << id << " " << int{g};
+        }
+      }
+    }
+  }
+}
+
+/// Pulled as for an examination, and where the pull is least no deeper than their cartilage is
+/// thick together [K, B11]: 0.68 mm at Geissler IV and 34 N, nothing at 69 N.
+TEST(MakeLesions, BonesThatStandApartPassIntoEachOthersCartilageAtMost) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  for (const char* id : {"scapholunate", "lunotriquetral"}) {
+    const JointLesions made = with(id, 4);
+    for (const double pull : {34.0, 69.0}) {
+      anatomy::HandPose pose = wrist.data.hand_motion.scan;
+      pose.traction_n = pull;
+      std::vector<Pose<frame::Patient, frame::Bone>> poses;
+      for (std::size_t b = 0; b < wrist.data.bones.size(); ++b) {
+        poses.push_back(
+            cases::pose_under_block(wrist.data.hand_motion, wrist.data.bones[b].bone, pose));
+        poses.back().translation += made.shift_of(b, pull);
+      }
+      double deepest = 0;
+      for (std::size_t a = 0; a < poses.size(); ++a) {
+        for (std::size_t b = 0; b < poses.size(); ++b) {
+          if (a == b) continue;
+          const auto b_from_a = poses[b].inverse() * poses[a];
+          for (const Vec3& v : wrist.data.bones[a].surface.vertices) {
+            const auto s = fields::sample_distance(wrist.data.bones[b].distance_field,
+                                                   (b_from_a * Point<frame::Bone>{v}).v);
+            if (s.is_inside_grid) deepest = std::min(deepest, s.distance_mm);
+          }
+        }
+      }
+      EXPECT_GT(deepest, pull < 69.0 ? -0.8 : -0.05) << id << " at " << pull << " N";
+    }
+  }
+}
+
+TEST(MakeLesions, WhatTheCaseHasNoPlaceForIsWell) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  cases::ArthroscopicMap less = wrist.map;
+  std::erase_if(less.points, [](const auto& point) { return point.id == "sl_gap"; });
+  Grades grades{};
+  grades[finding("scapholunate")] = 3;
+  grades[finding("disc")] = 1;
+  const JointLesions made = make_lesions(wrist.data, less, table(), grades, 1);
+  EXPECT_EQ(made.grades[finding("scapholunate")], 0);
+  EXPECT_EQ(made.grades[finding("disc")], 1);
+}
+
+TEST(PathologyTable, NamesTheEntryThatIsWrong) {
+  EXPECT_THROW(PathologyTable::parse("{"), InvalidInput);
+  const auto text = [](const std::string& shows, const std::string& scale, double chance) {
+    return R"({"opened_by_n":{"value":34},"healthy_share":{"value":0},"scales":[{"id":"s","name":"","is_ordered":false,"grades":[{"id":"0","label":"w"},{"id":"1","label":"x","shows":")" +
+           shows + R"(","radius_mm":1}]}],"findings":[{"id":"f","label":"F","scale":")" + scale +
+           R"(","chance":)" + std::to_string(chance) + R"(,"at":"disc"}]})";
+  };
+  EXPECT_EQ(PathologyTable::parse(text("tear", "s", 0.5)).findings.size(), 1U);
+  EXPECT_THROW(PathologyTable::parse(text("glow", "s", 0.5)), InvalidInput);
+  EXPECT_THROW(PathologyTable::parse(text("tear", "t", 0.5)), InvalidInput);
+  EXPECT_THROW(PathologyTable::parse(text("tear", "s", 1.5)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace carpus::arthroscopy

@@ -1,0 +1,108 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "arthroscopy/pathology_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/bone_id.hpp"
+#include "core/error.hpp"
+
+namespace carpus::data {
+std::string_view pathology();
+}
+
+namespace carpus::arthroscopy {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<std::string_view, cases::kLesionLooks> kLooks{
+    "stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"};
+
+[[noreturn]] void refuse(const std::string& what) { throw InvalidInput("pathology.json: " + what); }
+
+Grade grade_from(const Json& json, const std::string& where) {
+  Grade g;
+  g.id = json.at("id");
+  g.label = json.at("label");
+  g.length_mm = json.value("length_mm", 0.0);
+  g.radius_mm = json.value("radius_mm", 0.0);
+  g.gap_mm = json.value("gap_mm", 0.0);
+  g.step_mm = json.value("step_mm", 0.0);
+  g.passes_mm = json.value("passes_mm", 0.0);
+  if (!json.contains("shows")) return g;
+  const std::string look = json.at("shows");
+  const auto* const found = std::find(kLooks.begin(), kLooks.end(), look);
+  if (found == kLooks.end()) refuse(where + ": nothing shows as " + look);
+  g.shows = static_cast<cases::LesionLook>(found - kLooks.begin());
+  if (!(g.radius_mm > 0)) refuse(where + " " + g.id + ": what shows has a radius");
+  return g;
+}
+
+Scale scale_from(const Json& json) {
+  Scale s;
+  s.id = json.at("id");
+  s.name = json.at("name");
+  s.is_ordered = json.at("is_ordered");
+  for (const Json& each : json.at("grades")) s.grades.push_back(grade_from(each, s.id));
+  if (s.grades.size() < 2 || s.grades.front().shows) {
+    refuse(s.id + ": begins with what is well, and has another grade");
+  }
+  return s;
+}
+
+void check_bone(const std::string& name, const std::string& where) {
+  if (!bone_of(name)) refuse(where + ": there is no bone " + name);
+}
+
+Finding finding_from(const Json& json, const std::vector<Scale>& scales) {
+  Finding f;
+  f.id = json.at("id");
+  f.label = json.at("label");
+  f.chance = json.at("chance");
+  const std::string scale = json.at("scale");
+  const auto found = std::find_if(scales.begin(), scales.end(),
+                                  [&](const Scale& each) { return each.id == scale; });
+  if (found == scales.end()) refuse(f.id + ": there is no scale " + scale);
+  f.scale = static_cast<std::size_t>(found - scales.begin());
+  if (!(f.chance >= 0 && f.chance <= 1)) refuse(f.id + ": a chance is 0 to 1");
+  if (json.contains("line")) {
+    const Json& line = json.at("line");
+    f.line = TornLine{line.at("radiocarpal"), line.at("midcarpal"), line.at("moves"),
+                      line.at("away_from").get<std::vector<std::string>>()};
+    check_bone(f.line->moves, f.id);
+    for (const std::string& bone : f.line->away_from) check_bone(bone, f.id);
+  }
+  f.at = json.value("at", "");
+  if (json.contains("in")) f.among = json.at("in").get<std::vector<std::string>>();
+  return f;
+}
+
+}  // namespace
+
+PathologyTable PathologyTable::parse(std::string_view json_text) {
+  PathologyTable table;
+  try {
+    const Json json = Json::parse(json_text);
+    table.full_traction_n = json.at("opened_by_n").at("value");
+    table.healthy_share = json.at("healthy_share").at("value");
+    for (const Json& each : json.at("scales")) table.scales.push_back(scale_from(each));
+    for (const Json& each : json.at("findings")) {
+      table.findings.push_back(finding_from(each, table.scales));
+    }
+  } catch (const Json::exception& error) {
+    throw InvalidInput(std::string("pathology.json: ") + error.what());
+  }
+  if (table.findings.size() > cases::kMaxFindings) refuse("too many findings");
+  if (!(table.full_traction_n > 0)) refuse("opened_by_n: a pull is above 0");
+  return table;
+}
+
+const PathologyTable& PathologyTable::generic() {
+  static const PathologyTable kTable = parse(data::pathology());
+  return kTable;
+}
+
+}  // namespace carpus::arthroscopy

@@ -1,0 +1,67 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What may be wrong in an examined wrist, as data (data/pathology.json).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/joint_lesions.hpp"
+
+namespace carpus::arthroscopy {
+
+struct Grade {
+  std::string id;     ///< "II"
+  std::string label;  ///< for people
+  std::optional<cases::LesionLook> shows;
+  double length_mm = 0;
+  double radius_mm = 0;
+  double gap_mm = 0;
+  double step_mm = 0;
+  double passes_mm = 0;
+};
+
+struct Scale {
+  std::string id;
+  std::string name;
+  bool is_ordered = false;    ///< a grade beside the true one is nearly right
+  std::vector<Grade> grades;  ///< the first is that of what is well
+};
+
+/// Of a ligament between two bones: where its line shows, and which bones part.
+struct TornLine {
+  std::string in_radiocarpal;  ///< id of the tour's point
+  std::string in_midcarpal;
+  std::string moves;                   ///< bone
+  std::vector<std::string> away_from;  ///< bones
+};
+
+struct Finding {
+  std::string id;
+  std::string label;
+  std::size_t scale = 0;  ///< in `scales`
+  double chance = 0;      ///< in a wrist that is not healthy
+  std::optional<TornLine> line;
+  std::string at;                  ///< id of the tour's point that a patch lies near
+  std::vector<std::string> among;  ///< of points, one of which it lies by
+};
+
+struct PathologyTable {
+  double full_traction_n = 0;
+  double healthy_share = 0;
+  std::vector<Finding> findings;
+  std::vector<Scale> scales;
+
+  [[nodiscard]] const Scale& scale_of(std::size_t finding) const {
+    return scales[findings[finding].scale];
+  }
+  /// @throws InvalidInput naming the entry where the text is no such table.
+  [[nodiscard]] static PathologyTable parse(std::string_view json_text);
+  /// The built-in table; parsed at the first call.
+  [[nodiscard]] static const PathologyTable& generic();
+};
+
+}  // namespace carpus::arthroscopy

@@ -1,0 +1,122 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "arthroscopy/pathology_table.hpp"
+#include "procedures/arthroscopic_examination/declared.hpp"
+
+namespace carpus::procedures::arthroscopic_examination {
+namespace {
+
+using carpus::arthroscopy::PathologyTable;
+
+/// Looked round for a minute; the answers and the truth, by place in data/pathology.json.
+procedure::OperationRecord record_of(const cases::Grades& truth, const cases::Grades& answers) {
+  procedure::OperationRecord record;
+  record.finished = true;
+  record.scope.emplace();
+  record.scope->looking_ticks = 60'000;
+  record.scope->truth = truth;
+  record.scope->answers = answers;
+  return record;
+}
+
+cases::Grades all_well() {
+  cases::Grades grades = cases::not_judged();
+  const auto asked = static_cast<std::ptrdiff_t>(PathologyTable::generic().findings.size());
+  std::fill(grades.begin(), grades.begin() + asked, std::uint8_t{0});
+  return grades;
+}
+
+struct Judged {
+  std::optional<double> value;
+  std::string reason;
+  double points = 0;
+  double possible = 0;
+  bool is_there = false;
+};
+
+Judged item(const procedure::OperationRecord& record, const std::string& id) {
+  for (const procedure::ScoreItem& each : score({}, record).items) {
+    if (each.id == id) {
+      return {each.value, each.reason, each.points, each.points_possible, true};
+    }
+  }
+  return {};
+}
+
+TEST(ExaminationScore, WhatIsNamedInItsGradeEarnsAll) {
+  cases::Grades truth{};
+  truth[0] = 3;
+  truth[2] = 4;
+  cases::Grades said = all_well();
+  said[0] = 3;
+  said[2] = 4;
+  const auto record = record_of(truth, said);
+  for (const char* id :
+       {"findings_found", "grades_right", "findings_invented", "findings_unjudged"}) {
+    const Judged judged = item(record, id);
+    EXPECT_DOUBLE_EQ(judged.points, judged.possible) << id;
+    EXPECT_GT(judged.possible, 0) << id;
+  }
+}
+
+TEST(ExaminationScore, AGradeBesideTheTrueOneCountsHalfWhereGradesHaveAnOrder) {
+  cases::Grades truth{};
+  truth[0] = 3;  // Geissler
+  cases::Grades said = all_well();
+  said[0] = 2;
+  EXPECT_EQ(item(record_of(truth, said), "grades_right").value, 50);
+  EXPECT_EQ(item(record_of(truth, said), "findings_found").value, 100);
+  said[0] = 1;
+  EXPECT_EQ(item(record_of(truth, said), "grades_right").value, 0);
+  truth = {};
+  truth[2] = 3;  // Palmer: classes, not degrees
+  said = all_well();
+  said[2] = 4;
+  EXPECT_EQ(item(record_of(truth, said), "grades_right").value, 0);
+}
+
+TEST(ExaminationScore, WhatIsMissedInventedOrLeftOutIsNamed) {
+  cases::Grades truth{};
+  truth[0] = 4;
+  cases::Grades said = all_well();
+  said[1] = 2;
+  said[9] = cases::kNotJudged;
+  const auto record = record_of(truth, said);
+  const auto& findings = PathologyTable::generic().findings;
+  EXPECT_EQ(item(record, "findings_found").value, 0);
+  EXPECT_NE(item(record, "findings_found").reason.find(findings[0].label), std::string::npos);
+  EXPECT_EQ(item(record, "findings_invented").value, 1);
+  EXPECT_NE(item(record, "findings_invented").reason.find(findings[1].label), std::string::npos);
+  EXPECT_EQ(item(record, "findings_unjudged").value, 1);
+  EXPECT_NE(item(record, "findings_unjudged").reason.find(findings[9].label), std::string::npos);
+}
+
+TEST(ExaminationScore, AHealthyWristIsAnAnswerAndFindingsAreLeftOutThere) {
+  const auto record = record_of({}, all_well());
+  EXPECT_FALSE(item(record, "findings_found").is_there);
+  EXPECT_FALSE(item(record, "grades_right").is_there);
+  EXPECT_EQ(item(record, "findings_invented").value, 0);
+  EXPECT_NE(item(record, "findings_invented").reason.find("healthy"), std::string::npos);
+  double possible = 0;
+  for (const auto& each : score({}, record).items) possible += each.points_possible;
+  EXPECT_NEAR(possible, 100, 1e-9) << "what is left out is shared out";
+}
+
+TEST(ExaminationScore, WhoAnsweredNothingFoundNothing) {
+  cases::Grades truth{};
+  truth[5] = 2;
+  const auto record = record_of(truth, cases::not_judged());
+  EXPECT_EQ(item(record, "findings_found").value, 0);
+  EXPECT_EQ(item(record, "findings_unjudged").value,
+            static_cast<double>(PathologyTable::generic().findings.size()));
+}
+
+}  // namespace
+}  // namespace carpus::procedures::arthroscopic_examination

@@ -1,0 +1,89 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Points and cartilage that were truly seen, how both hands went, force.
+#include "procedures/arthroscopy/conduct.hpp"
+
+#include <bit>
+#include <string>
+#include <utility>
+
+#include "arthroscopy/seen_share.hpp"
+#include "procedure/thrift_measures.hpp"
+
+namespace carpus::procedures::arthroscopy {
+namespace {
+
+using procedure::Measure;
+
+double seconds(Tick ticks) { return static_cast<double>(ticks) * kTickSeconds; }
+
+/// What of the tour is not among these bits, in words.
+std::string missing(const cases::ArthroscopicMap& map, std::uint32_t bits) {
+  std::string names;
+  for (const cases::TourPoint& point : map.points) {
+    if ((bits >> point.number & 1U) != 0) continue;
+    names += (names.empty() ? "" : ", ") + point.name;
+  }
+  return names.empty() ? "All of them." : "Not seen: " + names + ".";
+}
+
+Measure cartilage(const cases::CaseData& data, const procedure::ScopeRecord& scope) {
+  carpus::arthroscopy::SeenCartilage seen(data, *data.arthroscopy);
+  for (const procedure::ScopeLook& look : scope.looks) {
+    carpus::arthroscopy::Sight sight;
+    sight.eye = look.eye;
+    sight.axis = look.axis;
+    sight.least_cosine = scope.least_cosine;
+    seen.look(sight,
+              {look.flexion_rad, look.radial_deviation_rad, look.pronation_rad, look.traction_n},
+              look.joint);
+  }
+  std::string finding;
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    const double share = seen.share_of(static_cast<std::uint8_t>(b));
+    if (!(share > 0)) continue;
+    finding += (finding.empty() ? "" : ", ") + std::string(name_of(data.bones[b].bone)) + " " +
+               procedure::text_of(share * 100) + " %";
+  }
+  return {"cartilage_seen_share", seen.share() * 100, finding.empty() ? finding : finding + "."};
+}
+
+}  // namespace
+
+std::vector<Measure> conduct_measures(const cases::CaseData& data,
+                                      const procedure::Procedure& procedure,
+                                      const procedure::OperationRecord& record) {
+  static const procedure::ScopeRecord kNone;
+  const procedure::ScopeRecord& scope = record.scope ? *record.scope : kNone;
+
+  std::vector<Measure> measures = procedure::thrift_measures(procedure, record, {});
+  const auto count = [](std::uint32_t bits) { return static_cast<double>(std::popcount(bits)); };
+  const bool has_map = data.arthroscopy != nullptr;
+  measures.push_back({"points_seen", count(scope.facts.points_seen),
+                      has_map ? missing(*data.arthroscopy, scope.facts.points_seen) : ""});
+  Measure share{"points_seen_share", {}, ""};
+  if (has_map && !data.arthroscopy->points.empty()) {
+    const auto all = static_cast<double>(data.arthroscopy->points.size());
+    share.value = count(scope.facts.points_seen) / all * 100;
+    share.finding =
+        "Of " + std::to_string(data.arthroscopy->points.size()) + " that this wrist has.";
+  }
+  measures.push_back(std::move(share));
+  measures.push_back({"points_probed", count(scope.facts.points_probed), ""});
+  measures.push_back(has_map ? cartilage(data, scope) : Measure{"cartilage_seen_share", {}, ""});
+  measures.push_back({"scope_path_mm", scope.path_mm[0], ""});
+  measures.push_back({"probe_path_mm", scope.path_mm[1], ""});
+  measures.push_back({"pull_outs", static_cast<double>(scope.pull_outs), ""});
+  measures.push_back({"force_over_3_n_s", seconds(scope.warn_ticks),
+                      "At most " + procedure::text_of(scope.most_force_n) + " N."});
+  measures.push_back({"force_over_8_n_s", seconds(scope.injury_ticks), ""});
+  const double looked = seconds(scope.looking_ticks);
+  Measure horizon{"horizon_off_share", {}, ""};
+  if (looked > 0) horizon.value = seconds(scope.tilted_ticks) / looked * 100;
+  measures.push_back(std::move(horizon));
+  measures.push_back({"looking_s", looked, ""});
+  return measures;
+}
+
+}  // namespace carpus::procedures::arthroscopy

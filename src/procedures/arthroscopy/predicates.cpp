@@ -1,0 +1,128 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+
+#include "core/error.hpp"
+#include "procedures/arthroscopy/conduct.hpp"
+
+namespace carpus::procedures::arthroscopy {
+namespace {
+
+using procedure::NamedPredicate;
+using procedure::Situation;
+
+/// The least that opens a wrist [S79].
+constexpr double kLeastTractionN = 34.0;
+/// Where the hand waits, outside all tissue.
+constexpr double kWaitsMm = 60.0;
+/// In the order of the map's portals and joints, which opening() proves to be there.
+constexpr std::uint8_t kPortal34 = 0;
+constexpr std::uint8_t kPortal45 = 1;
+constexpr std::uint8_t kRadiocarpal = 0;
+constexpr std::uint8_t kMidcarpal = 1;
+constexpr const char* kFirstJoint = "radiocarpal";
+constexpr const char* kFirst = "3-4";
+constexpr const char* kSecond = "4-5";
+
+/// Whether a hand holds the scope, or what is none, in this joint, by a portal that is asked for.
+template <typename Asked>
+bool is_in(const Situation& now, std::uint8_t joint, bool is_scope, Asked asked) noexcept {
+  const auto all = instruments::catalogue();
+  for (std::size_t h = 0; h < procedure::kHands; ++h) {
+    const instruments::InstrumentIndex held = now.hands[h].instrument;
+    if (held >= all.size() || all[held].optic.has_value() != is_scope) continue;
+    if (now.scope.is_in_joint[h] && now.scope.joint[h] == joint && asked(now.scope.portal[h])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+constexpr std::uint32_t bits_of(std::initializer_list<int> numbers) noexcept {
+  std::uint32_t bits = 0;
+  for (const int number : numbers) bits |= 1U << number;
+  return bits;
+}
+
+template <int... kNumbers>
+bool has_seen(const Situation& now) noexcept {
+  constexpr std::uint32_t kBits = bits_of({kNumbers...});
+  return (now.scope.points_seen & kBits) == kBits;
+}
+
+bool is_pulled(const Situation& now) noexcept { return now.wrist.traction_n >= kLeastTractionN; }
+bool is_scope_in(const Situation& now) noexcept {
+  return is_in(now, kRadiocarpal, true, [](std::uint8_t by) { return by == kPortal34; });
+}
+bool is_probe_in(const Situation& now) noexcept {
+  return is_in(now, kRadiocarpal, false, [](std::uint8_t by) { return by != kPortal34; });
+}
+bool is_scope_ulnar(const Situation& now) noexcept {
+  return is_in(now, kRadiocarpal, true, [](std::uint8_t by) { return by != kPortal34; });
+}
+bool is_scope_midcarpal(const Situation& now) noexcept {
+  return is_in(now, kMidcarpal, true, [](std::uint8_t) { return true; });
+}
+bool has_probed_disc(const Situation& now) noexcept {
+  constexpr std::uint32_t kDisc = bits_of({11});
+  return has_seen<11>(now) && (now.scope.points_probed & kDisc) != 0;
+}
+bool has_seen_a_ligament(const Situation& now) noexcept {
+  constexpr std::uint32_t kVolar = bits_of({4, 5, 6, 9});
+  return (now.scope.points_seen & kVolar) != 0;
+}
+bool has_seen_ulnar(const Situation& now) noexcept {
+  constexpr std::uint32_t kUlnar = bits_of({14, 15, 17});
+  return has_seen<13>(now) && (now.scope.points_seen & kUlnar) != 0;
+}
+bool has_answered_all(const Situation& now) noexcept { return now.scope.unanswered == 0; }
+bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
+
+}  // namespace
+
+std::span<const NamedPredicate> named_predicates() {
+  static constexpr std::array kPredicates{
+      NamedPredicate{"is_pulled", is_pulled},
+      NamedPredicate{"is_scope_in", is_scope_in},
+      NamedPredicate{"is_probe_in", is_probe_in},
+      NamedPredicate{"has_seen_radial", has_seen<1, 2, 3>},
+      NamedPredicate{"has_seen_scapholunate", has_seen<7>},
+      NamedPredicate{"has_seen_lunate", has_seen<8, 10>},
+      NamedPredicate{"has_probed_disc", has_probed_disc},
+      NamedPredicate{"has_seen_a_ligament", has_seen_a_ligament},
+      NamedPredicate{"is_scope_ulnar", is_scope_ulnar},
+      NamedPredicate{"has_seen_ulnar", has_seen_ulnar},
+      NamedPredicate{"is_scope_midcarpal", is_scope_midcarpal},
+      NamedPredicate{"has_seen_radiocarpal", has_seen<2, 3, 7, 8>},
+      NamedPredicate{"has_answered_all", has_answered_all},
+      NamedPredicate{"has_seen_midcarpal_rows", has_seen<20, 23>},
+      NamedPredicate{"has_seen_distal_row", has_seen<18, 21, 24>},
+      NamedPredicate{"is_finishing", is_finishing}};
+  return kPredicates;
+}
+
+procedure::Opening opening(const cases::CaseData& data, std::string_view name) {
+  const std::string who(name);
+  if (cases::find_bone(data, BoneId::Radius) == nullptr) {
+    throw InvalidInput(who + ": the case has no radius");
+  }
+  if (data.arthroscopy == nullptr) {
+    throw InvalidInput(who +
+                       ": the case has no soft tissue; make it with 'carpus soft-tissue' "
+                       "and open the case again");
+  }
+  const std::vector<cases::Portal>& portals = data.arthroscopy->portals;
+  if (portals.size() <= kPortal45 || data.arthroscopy->joints.front().id != kFirstJoint ||
+      portals[kPortal34].id != kFirst || portals[kPortal45].id != kSecond) {
+    std::string why;
+    for (const std::string& each : data.arthroscopy->problems) why += "; " + each;
+    throw InvalidInput(who + ": the 3-4 and 4-5 portals cannot be used" + why);
+  }
+  procedure::Opening opening;
+  opening.shaft_in_target = -portals[kPortal34].inwards;
+  opening.tip_in_target = portals[kPortal34].skin + opening.shaft_in_target * kWaitsMm;
+  return opening;
+}
+
+}  // namespace carpus::procedures::arthroscopy

@@ -1,0 +1,91 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The report of an examination: of each structure one grade, the healthy one to choose like any other; none
+// is chosen beforehand. Each choice is told at once, the newest counts.
+import { button, make } from "../dom";
+import type { ExerciseMessage } from "../protocol";
+import "./findings_dialog.css";
+
+type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
+
+export class FindingsDialog {
+  readonly element: HTMLDialogElement;
+  private readonly rows = make("div.findings-rows");
+  private findings: Plan["findings"] = [];
+
+  constructor(private readonly onAnswer: (finding: string, grade: string) => void) {
+    const form = make(
+      "form",
+      { method: "dialog" },
+      make("h2", { id: "findings-title" }, "Findings"),
+      make(
+        "p",
+        {},
+        "Of each structure one grade, healthy ones too. You may come back to it; what stands here when you finish counts.",
+      ),
+      this.rows,
+      make(
+        "div.actions",
+        {},
+        button(
+          "Back to the joint",
+          "Esc",
+          () => {
+            this.element.close();
+          },
+          ".primary",
+        ),
+      ),
+    );
+    form.addEventListener("change", (event) => {
+      const input = event.target;
+      if (input instanceof HTMLInputElement) this.onAnswer(input.name, input.value);
+    });
+    this.element = make("dialog.findings", { "aria-labelledby": "findings-title" }, form);
+  }
+
+  set(findings: Plan["findings"]): void {
+    this.findings = findings;
+    this.rows.replaceChildren(
+      ...findings.map((finding) =>
+        make(
+          "div.finding",
+          { role: "radiogroup", "aria-label": finding.label },
+          make(
+            "span.finding-name",
+            {},
+            finding.label,
+            ...(finding.scale === "" ? [] : [make("small", {}, ` ${finding.scale}`)]),
+          ),
+          ...finding.grades.map((grade) =>
+            make(
+              "label",
+              { title: grade.label },
+              make("input", {
+                type: "radio",
+                name: finding.id,
+                value: grade.id,
+                "aria-label": `${finding.label}: ${grade.label}`,
+              }),
+              make("span", {}, grade.id === "0" || finding.scale === "" ? grade.label : grade.id),
+            ),
+          ),
+        ),
+      ),
+    );
+  }
+
+  /** @param answers  by finding, what the host has; -1: nothing yet */
+  open(answers: readonly number[]): void {
+    if (this.element.open || this.findings.length === 0) return;
+    this.findings.forEach((finding, f) => {
+      const chosen = finding.grades[answers[f] ?? -1]?.id;
+      for (const input of this.rows.querySelectorAll<HTMLInputElement>(
+        `input[name="${finding.id}"]`,
+      ))
+        input.checked = input.value === chosen;
+    });
+    this.element.showModal();
+  }
+}

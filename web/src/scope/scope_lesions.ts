@@ -1,0 +1,191 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong in a joint, as the host says it (generated), for the scope's picture: painted on the wall by
+// where each place of it was as scanned, so that it goes with the tissue; loose bodies as balls.
+import * as THREE from "three";
+import type { BodyPose, ExerciseMessage } from "../protocol";
+
+type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
+export type Lesion = Plan["lesions"][number];
+
+/** Of one joint; more are not painted. */
+export const MOST_PAINTED = 12;
+
+/** What `look` is to the shader; a loose body is no paint. */
+const PAINT: Readonly<Record<string, number>> = {
+  stain: 0,
+  tear: 1,
+  worn: 2,
+  soft: 3,
+  fissured: 4,
+  frayed: 5,
+  bare: 6,
+};
+
+export interface LesionUniforms {
+  readonly lesionFrom: THREE.IUniform<THREE.Vector4[]>;
+  readonly lesionTo: THREE.IUniform<THREE.Vector4[]>;
+  readonly lesionCount: THREE.IUniform<number>;
+  readonly [name: string]: THREE.IUniform;
+}
+
+export function lesionUniforms(): LesionUniforms {
+  const places = (): THREE.Vector4[] =>
+    Array.from({ length: MOST_PAINTED }, () => new THREE.Vector4());
+  return {
+    lesionFrom: { value: places() },
+    lesionTo: { value: places() },
+    lesionCount: { value: 0 },
+  };
+}
+
+/** Those of one joint. */
+export function setLesions(
+  uniforms: LesionUniforms,
+  lesions: readonly Lesion[],
+  joint: string,
+): void {
+  let count = 0;
+  for (const lesion of lesions) {
+    const paint = PAINT[lesion.look];
+    if (lesion.joint !== joint || paint === undefined || count >= MOST_PAINTED) continue;
+    uniforms.lesionFrom.value[count]?.set(...lesion.from_mm, lesion.radius_mm);
+    uniforms.lesionTo.value[count]?.set(...lesion.to_mm, paint);
+    ++count;
+  }
+  uniforms.lesionCount.value = count;
+}
+
+/** Changes colour, roughness and wetness (1 wet, 0 a hole that nothing shines from). */
+export const LESIONS_GLSL = /* glsl */ `
+uniform vec4 lesionFrom[${MOST_PAINTED}];
+uniform vec4 lesionTo[${MOST_PAINTED}];
+uniform int lesionCount;
+varying vec3 vRest;
+
+void paintLesions(inout vec3 albedo, inout float rough, inout float wet) {
+  for (int i = 0; i < ${MOST_PAINTED}; ++i) {
+    if (i >= lesionCount) break;
+    vec3 a = lesionFrom[i].xyz, along = lesionTo[i].xyz - a;
+    float radius = lesionFrom[i].w, look = lesionTo[i].w;
+    float whole = max(dot(along, along), 1e-6);
+    float off = length(vRest - a - along * clamp(dot(vRest - a, along) / whole, 0.0, 1.0));
+    if (off > 2.6 * radius) continue;
+    float ragged = noise(vRest * 3.1 + 5.0) - 0.5;
+    float fine = noise(vRest * 9.0) - 0.5;
+    float s = off / radius + 0.45 * ragged + 0.2 * fine;
+    if (look < 0.5) {  // bleeding into a ligament
+      float t = 1.0 - smoothstep(0.35, 1.25, s);
+      albedo = mix(albedo, mix(vec3(0.62, 0.13, 0.09), vec3(0.34, 0.03, 0.04), noise(vRest * 2.2)), 0.85 * t);
+    } else if (look < 2.5) {  // a hole: torn, or worn through
+      float torn = look < 1.5 ? 1.0 : 0.0;
+      float hole = 1.0 - smoothstep(0.80, 1.0, s);
+      float rim = (1.0 - hole) * (1.0 - smoothstep(1.15, 1.15 + 0.75, s));
+      vec3 edge = mix(vec3(0.92, 0.84, 0.66),
+                      mix(vec3(0.96, 0.93, 0.86), vec3(0.74, 0.28, 0.20), smoothstep(0.35, 0.75, noise(vRest * 7.0))), torn);
+      albedo = mix(albedo, edge, rim * (0.55 + 0.35 * torn));
+      rough = mix(rough, 0.5, rim);
+      albedo = mix(albedo, vec3(0.035, 0.012, 0.010), hole);
+      wet *= 1.0 - hole;
+    } else if (look < 3.5) {  // soft: dull, swollen, a little yellow
+      float t = 1.0 - smoothstep(0.55, 1.05, s);
+      albedo = mix(albedo, vec3(0.80, 0.72, 0.52), 0.55 * t);
+      rough = mix(rough, 0.46, t);
+      wet *= 1.0 - 0.6 * t;
+    } else if (look < 4.5) {  // fissures
+      float t = 1.0 - smoothstep(0.75, 1.05, s);
+      float line = abs(2.0 * noise(vRest * 1.7 + 3.0) - 1.0);
+      float line2 = abs(2.0 * noise(vRest * 2.9 + 17.0) - 1.0);
+      float crack = max(1.0 - smoothstep(0.02, 0.10, line), 0.8 * (1.0 - smoothstep(0.02, 0.08, line2)));
+      albedo = mix(albedo, vec3(0.82, 0.74, 0.58), 0.45 * t);
+      albedo = mix(albedo, vec3(0.26, 0.15, 0.09), crack * t);
+      wet *= 1.0 - 0.8 * crack * t;
+    } else if (look < 5.5) {  // fronds, bone between them
+      float t = 1.0 - smoothstep(0.80, 1.05, s);
+      float frond = smoothstep(0.38, 0.62, noise(vRest * vec3(2.2, 5.0, 5.0) + 2.0 * ragged));
+      vec3 crab = mix(vec3(0.62, 0.38, 0.22), vec3(0.95, 0.91, 0.80), frond);
+      albedo = mix(albedo, crab, t);
+      rough = mix(rough, 0.5, t);
+      wet *= 1.0 - 0.5 * t;
+    } else {  // bare bone with a rim
+      float t = 1.0 - smoothstep(0.88, 0.98, s);
+      float rim = (1.0 - t) * (1.0 - smoothstep(1.0, 1.22, s));
+      albedo = mix(albedo, vec3(0.97, 0.95, 0.88), 0.7 * rim);
+      vec3 bone = mix(vec3(0.84, 0.71, 0.52), vec3(0.80, 0.54, 0.42), 0.7 * smoothstep(0.55, 0.85, noise(vRest * 5.0)));
+      albedo = mix(albedo, bone, t);
+      rough = mix(rough, 0.42, t);
+    }
+  }
+}
+`;
+
+/** Balls that lie in the joints. */
+export class LooseBodies {
+  readonly group = new THREE.Group();
+  private bodies: readonly { mesh: THREE.Mesh; lesion: Lesion; body: number }[] = [];
+
+  constructor(private readonly material: THREE.Material) {}
+
+  /** @param bodies  names in the order of the poses */
+  set(lesions: readonly Lesion[], bodies: readonly string[]): void {
+    this.dispose();
+    this.bodies = lesions
+      .filter((lesion) => lesion.look === "loose")
+      .map((lesion) => {
+        const mesh = new THREE.Mesh(ballGeometry(lesion.radius_mm), this.material);
+        mesh.frustumCulled = false;
+        this.group.add(mesh);
+        return { mesh, lesion, body: bodies.indexOf(lesion.body) };
+      });
+  }
+
+  /** Where they are now; shown where the scope is in their joint. */
+  lay(joint: string, poses: readonly BodyPose[]): void {
+    for (const { mesh, lesion, body } of this.bodies) {
+      mesh.visible = lesion.joint === joint;
+      const pose = poses[body];
+      mesh.position.set(...lesion.from_mm);
+      if (pose === undefined) continue;
+      const [w, x, y, z] = pose.quaternion;
+      mesh.position.applyQuaternion(new THREE.Quaternion(x, y, z, w));
+      mesh.position.add(new THREE.Vector3(...pose.translation_mm));
+    }
+  }
+
+  dispose(): void {
+    for (const { mesh } of this.bodies) mesh.geometry.dispose();
+    this.group.clear();
+    this.bodies = [];
+  }
+}
+
+/** Inside out, as the joint's wall is, so that the same material shows its outside. */
+function ballGeometry(radiusMm: number): THREE.BufferGeometry {
+  const geometry = new THREE.IcosahedronGeometry(radiusMm, 5);
+  const position = geometry.getAttribute("position");
+  const count = position.count;
+  const normal = geometry.getAttribute("normal");
+  for (let v = 0; v < count; ++v) {
+    const [x, y, z] = [position.getX(v), position.getY(v), position.getZ(v)];
+    const bump = 1 + 0.08 * Math.sin(3.1 * x + 1.7 * y) * Math.cos(2.3 * z);
+    position.setXYZ(v, x * bump, y * bump * 0.85, z * bump);
+    normal.setXYZ(v, -x / radiusMm, -y / radiusMm, -z / radiusMm);
+  }
+  // Every triangle the other way round.
+  for (let v = 0; v + 2 < count; v += 3) {
+    const second = new THREE.Vector3().fromBufferAttribute(position, v + 1);
+    const third = new THREE.Vector3().fromBufferAttribute(position, v + 2);
+    const n2 = new THREE.Vector3().fromBufferAttribute(normal, v + 1);
+    const n3 = new THREE.Vector3().fromBufferAttribute(normal, v + 2);
+    position.setXYZ(v + 1, third.x, third.y, third.z);
+    position.setXYZ(v + 2, second.x, second.y, second.z);
+    normal.setXYZ(v + 1, n3.x, n3.y, n3.z);
+    normal.setXYZ(v + 2, n2.x, n2.y, n2.z);
+  }
+  const lining = new Float32Array(4 * count);
+  for (let v = 0; v < count; ++v) lining[4 * v] = 1; // as cartilage is
+  geometry.setAttribute("lining", new THREE.BufferAttribute(lining, 4));
+  geometry.setAttribute("fibre", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  return geometry;
+}
