@@ -4,6 +4,9 @@
 // Fragments of a broken bone: pushed, led by a joystick, held together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "fields/distance_field.hpp"
 #include "simulation/broken_wrist_test_support.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/world.hpp"
@@ -186,6 +189,40 @@ TEST(Fragments, AJoystickPullsTheFragmentAndNeverIntoTheOther) {
   World again(broken_wrist(), test::exercise(), 1);
   ASSERT_TRUE(again.read_state(bytes).has_value());
   EXPECT_EQ(again.now().patient_from_bone[Joystick::proximal()], joystick.pose());
+}
+
+/// Of a piece in another bone, told at the vertices of its surface.
+double deepest_in_others(const Snapshot& now, std::size_t piece) {
+  const auto& bones = broken_wrist().bones;
+  double deepest = 0.0;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    if (bones[b].bone == BoneId::Scaphoid) continue;
+    const auto to = now.patient_from_bone[b].inverse() * now.patient_from_bone[piece];
+    for (const Vec3& vertex : bones[piece].surface.vertices) {
+      const auto seen =
+          fields::sample_distance(bones[b].distance_field, (to * Point<frame::Bone>{vertex}).v);
+      if (seen.is_inside_grid) deepest = std::max(deepest, -seen.distance_mm);
+    }
+  }
+  return deepest;
+}
+
+TEST(Fragments, AJoystickLeadsAlongOtherBonesAndNeverIntoThem) {
+  bool has_slid = false;
+  for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0},
+                          Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+    Joystick joystick;
+    const double before = deepest_in_others(joystick.world().now(), Joystick::proximal());
+    const Vec3 from = joystick.pose().translation;
+    joystick.hand().tip_in_patient = joystick.item().tip_in_patient + way * 12.0;
+    joystick.hold(4000);
+    EXPECT_LE(deepest_in_others(joystick.world().now(), Joystick::proximal()), before + 0.1)
+        << way.x << " " << way.y << " " << way.z;
+    const Vec3 gone = joystick.pose().translation - from;
+    EXPECT_GT(length(gone), 0.3) << "it is not stuck at the first touch";
+    has_slid = has_slid || length(gone - way * dot(gone, way)) > 0.3;
+  }
+  EXPECT_TRUE(has_slid) << "in no direction was another bone in the way";
 }
 
 TEST(Fragments, APushNeverTakesBackALedFragment) {

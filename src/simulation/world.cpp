@@ -7,6 +7,7 @@
 #include "simulation/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -65,7 +66,13 @@ World::Model::Model(const cases::CaseData& case_data,
     Vec3 sum;
     for (const Vec3& v : case_data.bones[b].surface.vertices) sum += v;
     const auto count = static_cast<double>(case_data.bones[b].surface.vertices.size());
-    centres.push_back(count > 0 ? sum * (1.0 / count) : Vec3{});
+    const Vec3 centre = count > 0 ? sum * (1.0 / count) : Vec3{};
+    double farthest = 0.0;
+    for (const Vec3& v : case_data.bones[b].surface.vertices) {
+      farthest = std::max(farthest, squared_length(v - centre));
+    }
+    centres.push_back(centre);
+    reaches_mm.push_back(std::sqrt(farthest));
   }
   fracture = detail::fracture_in(case_data, kinds);
   for (const InstrumentIndex index : declared.tray) {

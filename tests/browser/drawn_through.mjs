@@ -80,6 +80,9 @@ export async function drawnThrough(browser, station) {
       (s) => wireOf(s).depth_mm <= axis.lengthMm - 1,
       "its tip at the far cortex",
     );
+    // A slow page lets go late.
+    if (wireOf(await operator.snapshot()).depth_mm < axis.lengthMm - 1.5)
+      await operator.driveWireTo(axis.lengthMm - 1.3);
     for (const key of ["1", "2", "3"]) await operator.shot(key);
     await hasDone(operator, "drive_back");
   });

@@ -74,24 +74,43 @@ double World::State::way_in_target_mm(const Model& model, const Item& item) cons
   return last_inside;
 }
 
-/// Whether the fragment, so displaced, would lie deeper in another than it did as scanned, told at
-/// the corners of its hull.
-bool World::State::is_fragment_inside_another(const Model& model,
-                                              std::uint8_t body,
-                                              const Displacement& moved) const noexcept {
+/// Where the fragment, so displaced, would lie deeper in another bone than it may, told at the
+/// corners of its hull: the way out of that bone, in
+/// Patient; nothing where it lies free.
+std::optional<Vec3> World::State::way_out_of_another(const Model& model,
+                                                     std::uint8_t body,
+                                                     const Displacement& moved) const noexcept {
   const detail::BodyPose pose = bases[body] * moved.pose();
+  const Vec3 middle = (pose * Point<frame::Bone>{model.centres[body]}).v;
+  double deepest = 0.0;
+  std::optional<Vec3> way_out;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
-    if (b == body || (model.kinds.fragments & bit_of(b)) == 0) continue;
+    if (b == body) continue;
+    const bool is_fragment = (model.kinds.fragments & bit_of(b)) != 0;
+    const Vec3 centre = (poses[b] * Point<frame::Bone>{model.centres[b]}).v;
+    const double reach = model.reaches_mm[b];
+    const double apart = reach + model.reaches_mm[body];
+    if (squared_length(centre - middle) > apart * apart) continue;
+    const auto depth_at = [&](const Vec3& local) noexcept {
+      return tissue.is_near(b, local) ? -tissue.untouched_distance_mm(b, local) : 0.0;
+    };
     for (const Vec3& corner : model.data.bones[body].hull.vertices) {
-      const Vec3 local = (inverses[b] * (pose * Point<frame::Bone>{corner})).v;
-      if (!tissue.is_near(b, local)) continue;
-      const double depth = -tissue.untouched_distance_mm(b, local);
-      if (!(depth > 0.0)) continue;
-      const double as_scanned = -tissue.untouched_distance_mm(b, corner);
-      if (depth > std::max(0.0, as_scanned) + kFirmMm) return true;
+      const Vec3 at = (pose * Point<frame::Bone>{corner}).v;
+      // With its back to another bone it cannot come into that.
+      if (!is_fragment && dot(at - middle, centre - middle) <= 0.0) continue;
+      if (squared_length(at - centre) > reach * reach) continue;
+      const Vec3 local = (inverses[b] * Point<frame::Patient>{at}).v;
+      const double depth = depth_at(local);
+      if (!(depth > deepest)) continue;
+      // Pieces fit as scanned; other bones have moved since, and are entered no deeper than now.
+      const Vec3 before =
+          is_fragment ? corner : (inverses[b] * (poses[body] * Point<frame::Bone>{corner})).v;
+      if (!(depth > std::max(0.0, depth_at(before)) + kFirmMm)) continue;
+      deepest = depth;
+      way_out = (poses[b] * Direction<frame::Bone>{tissue.untouched_normal(b, local)}).v;
     }
   }
-  return false;
+  return way_out;
 }
 
 /// Whether an instrument lies in this fragment and in another: it holds them together.
@@ -108,18 +127,36 @@ bool World::State::is_fragment_held(const Model& model, std::uint8_t body) const
   return false;
 }
 
-/// As far as it goes without entering another fragment and within what ligaments allow.
+/// Not farther from its place, in way or turn, than ligaments allow.
+bool World::State::is_within_ligaments(const Model& model,
+                                       std::uint8_t body,
+                                       const Displacement& moved) const noexcept {
+  const Vec3& centre = model.centres[body];
+  const Vec3 way = (moved.pose() * Point<frame::Bone>{centre}).v - centre;
+  return squared_length(way) <= detail::kGreatestShiftMm * detail::kGreatestShiftMm &&
+         squared_length(moved.turn) <= detail::kGreatestTurn * detail::kGreatestTurn;
+}
+
+/// As far as it goes without entering another bone, along which it slides, and within what
+/// ligaments allow.
 void World::State::displace_fragment(const Model& model,
                                      std::uint8_t body,
                                      const InBone& by) noexcept {
-  const Displacement wanted = Displacement::of(by * now.moved[body].pose());
-  const Vec3& centre = model.centres[body];
-  const Vec3 way = (wanted.pose() * Point<frame::Bone>{centre}).v - centre;
-  const bool is_far = squared_length(way) > detail::kGreatestShiftMm * detail::kGreatestShiftMm;
-  const bool is_turned_far =
-      squared_length(wanted.turn) > detail::kGreatestTurn * detail::kGreatestTurn;
-  if (is_far || is_turned_far || is_fragment_inside_another(model, body, wanted)) return;
-  now.moved[body] = wanted;
+  constexpr int kSlides = 3;  // along one bone, two, then in the corner between three
+  InBone step = by;
+  for (int slide = 0; slide <= kSlides; ++slide) {
+    const Displacement wanted = Displacement::of(step * now.moved[body].pose());
+    if (!is_within_ligaments(model, body, wanted)) return;
+    const std::optional<Vec3> way_out = way_out_of_another(model, body, wanted);
+    if (!way_out) {
+      now.moved[body] = wanted;
+      return;
+    }
+    const Vec3 out = (bases[body].inverse() * Direction<frame::Patient>{*way_out}).v;
+    const double into = -dot(step.translation, out);
+    step = {Mat3::identity(), step.translation + out * std::max(0.0, into)};
+    if (!(squared_length(step.translation) > 0.0)) return;
+  }
 }
 
 /// A fragment gives way along a push, against its gap tissue.

@@ -46,6 +46,7 @@ struct World::Model {
   std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
   std::optional<detail::FragmentFaces> fracture;  ///< of a target in two pieces
   std::vector<Vec3> centres;                      ///< of the bodies' surfaces, frame Bone
+  std::vector<double> reaches_mm;                 ///< of the surfaces, from those
   std::vector<BoneSolid> target;  ///< one: the target's fragments as scanned, gap bridged
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
@@ -222,9 +223,13 @@ struct World::State {
   [[nodiscard]] double way_in_target_mm(const Model& model,
                                         const detail::Item& item) const noexcept;
   [[nodiscard]] bool is_fragment_held(const Model& model, std::uint8_t body) const noexcept;
-  [[nodiscard]] bool is_fragment_inside_another(const Model& model,
-                                                std::uint8_t body,
-                                                const detail::Displacement& moved) const noexcept;
+  [[nodiscard]] std::optional<Vec3> way_out_of_another(
+      const Model& model,
+      std::uint8_t body,
+      const detail::Displacement& moved) const noexcept;
+  [[nodiscard]] bool is_within_ligaments(const Model& model,
+                                         std::uint8_t body,
+                                         const detail::Displacement& moved) const noexcept;
 
   // structures.cpp
   struct Bare {
