@@ -33,6 +33,7 @@ struct BoneSegmentationOptions {
   double rim_depth_mm = 0.9;        ///< how deep the half-maximum rule may cut
   double rim_reach_mm = 1.5;        ///< where the rule looks for the local maximum
   double rim_fraction = 0.5;        ///< edge of a blurred cortex: half-way to its maximum
+  double thin_rim_fraction = 0.57;  ///< at most, where the cortex is too thin to reach its own
 };
 
 enum class SegmentationStatus : std::uint8_t {
