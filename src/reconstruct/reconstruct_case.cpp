@@ -138,8 +138,10 @@ void build_surfaces(const BoneSegmentation& s,
     }
   });
   label_by_fields(fields, label_of, labels.view());
-  const auto evidence =
-      measure_evidence(labels.view(), s.edge_excess.view(), s.smoothed_hu.view(), naming);
+  std::vector<LabelSurface> surfaces;
+  for (const cases::Bone& bone : data.bones) surfaces.push_back({bone.label, &bone.surface});
+  const auto evidence = measure_evidence(labels.view(), s.regions.view(), s.edge_excess.view(),
+                                         s.smoothed_hu.view(), surfaces, naming);
   for (const BoneEvidence& each : evidence) {
     for (std::size_t i = 0; i < label_of.size(); ++i) {
       if (label_of[i] == each.label) result.figures[i].trust = judge(each);
