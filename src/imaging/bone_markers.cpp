@@ -8,6 +8,7 @@
 #include "imaging/bone_markers.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -101,23 +102,40 @@ void keep_inner_parts(const BoneSegmentationOptions& options, BoneMarkers& found
 
 }  // namespace
 
+SmoothedScan smooth_scan(const GridView<const std::int16_t>& ct,
+                         const BoneSegmentationOptions& options) {
+  SmoothedScan scan;
+  const Grid<float> whole = as_float(ct);
+  const Grid<float> smoothed = gaussian_smooth(whole.view(), options.smoothing_sigma_mm);
+  if (whole.values().empty()) return scan;
+  scan.densest_hu =
+      static_cast<double>(*std::max_element(smoothed.values().begin(), smoothed.values().end()));
+  const auto box = box_above(smoothed.view(), options.crop_threshold_hu, options.crop_margin_mm);
+  if (!box) return scan;
+  scan.holds_bone = true;
+  scan.offset = box->low;
+  scan.hu = crop(whole.view(), *box);
+  scan.smoothed_hu = crop(smoothed.view(), *box);
+  return scan;
+}
+
 BoneMarkers find_bone_markers(const GridView<const std::int16_t>& ct,
                               const BoneSegmentationOptions& options,
                               const Progress& progress) {
-  BoneMarkers found;
   progress("smooth", 0.0);
-  const Grid<float> whole = as_float(ct);
-  const Grid<float> smoothed_whole = gaussian_smooth(whole.view(), options.smoothing_sigma_mm);
-  if (whole.values().empty()) return found;
-  found.densest_hu = static_cast<double>(
-      *std::max_element(smoothed_whole.values().begin(), smoothed_whole.values().end()));
+  return find_bone_markers(smooth_scan(ct, options), options, progress);
+}
+
+BoneMarkers find_bone_markers(SmoothedScan scan,
+                              const BoneSegmentationOptions& options,
+                              const Progress& progress) {
+  BoneMarkers found;
+  found.densest_hu = scan.densest_hu;
   found.status = SegmentationStatus::NoBone;
-  const auto box =
-      box_above(smoothed_whole.view(), options.crop_threshold_hu, options.crop_margin_mm);
-  if (!box) return found;
-  found.offset = box->low;
-  found.hu = crop(whole.view(), *box);
-  found.smoothed_hu = crop(smoothed_whole.view(), *box);
+  if (!scan.holds_bone) return found;
+  found.offset = scan.offset;
+  found.hu = std::move(scan.hu);
+  found.smoothed_hu = std::move(scan.smoothed_hu);
 
   progress("joint clefts", 0.2);
   const Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);

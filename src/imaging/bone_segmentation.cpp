@@ -15,10 +15,17 @@ namespace carpus::imaging {
 BoneSegmentation segment_bones(const GridView<const std::int16_t>& ct,
                                const BoneSegmentationOptions& options,
                                const Progress& progress) {
+  progress("smooth", 0.0);
+  return segment_bones(smooth_scan(ct, options), options, progress);
+}
+
+BoneSegmentation segment_bones(SmoothedScan scan,
+                               const BoneSegmentationOptions& options,
+                               const Progress& progress) {
   constexpr double kMarkersShare = 0.7;
-  BoneMarkers found = find_bone_markers(ct, options, [&](std::string_view stage, double fraction) {
-    progress(stage, kMarkersShare * fraction);
-  });
+  BoneMarkers found = find_bone_markers(
+      std::move(scan), options,
+      [&](std::string_view stage, double fraction) { progress(stage, kMarkersShare * fraction); });
   BoneSegmentation result;
   result.status = found.status;
   result.densest_hu = found.densest_hu;
