@@ -320,9 +320,9 @@ std::span<const EvidenceField> evidence_fields() {
 }
 
 const std::vector<std::string>& concern_names() {
-  static const std::vector<std::string> kNames{"misfit",       "volume",  "detached", "rough",
-                                               "dense beyond", "no edge", "off edge", "coarse",
-                                               "dark",         "noise"};
+  static const std::vector<std::string> kNames{"misfit",   "volume",       "detached",
+                                               "rough",    "dense beyond", "no edge",
+                                               "off edge", "coarse",       "dark"};
   return kNames;
 }
 
@@ -335,16 +335,14 @@ std::vector<double> concerns_of(const BoneEvidence& e) {
           std::sqrt(e.no_edge),
           e.off_edge,
           e.coarseness,
-          std::sqrt(e.dark),
-          e.noise_hu / 100};
+          std::sqrt(e.dark)};
 }
 
 namespace {
 
 /// Fitted: docs/decisions/0061-trust.md. In the order of concerns_of.
-constexpr std::array<double, 10> kWeights{1.94, 5.83,  11.88, 9.54, 8.0,
-                                          7.36, 17.64, 1.91,  0.26, 0.24};
-constexpr double kOffset = 8.64;
+constexpr std::array<double, 9> kWeights{3.40, 0.60, 4.94, 6.53, 6.29, 6.19, 21.25, 0.20, 2.69};
+constexpr double kOffset = 6.81;
 /// Beyond these a reason is said; also where the confidence is low and nothing else is known.
 constexpr double kSaidMisfit = anatomy::kSuspiciousBoneCost;
 constexpr double kSaidVolume = 0.45;

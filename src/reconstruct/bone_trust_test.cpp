@@ -201,7 +201,7 @@ TEST(BoneTrust, FlagsEachFaultAndSaysWhatToDo) {
   expect_said(e, "no edge");
   e = sound();
   e.coarseness = 1.6;
-  e.off_edge = 0.15;
+  e.off_edge = 0.2;
   e.no_edge = 0.06;
   expect_said(e, "voxels are coarse");
 }
