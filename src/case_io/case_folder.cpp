@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "case_io/bone_normals.hpp"
 #include "case_io/detail/case_json.hpp"
 #include "case_io/detail/damaged_file.hpp"
 #include "case_io/detail/disk_space.hpp"
@@ -119,9 +120,12 @@ void read_bone(const fs::path& folder, const CaseHeader& header, cases::Bone& bo
   bone.distance_field = read_grid<float>(folder, field_file(bone), header);
 }
 
-void write_bone(const fs::path& folder, const cases::Bone& bone) {
+void write_bone(const fs::path& folder,
+                const cases::Bone& bone,
+                const GridView<const std::int16_t>& ct) {
   const std::string name = bone_name(bone);
-  write_ply(folder / "bones" / (name + ".ply"), bone.surface);
+  write_ply(folder / "bones" / (name + ".ply"), bone.surface,
+            bone_normals(bone.surface, bone.patient_from_bone, ct));
   write_ply(folder / "hulls" / (name + ".ply"), bone.hull.surface());
   write_volume<float>(folder / field_file(bone), bone.distance_field.view());
 }
@@ -143,7 +147,7 @@ void write_case(const cases::CaseData& data,
   const double steps = static_cast<double>(data.bones.size()) + 3;
   double done = 0;
   for (const cases::Bone& bone : data.bones) {
-    write_bone(out.staging(), bone);
+    write_bone(out.staging(), bone, data.ct.view());
     progress("saving", ++done / steps);
   }
   if (!data.skin.facets.empty()) write_ply(out.staging() / "skin.ply", data.skin);

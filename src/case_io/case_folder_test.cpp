@@ -83,6 +83,7 @@ void expect_same_case(const cases::CaseData& a, const cases::CaseData& b) {
   EXPECT_EQ(a.provenance.source, b.provenance.source);
   EXPECT_EQ(a.provenance.made_at, b.provenance.made_at);
   EXPECT_EQ(a.provenance.conventions, b.provenance.conventions);
+  EXPECT_EQ(a.provenance.version_of, b.provenance.version_of);
   EXPECT_EQ(a.wrist_from_patient, b.wrist_from_patient);
   EXPECT_EQ(a.scaphoid.longest_line.distal, b.scaphoid.longest_line.distal);
   EXPECT_EQ(a.scaphoid.central_radius_mm, b.scaphoid.central_radius_mm);

@@ -16,6 +16,7 @@
 #include <sstream>
 #include <vector>
 
+#include "case_io/bone_normals.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -170,7 +171,7 @@ struct Written {
 
 Written as_written(const NamedMesh& named) {
   const TriangleMesh& mesh = *named.mesh;
-  const std::vector<Vec3> normals = smooth_normals(mesh);
+  const std::vector<Vec3> normals = named.normals.empty() ? smooth_normals(mesh) : named.normals;
   if (named.bitmap == nullptr) return {mesh.vertices, normals, mesh.facets};
   const mesh::TextureAtlas& atlas = named.bitmap->atlas;
   Written written{{}, {}, atlas.facets};
@@ -397,6 +398,7 @@ std::string make_case_glb(const cases::CaseData& data,
                     bone.patient_from_bone};
     if (!bone.surface.facets.empty()) {
       named.bitmap = &bitmaps.emplace_back(make_bone_bitmap(bone, data.ct.view()));
+      named.normals = bone_normals(bone.surface, bone.patient_from_bone, data.ct.view());
     }
     meshes.push_back(std::move(named));
   }

@@ -24,6 +24,7 @@ struct NamedMesh {
   Pose<frame::Patient, frame::Bone> patient_from_bone;  ///< becomes the node's matrix
   anatomy::Tissue tissue = anatomy::Tissue::Bone;
   const BoneBitmap* bitmap = nullptr;  ///< null: its material alone
+  std::vector<Vec3> normals{};         ///< of the vertices; empty: those of the facets
 };
 
 /// A tube to show: drawn round its middle line, which stays where it was scanned. Its node carries

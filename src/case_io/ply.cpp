@@ -17,6 +17,7 @@
 #include "case_io/detail/disk_space.hpp"
 #include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/text_lines.hpp"
+#include "core/check.hpp"
 #include "core/error.hpp"
 
 namespace carpus::case_io {
@@ -303,18 +304,26 @@ class Parser {
 
 }  // namespace
 
-void write_ply(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void write_ply(const std::filesystem::path& file,
+               const TriangleMesh& mesh,
+               std::span<const Vec3> normals) {
+  CARPUS_CHECK(normals.empty() || normals.size() == mesh.vertices.size());
   std::string content =
       "ply\nformat binary_little_endian 1.0\ncomment carpus, mm, frame Patient (LPS)\n"
       "element vertex " +
       std::to_string(mesh.vertices.size()) +
-      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-      std::to_string(mesh.facets.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+      "\nproperty double x\nproperty double y\nproperty double z" +
+      (normals.empty() ? "" : "\nproperty float nx\nproperty float ny\nproperty float nz") +
+      "\nelement face " + std::to_string(mesh.facets.size()) +
+      "\nproperty list uchar int vertex_indices\nend_header\n";
   const auto append = [&](const auto& value) {
     content.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  for (const Vec3& p : mesh.vertices) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3& p = mesh.vertices[i];
     for (const double v : {p.x, p.y, p.z}) append(v);
+    if (normals.empty()) continue;
+    for (const double v : {normals[i].x, normals[i].y, normals[i].z}) append(static_cast<float>(v));
   }
   for (const Triangle& t : mesh.facets) {
     append(std::uint8_t{3});

@@ -132,22 +132,29 @@ template <class Faces>
 void write_obj_or_off(const fs::path& file,
                       bool is_obj,
                       std::span<const Vec3> vertices,
-                      const Faces& faces) {
+                      const Faces& faces,
+                      std::span<const Vec3> normals = {}) {
   std::string text = is_obj ? "# carpus, mm\n"
                             : "OFF\n" + std::to_string(vertices.size()) + " " +
                                   std::to_string(faces.size()) + " 0\n";
-  for (const Vec3& p : vertices) {
-    if (is_obj) text += "v ";
+  const auto append_line = [&text](const char* begin, const Vec3& p) {
+    text += begin;
     append(text, p.x);
     text += ' ';
     append(text, p.y);
     text += ' ';
     append(text, p.z);
     text += '\n';
-  }
+  };
+  for (const Vec3& p : vertices) append_line(is_obj ? "v " : "", p);
+  for (const Vec3& n : normals) append_line("vn ", n);
   for (const auto& face : faces) {
     text += is_obj ? "f" : std::to_string(face.size());
-    for (const std::uint32_t v : face) text += ' ' + std::to_string(is_obj ? v + 1 : v);
+    for (const std::uint32_t v : face) {
+      const std::string number = std::to_string(is_obj ? v + 1 : v);
+      text += ' ' + number;
+      if (!normals.empty()) text += "//" + number;
+    }
     text += '\n';
   }
   std::ofstream out(file, std::ios::binary);
@@ -173,14 +180,16 @@ TriangleMesh parse_surface(std::string_view content, const fs::path& file) {
   return extension == ".off" ? read_off(lines) : read_xyz(lines);
 }
 
-void write_surface(const fs::path& file, const TriangleMesh& mesh) {
+void write_surface(const fs::path& file, const TriangleMesh& mesh, std::span<const Vec3> normals) {
   const std::string extension = extension_of(file);
-  if (extension == ".ply") return write_ply(file, mesh);
+  if (extension == ".ply") return write_ply(file, mesh, normals);
   if (extension == ".stl") return write_stl(file, mesh);
   if (extension != ".obj" && extension != ".off") {
     throw IoError(file.string() + ": cannot be written; give .ply, .stl, .obj or .off");
   }
-  write_obj_or_off(file, extension == ".obj", mesh.vertices, mesh.facets);
+  const bool is_obj = extension == ".obj";
+  write_obj_or_off(file, is_obj, mesh.vertices, mesh.facets,
+                   is_obj ? normals : std::span<const Vec3>{});
 }
 
 void write_polygons(const fs::path& file,

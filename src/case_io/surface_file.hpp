@@ -29,8 +29,11 @@ namespace carpus::case_io {
 
 /// Writes by the file's extension: .ply, .obj and .off keep every bit of a coordinate; .stl is
 /// binary and holds single precision, as the format does.
+/// @param normals  of the vertices, for .ply and .obj; may be empty
 /// @throws IoError where the file cannot be written whole or the format is not known.
-void write_surface(const std::filesystem::path& file, const TriangleMesh& mesh);
+void write_surface(const std::filesystem::path& file,
+                   const TriangleMesh& mesh,
+                   std::span<const Vec3> normals = {});
 
 /// Writes faces of any number of corners, to .obj or .off only.
 /// @param faces  indices of vertices, counter-clockwise from outside.

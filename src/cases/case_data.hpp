@@ -65,6 +65,9 @@ struct Provenance {
   /// What was taken by convention when the scan was read (scaling, order of slices and axes), in
   /// words; empty in cases of older programs.
   std::vector<std::string> conventions;
+  /// Of which case a person corrected the bones: its folder's name, where that is plain (letters,
+  /// digits, hyphens); empty where it is no version of another.
+  std::string version_of{};
 };
 
 /// One patient's wrist. `ct`, `labels` and surfaces share the Patient frame.

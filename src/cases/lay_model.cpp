@@ -9,6 +9,7 @@
 #include "anatomy/model_shapes.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "fields/triangle_tree.hpp"
 
 namespace carpus::cases {
 namespace {
@@ -23,13 +24,31 @@ constexpr std::size_t kFewestPoints = 60;
 /// Ways in which a hand may be held against the generic wrist's, to start from [deg of flexion].
 constexpr std::array<double, 5> kStartsDeg{0, -25, 25, -50, 50};
 
+/// What lies so near to the other part of a broken bone is a face of the fracture: no border of the
+/// whole bone, of which the model's is.
+constexpr double kFractureMm = 2.5;
+
+/// A part's vertices, but for those on its fracture.
+void add_border(const Bone& part, const Bone* other, std::vector<Vec3>& border) {
+  if (other == nullptr) {
+    border.insert(border.end(), part.surface.vertices.begin(), part.surface.vertices.end());
+    return;
+  }
+  const fields::TriangleTree tree(other->surface);
+  for (const Vec3& v : part.surface.vertices) {
+    if (!tree.nearest(v, kFractureMm)) border.push_back(v);
+  }
+}
+
 /// Every so many-th vertex of a bone, of both parts of a broken one.
 std::vector<Vec3> samples_of(const CaseData& data, BoneId bone) {
   std::vector<Vec3> all;
   for (const Bone& b : data.bones) {
-    if (b.bone == bone) {
-      all.insert(all.end(), b.surface.vertices.begin(), b.surface.vertices.end());
-    }
+    if (b.bone != bone) continue;
+    const auto other = std::find_if(data.bones.begin(), data.bones.end(), [&](const Bone& o) {
+      return o.bone == bone && o.part != b.part;
+    });
+    add_border(b, other == data.bones.end() ? nullptr : &*other, all);
   }
   std::vector<Vec3> chosen;
   const std::size_t every = std::max<std::size_t>(1, all.size() / kSamples);

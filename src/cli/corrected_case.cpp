@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/corrected_case.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -20,6 +22,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestCaseFile = std::uintmax_t{16} << 20U;
+constexpr std::size_t kLongestId = 64;
+
+/// As a station calls its cases. Anything else, which may hold a person's name, is not kept.
+std::string plain_id_of(const fs::path& folder) {
+  const std::string name = fs::absolute(folder).lexically_normal().filename().string();
+  const std::string id =
+      name.empty() ? fs::absolute(folder).parent_path().filename().string() : name;
+  const bool is_plain = std::all_of(id.begin(), id.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+  return is_plain && id.size() <= kLongestId ? id : std::string();
+}
+
+}  // namespace
 
 std::string name_of_label(std::size_t label, bool is_scaphoid_broken) {
   if (label == kScaphoidDistalLabel) {
@@ -29,8 +45,6 @@ std::string name_of_label(std::size_t label, bool is_scaphoid_broken) {
   const bool is_part = bone == BoneId::Scaphoid && is_scaphoid_broken;
   return std::string(name_of(bone, is_part ? BonePart::Proximal : BonePart::Whole));
 }
-
-}  // namespace
 
 bool is_case_folder(const fs::path& folder) {
   return fs::is_directory(folder) && fs::is_regular_file(folder / "case.json") &&
@@ -46,6 +60,7 @@ EarlierCase read_earlier_case(const fs::path& folder) {
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   const nlohmann::json json = parse_json_text(text, file.string());
   EarlierCase earlier;
+  earlier.id = plain_id_of(folder);
   try {
     const nlohmann::json& from = json.at("provenance");
     earlier.provenance.simulated = from.at("simulated");

@@ -5,6 +5,7 @@
 // what was changed, in words that stay with it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,10 +16,15 @@
 
 namespace carpus::cli {
 
+/// "lunate"; of a broken scaphoid "scaphoid_proximal".
+/// @param label  1 to kScaphoidDistalLabel
+[[nodiscard]] std::string name_of_label(std::size_t label, bool is_scaphoid_broken);
+
 /// Whether `folder` is a case, so that its own scan is meant.
 [[nodiscard]] bool is_case_folder(const std::filesystem::path& folder);
 
 struct EarlierCase {
+  std::string id;  ///< its folder's name; empty where that is not plain, and may say who it is
   std::string pseudonym;
   cases::Provenance provenance;
   Grid<std::uint8_t> labels;

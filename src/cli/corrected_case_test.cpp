@@ -47,6 +47,12 @@ TEST(CorrectedCase, KeepsWhereTheEarlierOneCameFrom) {
   ASSERT_TRUE(is_case_folder(folder));
   const EarlierCase earlier = read_earlier_case(folder);
   EXPECT_EQ(earlier.pseudonym, "demo");
+  EXPECT_EQ(earlier.id, folder.filename().string());
+  EXPECT_EQ(read_earlier_case(folder / "").id, earlier.id);
+  const fs::path named = folder.string() + " Doe, Jane";
+  fs::copy(folder, named);
+  EXPECT_EQ(read_earlier_case(named).id, "");
+  fs::remove_all(named);
   EXPECT_TRUE(earlier.provenance.simulated);
   EXPECT_EQ(earlier.provenance.source, "a CT");
   EXPECT_EQ(earlier.provenance.conventions.size(), 1U);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "case_io/bone_normals.hpp"
 #include "case_io/case_folder.hpp"
 #include "case_io/dicom_segmentation.hpp"
 #include "case_io/glb.hpp"
@@ -77,7 +78,7 @@ void refuse_existing(const fs::path& file, bool force) {
 
 using Bones = std::vector<const cases::Bone*>;
 
-void write_one_a_bone(const Arguments& a, const Bones& bones) {
+void write_one_a_bone(const Arguments& a, const cases::CaseData& data, const Bones& bones) {
   const std::string pattern = a.out.string();
   const std::size_t place = pattern.find("{}");
   if (place == std::string::npos) {
@@ -92,8 +93,9 @@ void write_one_a_bone(const Arguments& a, const Bones& bones) {
   }
   for (std::size_t i = 0; i < bones.size(); ++i) {
     const auto in_patient = bones[i]->patient_from_bone * bones[i]->surface;
+    const std::vector<Vec3> normals = case_io::bone_normals(in_patient, {}, data.ct.view());
     records::write_file_atomically(files[i], [&](const fs::path& temporary) {
-      case_io::write_surface(temporary, in_patient);
+      case_io::write_surface(temporary, in_patient, normals);
     });
     std::printf("%s\n", files[i].string().c_str());
   }
@@ -144,7 +146,7 @@ void run(const Arguments& a) {
   const cases::CaseData data = case_io::read_case(a.case_folder);
   const Bones bones = chosen_bones(data, a);
   if (ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".off") {
-    write_one_a_bone(a, bones);
+    write_one_a_bone(a, data, bones);
   } else if (ending == ".glb") {
     refuse_existing(a.out, a.force);
     std::vector<case_io::NamedMesh> meshes = named(bones);
@@ -152,6 +154,8 @@ void run(const Arguments& a) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       meshes[i].bitmap =
           &bitmaps.emplace_back(case_io::make_bone_bitmap(*bones[i], data.ct.view()));
+      meshes[i].normals =
+          case_io::bone_normals(bones[i]->surface, bones[i]->patient_from_bone, data.ct.view());
     }
     records::write_file_atomically(a.out, case_io::make_glb(meshes));
     std::printf("%s\n", a.out.string().c_str());

@@ -21,6 +21,7 @@ using server::NewCaseOutcome;
 using server::NewCaseTask;
 
 constexpr std::chrono::minutes kLongest{20};
+constexpr std::chrono::seconds kLongestLook{60};
 constexpr std::size_t kLongestStem = 40;
 
 constexpr const char* kSeriesFile = "series.json";
@@ -93,6 +94,10 @@ NewCaseOutcome NewCaseMaker::make(const NewCaseTask& task,
   if (!task.of_case.empty() && (of == nullptr || of->folder.empty())) {
     return {{}, "There is no such case on this station."};
   }
+  if (task.purpose != server::NewCasePurpose::Case) {
+    if (of == nullptr) return {{}, "It does not say whose labels they are."};
+    return look(task, *of, progress, stop);
+  }
   const fs::path made = task.folder / "case";
   std::vector<std::string> words;
   if (of == nullptr) {
@@ -119,6 +124,23 @@ NewCaseOutcome NewCaseMaker::make(const NewCaseTask& task,
     return outcome;
   }
   return put_on_shelf(task, made);
+}
+
+NewCaseOutcome NewCaseMaker::look(const NewCaseTask& task,
+                                  const server::ShelvedCase& of,
+                                  const Progress& progress,
+                                  const std::atomic<bool>& stop) const {
+  const fs::path made = task.folder / "mended";
+  std::vector<std::string> words{"mend",  of.folder, "--labels", task.folder / task.files.front(),
+                                 "--out", made};
+  if (task.files.size() > 1) words.insert(words.end(), {"--before", task.folder / task.files[1]});
+  if (task.purpose == server::NewCasePurpose::GrownLook) words.emplace_back("--grow");
+  const ProgramEnd end = run_watched(program_, words, progress, stop, kLongestLook);
+  if (end.was_stopped) return {{}, "It took too long and was ended."};
+  if (!end.is_well) return {{}, without_place(end.complaint, task.folder)};
+  NewCaseOutcome outcome;
+  outcome.made = made;
+  return outcome;
 }
 
 NewCaseOutcome NewCaseMaker::put_on_shelf(const NewCaseTask& task, const fs::path& made) const {

@@ -33,6 +33,10 @@ class NewCaseMaker {
                                             const std::atomic<bool>& stop) const;
 
  private:
+  [[nodiscard]] server::NewCaseOutcome look(const server::NewCaseTask& task,
+                                            const server::ShelvedCase& of,
+                                            const Progress& progress,
+                                            const std::atomic<bool>& stop) const;
   [[nodiscard]] server::NewCaseOutcome put_on_shelf(const server::NewCaseTask& task,
                                                     const std::filesystem::path& made) const;
 

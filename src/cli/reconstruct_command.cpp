@@ -132,6 +132,7 @@ reconstruct::Reconstruction make_case(const Arguments& a,
   if (!a.has_pseudonym) options.pseudonym = earlier.pseudonym;
   options.provenance.simulated = options.provenance.simulated || earlier.provenance.simulated;
   options.provenance.source = earlier.provenance.source;
+  options.provenance.version_of = earlier.id;
   said = earlier.provenance.conventions;
   for (const std::string& change : changes) said.push_back("corrected by a person, " + change);
   return reconstruct::reconstruct_labelled(std::move(ct), labels, options);

@@ -3,6 +3,7 @@
 #include "cli/segmentation_study.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -54,15 +55,20 @@ void name_and_measure(const phantom::Phantom& made, StudiedScan& scan) {
   Grid<std::uint16_t> labels = bone_labels(named);
   std::vector<BoneField> fields;
   std::vector<std::uint16_t> numbers;
+  std::vector<MeshIn<frame::Bone>> meshes;
   for (std::uint16_t label = 1; label <= kScaphoidDistalLabel; ++label) {
     BoneField field = build_bone_field(labels.view(), label, named.segmentation.edge_excess.view());
     if (field.values.values().empty()) continue;
+    meshes.push_back(build_bone_surface(field));
     fields.push_back(std::move(field));
     numbers.push_back(label);
   }
   label_by_fields(fields, numbers, labels.view());
-  const auto evidence = measure_evidence(labels.view(), named.segmentation.edge_excess.view(),
-                                         named.segmentation.smoothed_hu.view(), named.naming);
+  std::vector<LabelSurface> surfaces;
+  for (std::size_t i = 0; i < meshes.size(); ++i) surfaces.push_back({numbers[i], &meshes[i]});
+  const auto evidence = measure_evidence(
+      labels.view(), named.segmentation.regions.view(), named.segmentation.edge_excess.view(),
+      named.segmentation.smoothed_hu.view(), surfaces, named.naming);
   const auto whole = on_whole_scan(labels, named.segmentation.offset, made.ct.geometry());
   for (StudiedBone& bone : scan.bones) {
     for (const BoneEvidence& each : evidence) {
@@ -81,9 +87,16 @@ void name_and_measure(const phantom::Phantom& made, StudiedScan& scan) {
 
 }  // namespace
 
+double study_voxel_mm(std::uint64_t seed) {
+  constexpr std::array<double, 5> kVoxelsMm{0.7, 0.5, 0.6, 0.4, 0.7};
+  // Pairs of seeds have one difficulty; each difficulty meets each size.
+  return kVoxelsMm.at((seed / (2 * kDifficulties)) % kVoxelsMm.size());
+}
+
 StudiedScan study_scan(std::uint64_t seed, double voxel_mm) {
   StudiedScan scan;
   scan.seed = seed;
+  scan.voxel_mm = voxel_mm;
   const phantom::Phantom made = phantom::make_phantom(options_of(seed, voxel_mm, scan));
   const Grid<std::uint8_t> nothing(made.labels.geometry());
   for (const reconstruct::LabelDice& dice :
@@ -103,24 +116,23 @@ StudiedScan study_scan(std::uint64_t seed, double voxel_mm) {
 }
 
 FlagFigures figures_of(const std::vector<StudiedScan>& scans,
-                       std::optional<int> difficulty,
-                       bool odd_only) {
+                       const std::function<bool(const StudiedScan&)>& is_asked_for) {
   FlagFigures figures;
   std::vector<double> wrong;
   std::vector<double> right;
   double sum = 0;
   for (const StudiedScan& scan : scans) {
-    if ((difficulty && scan.difficulty != *difficulty) || (odd_only && scan.seed % 2 == 0)) {
-      continue;
-    }
+    if (!is_asked_for(scan)) continue;
     for (const StudiedBone& bone : scan.bones) {
       ++figures.bones;
       sum += bone.dice;
       figures.worst_dice = std::min(figures.worst_dice, bone.dice);
       figures.wrong += bone.is_wrong() ? 1U : 0U;
       figures.told += bone.is_wrong() && bone.is_told() ? 1U : 0U;
+      figures.wrong_found += bone.is_wrong() && bone.is_found ? 1U : 0U;
+      figures.flagged += bone.is_wrong() && bone.is_found && bone.trust.flagged ? 1U : 0U;
       figures.false_alarms += !bone.is_wrong() && bone.is_told() ? 1U : 0U;
-      (bone.is_wrong() ? wrong : right).push_back(bone.trust.confidence);
+      if (bone.is_found) (bone.is_wrong() ? wrong : right).push_back(bone.trust.confidence);
     }
   }
   if (figures.bones > 0) figures.mean_dice = sum / static_cast<double>(figures.bones);

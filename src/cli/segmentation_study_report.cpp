@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
 #include "cli/segmentation_study.hpp"
 #include "core/text_format.hpp"
@@ -19,11 +21,17 @@ std::string name_of_label(std::uint8_t label) {
              : std::string(name_of(static_cast<BoneId>(label), BonePart::Whole));
 }
 
+std::vector<double> voxels_of(const SegmentationStudy& study) {
+  std::set<double> sizes;
+  for (const StudiedScan& scan : study.scans) sizes.insert(scan.voxel_mm);
+  return {sizes.begin(), sizes.end()};
+}
+
 std::string line_of(const std::string& name, const FlagFigures& f) {
   const std::string auc = f.auc ? format("%.3f", *f.auc) : std::string("-");
-  return format("%-14s %6zu %8.4f %8.4f %6zu %9.1f %% %12.1f %% %7s\n", name.c_str(), f.bones,
-                f.mean_dice, f.worst_dice, f.wrong, 100 * f.detection(), 100 * f.false_alarm_rate(),
-                auc.c_str());
+  return format("%-14s %6zu %8.4f %8.4f %7zu %6.1f %% %7zu %7.1f %% %12.1f %% %7s\n", name.c_str(),
+                f.bones, f.mean_dice, f.worst_dice, f.wrong, 100 * f.detection(), f.wrong_found,
+                100 * f.flag_detection(), 100 * f.false_alarm_rate(), auc.c_str());
 }
 
 Json json_of(const FlagFigures& f) {
@@ -33,6 +41,8 @@ Json json_of(const FlagFigures& f) {
             {"below_0_95", f.wrong},
             {"told", f.told},
             {"detection", f.detection()},
+            {"below_0_95_found", f.wrong_found},
+            {"flagged", f.flagged},
             {"false_alarm_rate", f.false_alarm_rate()}};
   json["auc"] = f.auc ? Json(*f.auc) : Json(nullptr);
   return json;
@@ -50,6 +60,7 @@ Json json_of(const StudiedScan& scan) {
                      {"concerns", reconstruct::concerns_of(bone.evidence)}});
   }
   return {{"seed", scan.seed},
+          {"voxel_mm", scan.voxel_mm},
           {"difficulty", scan.difficulty},
           {"conditions", scan.conditions},
           {"refused", scan.refused},
@@ -62,17 +73,21 @@ Json json_of(const StudiedScan& scan) {
 
 std::string segmentation_study_text(const SegmentationStudy& study) {
   std::string text = format(
-      "%zu simulated scans of %.2f mm voxels. The confidence's weights were set by hand, on none "
-      "of "
-      "these; odd seeds stand apart for when they are fitted on even ones.\n\n",
-      study.scans.size(), study.voxel_mm);
-  text += format("%-14s %6s %8s %8s %6s %11s %14s %7s\n", "difficulty", "bones", "Dice", "worst",
-                 "< 0.95", "of them told", "false alarms", "AUC");
+      "%zu simulated scans. \"Told\": flagged, said to be missing, or the scan refused; "
+      "\"flagged\": "
+      "of what was found.\n\n",
+      study.scans.size());
+  text += format("%-14s %6s %8s %8s %7s %8s %7s %9s %14s %7s\n", "", "bones", "Dice", "worst",
+                 "< 0.95", "told", "found", "flagged", "false alarms", "AUC");
   for (int d = 0; d < kDifficulties; ++d) {
-    text += line_of(std::to_string(d), figures_of(study.scans, d, false));
+    text += line_of(format("difficulty %d", d),
+                    figures_of(study.scans, [&](const auto& s) { return s.difficulty == d; }));
   }
-  text += line_of("all", figures_of(study.scans, std::nullopt, false));
-  text += line_of("odd seeds", figures_of(study.scans, std::nullopt, true));
+  for (const double mm : voxels_of(study)) {
+    text += line_of(format("%.1f mm", mm),
+                    figures_of(study.scans, [&](const auto& s) { return s.voxel_mm == mm; }));
+  }
+  text += line_of("all", figures_of(study.scans, [](const auto&) { return true; }));
   std::size_t refused = 0;
   std::size_t other_side = 0;
   for (const StudiedScan& scan : study.scans) {
@@ -93,13 +108,19 @@ std::string segmentation_study_text(const SegmentationStudy& study) {
 
 std::string segmentation_study_json(const SegmentationStudy& study) {
   Json json;
-  json["voxel_mm"] = study.voxel_mm;
   json["concerns"] = reconstruct::concern_names();
-  json["all"] = json_of(figures_of(study.scans, std::nullopt, false));
-  json["odd_seeds"] = json_of(figures_of(study.scans, std::nullopt, true));
+  json["all"] = json_of(figures_of(study.scans, [](const auto&) { return true; }));
   json["difficulties"] = Json::array();
   for (int d = 0; d < kDifficulties; ++d) {
-    json["difficulties"].push_back(json_of(figures_of(study.scans, d, false)));
+    json["difficulties"].push_back(
+        json_of(figures_of(study.scans, [&](const auto& s) { return s.difficulty == d; })));
+  }
+  json["voxels"] = Json::array();
+  for (const double mm : voxels_of(study)) {
+    Json figures =
+        json_of(figures_of(study.scans, [&](const auto& s) { return s.voxel_mm == mm; }));
+    figures["voxel_mm"] = mm;
+    json["voxels"].push_back(figures);
   }
   json["scans"] = Json::array();
   for (const StudiedScan& scan : study.scans) json["scans"].push_back(json_of(scan));

@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 StudiedScan scan_of(const Json& row) {
   StudiedScan scan;
   scan.seed = row.at("seed");
+  scan.voxel_mm = row.at("voxel_mm");
   scan.difficulty = row.at("difficulty");
   scan.conditions = row.at("conditions").get<std::vector<std::string>>();
   scan.refused = row.at("refused");
@@ -41,7 +42,7 @@ StudiedScan scan_of(const Json& row) {
 
 }  // namespace
 
-std::string row_of(const StudiedScan& scan, double voxel_mm) {
+std::string row_of(const StudiedScan& scan) {
   Json bones = Json::array();
   for (const StudiedBone& bone : scan.bones) {
     Json each{{"label", bone.label}, {"dice", bone.dice}};
@@ -52,7 +53,7 @@ std::string row_of(const StudiedScan& scan, double voxel_mm) {
     }
     bones.push_back(std::move(each));
   }
-  const Json row{{"voxel_mm", voxel_mm},          {"seed", scan.seed},
+  const Json row{{"voxel_mm", scan.voxel_mm},     {"seed", scan.seed},
                  {"difficulty", scan.difficulty}, {"conditions", scan.conditions},
                  {"refused", scan.refused},       {"side_right", scan.is_side_right},
                  {"misfit", scan.naming_cost},    {"bones", bones}};
@@ -67,7 +68,6 @@ SegmentationStudy study_of_rows(const std::string& text, const std::string& file
     ++number;
     try {
       const Json row = Json::parse(line);
-      study.voxel_mm = row.at("voxel_mm");
       study.scans.push_back(scan_of(row));
     } catch (const std::exception& problem) {
       // A run that was stopped may leave half a line at the end; that scan is made again.

@@ -23,7 +23,7 @@ namespace {
 struct StudySegmentationArguments {
   std::size_t seeds = 8;
   std::uint64_t first_seed = 1;
-  double voxel_mm = 0.5;
+  double voxel_mm = 0;  ///< 0: the seed's own
   std::string rows;
   std::string json;
   std::string picture;
@@ -49,28 +49,24 @@ SegmentationStudy begun(const StudySegmentationArguments& arguments) {
   std::ostringstream text;
   text << file.rdbuf();
   study = study_of_rows(text.str(), arguments.rows);
-  if (!study.scans.empty() && study.voxel_mm != arguments.voxel_mm) {
-    throw InvalidInput(arguments.rows + " holds scans of " + std::to_string(study.voxel_mm) +
-                       " mm voxels; give --voxel with that, or another file");
-  }
   std::string whole;
-  for (const StudiedScan& scan : study.scans) whole += row_of(scan, study.voxel_mm);
+  for (const StudiedScan& scan : study.scans) whole += row_of(scan);
   if (whole != text.str()) records::write_file_atomically(arguments.rows, whole);
   return study;
 }
 
 void run(const StudySegmentationArguments& arguments) {
   SegmentationStudy study = begun(arguments);
-  study.voxel_mm = arguments.voxel_mm;
   for (std::size_t i = 0; i < arguments.seeds; ++i) {
     const std::uint64_t seed = arguments.first_seed + i;
     const auto has_seed = [&](const StudiedScan& scan) { return scan.seed == seed; };
     if (std::any_of(study.scans.begin(), study.scans.end(), has_seed)) continue;
-    study.scans.push_back(study_scan(seed, arguments.voxel_mm));
+    study.scans.push_back(
+        study_scan(seed, arguments.voxel_mm > 0 ? arguments.voxel_mm : study_voxel_mm(seed)));
     say(study.scans.back());
     if (!arguments.rows.empty()) {
       std::ofstream file(arguments.rows, std::ios::app);
-      file << row_of(study.scans.back(), arguments.voxel_mm) << std::flush;
+      file << row_of(study.scans.back()) << std::flush;
       if (!file) throw IoError("cannot write " + arguments.rows);
     }
   }
@@ -93,9 +89,10 @@ void add_study_segmentation_command(CLI::App& study) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   add_seed_option(*command, arguments->first_seed, "Of the first scan; the next has the next");
-  command->add_option("--voxel", arguments->voxel_mm, "Side of the voxels [mm]")
-      ->check(CLI::Range(0.3, 1.0))
-      ->capture_default_str();
+  command
+      ->add_option("--voxel", arguments->voxel_mm,
+                   "Side of the voxels [mm]; the seed's own, from 0.4 to 0.7, if not given")
+      ->check(CLI::Range(0.3, 1.0));
   command->add_option(
       "--rows", arguments->rows,
       "Append each scan to this file as it is done; what it holds is not made again");

@@ -8,6 +8,7 @@
 #include "imaging/bone_markers.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -69,7 +70,7 @@ Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
 
 /// Steps 3 and 4: the bodies within the mask, one label each. Returns how many.
 RegionLabel separate_bodies(const Grid<std::uint8_t>& mask,
-                            const Grid<float>& depth,
+                            Grid<float>& depth,
                             const BoneSegmentationOptions& options,
                             Grid<RegionLabel>& regions) {
   const auto peaks = prominent_peaks(depth.view(), mask.view(),
@@ -78,9 +79,13 @@ RegionLabel separate_bodies(const Grid<std::uint8_t>& mask,
   for (std::size_t i = 0; i < std::min(peaks.size(), most); ++i) {
     regions[peaks[i]] = static_cast<RegionLabel>(i + 1);
   }
-  Grid<float> relief(depth.geometry());
-  for (std::size_t i = 0; i < relief.values().size(); ++i) relief[i] = -depth[i];
-  flood_from_markers(relief.view(), mask.values(), {}, regions.view());
+  // The relief is the depth upside down, in its own place: a volume more would be the largest.
+  const auto turn_over = [&depth] {
+    for (float& value : depth.values()) value = -value;
+  };
+  turn_over();
+  flood_from_markers(depth.view(), mask.values(), {}, regions.view());
+  turn_over();
   const auto merged = merge_regions(measure_regions(regions.view(), depth.view()),
                                     depth.geometry().voxel_volume_mm3(),
                                     {options.neck_ratio, options.min_bone_mm3});
@@ -101,28 +106,48 @@ void keep_inner_parts(const BoneSegmentationOptions& options, BoneMarkers& found
 
 }  // namespace
 
+SmoothedScan smooth_scan(const GridView<const std::int16_t>& ct,
+                         const BoneSegmentationOptions& options) {
+  SmoothedScan scan;
+  Grid<float> whole = as_float(ct);
+  const Grid<float> smoothed = gaussian_smooth(whole.view(), options.smoothing_sigma_mm);
+  if (whole.values().empty()) return scan;
+  scan.densest_hu =
+      static_cast<double>(*std::max_element(smoothed.values().begin(), smoothed.values().end()));
+  const auto box = box_above(smoothed.view(), options.crop_threshold_hu, options.crop_margin_mm);
+  if (!box) return scan;
+  scan.holds_bone = true;
+  scan.offset = box->low;
+  scan.hu = crop<float>(whole.view(), *box);
+  whole = {};
+  scan.smoothed_hu = crop(smoothed.view(), *box);
+  return scan;
+}
+
 BoneMarkers find_bone_markers(const GridView<const std::int16_t>& ct,
                               const BoneSegmentationOptions& options,
                               const Progress& progress) {
-  BoneMarkers found;
   progress("smooth", 0.0);
-  const Grid<float> whole = as_float(ct);
-  const Grid<float> smoothed_whole = gaussian_smooth(whole.view(), options.smoothing_sigma_mm);
-  if (whole.values().empty()) return found;
-  found.densest_hu = static_cast<double>(
-      *std::max_element(smoothed_whole.values().begin(), smoothed_whole.values().end()));
+  return find_bone_markers(smooth_scan(ct, options), options, progress);
+}
+
+BoneMarkers find_bone_markers(SmoothedScan scan,
+                              const BoneSegmentationOptions& options,
+                              const Progress& progress) {
+  BoneMarkers found;
+  found.densest_hu = scan.densest_hu;
   found.status = SegmentationStatus::NoBone;
-  const auto box =
-      box_above(smoothed_whole.view(), options.crop_threshold_hu, options.crop_margin_mm);
-  if (!box) return found;
-  found.offset = box->low;
-  found.hu = crop(whole.view(), *box);
-  found.smoothed_hu = crop(smoothed_whole.view(), *box);
+  if (!scan.holds_bone) return found;
+  found.offset = scan.offset;
+  found.hu = std::move(scan.hu);
+  found.smoothed_hu = std::move(scan.smoothed_hu);
 
   progress("joint clefts", 0.2);
-  const Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);
-  progress("bone mask", 0.57);
-  found.mask = enclosed_by_bone(found.smoothed_hu, cleft, options);
+  {
+    const Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);
+    progress("bone mask", 0.57);
+    found.mask = enclosed_by_bone(found.smoothed_hu, cleft, options);
+  }
   found.soft_tissue_hu =
       static_cast<double>(median_soft_tissue(found.smoothed_hu.view(), found.mask.view()));
   found.depth = distance_to_background(found.mask.view());

@@ -33,6 +33,7 @@ struct BoneSegmentationOptions {
   double rim_depth_mm = 0.9;        ///< how deep the half-maximum rule may cut
   double rim_reach_mm = 1.5;        ///< where the rule looks for the local maximum
   double rim_fraction = 0.5;        ///< edge of a blurred cortex: half-way to its maximum
+  double thin_rim_fraction = 0.57;  ///< at most, where the cortex is too thin to reach its own
 };
 
 enum class SegmentationStatus : std::uint8_t {
@@ -40,6 +41,18 @@ enum class SegmentationStatus : std::uint8_t {
   Ok,
   NoBone,  ///< nothing is as dense as bone, or it encloses nothing
 };
+
+/// The part of a scan that is dense, and the same smoothed: serves every attempt at its bones.
+struct SmoothedScan {
+  bool holds_bone = false;  ///< something is as dense; else the rest but densest_hu is empty
+  Grid<float> hu;           ///< the CT
+  Grid<float> smoothed_hu;  ///< with smoothing_sigma_mm
+  VoxelIndex offset;        ///< voxel of the scan at which the part begins
+  double densest_hu = 0;    ///< of the smoothed scan
+};
+
+[[nodiscard]] SmoothedScan smooth_scan(const GridView<const std::int16_t>& ct,
+                                       const BoneSegmentationOptions& options);
 
 /// What is known of a scan's bones before their edges are.
 struct BoneMarkers {
@@ -58,6 +71,12 @@ struct BoneMarkers {
 
   [[nodiscard]] RegionLabel outside() const { return static_cast<RegionLabel>(bone_count + 1); }
 };
+
+/// Finds the bones in what smooth_scan made of a scan. Progress names the stages, its fractions run
+/// from 0 to 1.
+[[nodiscard]] BoneMarkers find_bone_markers(SmoothedScan scan,
+                                            const BoneSegmentationOptions& options,
+                                            const Progress& progress);
 
 /// Finds the bones in `ct` [HU]. Progress names the stages, its fractions run from 0 to 1.
 [[nodiscard]] BoneMarkers find_bone_markers(const GridView<const std::int16_t>& ct,

@@ -27,6 +27,11 @@ struct BoneSegmentation {
   double densest_hu = 0;      ///< of the smoothed scan
 };
 
+/// Segments the bones in what smooth_scan (bone_markers.hpp) made of a scan.
+[[nodiscard]] BoneSegmentation segment_bones(SmoothedScan scan,
+                                             const BoneSegmentationOptions& options,
+                                             const Progress& progress);
+
 /// Segments the bones in `ct` [HU]. Progress names the stages. Deterministic.
 [[nodiscard]] BoneSegmentation segment_bones(const GridView<const std::int16_t>& ct,
                                              const BoneSegmentationOptions& options,

@@ -115,7 +115,7 @@ TEST(MarchingCubes, RefusesAnIsoValueThatIsNotANumber) {
 TEST(Normals, PointAwayFromABall) {
   const Grid<float> field = ball_field(centred_cube(33, 12), 10);
   const TriangleMesh mesh = extract_isosurface(field.view(), 0);
-  const std::vector<Vec3> from_field = gradient_normals(field.view(), mesh.vertices);
+  const std::vector<Vec3> from_field = gradient_normals<float>(field.view(), mesh.vertices);
   const std::vector<Vec3> from_facets = vertex_normals(mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3 outward = mesh.vertices[i] / length(mesh.vertices[i]);

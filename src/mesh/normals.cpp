@@ -6,20 +6,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "geometry/trilinear.hpp"
 
 namespace carpus::mesh {
 namespace {
 
-/// Difference quotient [value/mm] along a grid axis at voxel coordinates within the grid, half a
-/// voxel to either side, one-sided at the border.
-double slope_along(const GridView<const float>& values, const Vec3& voxel, std::size_t axis) {
+/// Difference quotient [value/mm] along a grid axis at voxel coordinates within the grid, one-sided
+/// at the border.
+template <typename T>
+double slope_along(const GridView<const T>& values,
+                   const Vec3& voxel,
+                   std::size_t axis,
+                   double reach_mm) {
   const double last = values.geometry().size[axis] - 1;
+  const double reach = reach_mm > 0 ? reach_mm / values.geometry().spacing[axis] : 0.5;
   Vec3 before = voxel;
   Vec3 after = voxel;
-  before[axis] = std::max(0.0, voxel[axis] - 0.5);
-  after[axis] = std::min(last, voxel[axis] + 0.5);
+  before[axis] = std::max(0.0, voxel[axis] - reach);
+  after[axis] = std::min(last, voxel[axis] + reach);
   const double step = (after[axis] - before[axis]) * values.geometry().spacing[axis];
   if (!(step > 0)) return 0;
   return (sample_trilinear(values, after, 0) - sample_trilinear(values, before, 0)) / step;
@@ -27,8 +33,10 @@ double slope_along(const GridView<const float>& values, const Vec3& voxel, std::
 
 }  // namespace
 
-std::vector<Vec3> gradient_normals(const GridView<const float>& values,
-                                   std::span<const Vec3> points_in_patient) {
+template <typename T>
+std::vector<Vec3> gradient_normals(const GridView<const T>& values,
+                                   std::span<const Vec3> points_in_patient,
+                                   double reach_mm) {
   const GridGeometry& grid = values.geometry();
   std::vector<Vec3> normals;
   normals.reserve(points_in_patient.size());
@@ -44,12 +52,20 @@ std::vector<Vec3> gradient_normals(const GridView<const float>& values,
       normals.push_back({});
       continue;
     }
-    const Vec3 slope{slope_along(values, voxel, 0), slope_along(values, voxel, 1),
-                     slope_along(values, voxel, 2)};
+    const Vec3 slope{slope_along(values, voxel, 0, reach_mm),
+                     slope_along(values, voxel, 1, reach_mm),
+                     slope_along(values, voxel, 2, reach_mm)};
     normals.push_back(normalized_or(-(grid.direction * slope), {}));
   }
   return normals;
 }
+
+template std::vector<Vec3> gradient_normals(const GridView<const float>&,
+                                            std::span<const Vec3>,
+                                            double);
+template std::vector<Vec3> gradient_normals(const GridView<const std::int16_t>&,
+                                            std::span<const Vec3>,
+                                            double);
 
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices.size());

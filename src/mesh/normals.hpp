@@ -14,8 +14,12 @@ namespace carpus::mesh {
 
 /// Unit normals towards lower values at `points_in_patient`, from central differences of the field
 /// interpolated between voxels; Vec3{} where the field is flat or the point is outside the grid.
-[[nodiscard]] std::vector<Vec3> gradient_normals(const GridView<const float>& values,
-                                                 std::span<const Vec3> points_in_patient);
+///
+/// @param reach_mm  of the differences to either side, against noise; 0 for half a voxel
+template <typename T>  // float, std::int16_t
+[[nodiscard]] std::vector<Vec3> gradient_normals(const GridView<const T>& values,
+                                                 std::span<const Vec3> points_in_patient,
+                                                 double reach_mm = 0);
 
 /// Unit outward normals of the vertices: facet normals weighted by the facet's angle at the vertex
 /// [thurmer1998computing]; Vec3{} where all facets about a vertex are degenerate.

@@ -28,6 +28,23 @@ constexpr double kClearanceMm = 0.6;
 constexpr std::array<BoneId, 4> kScaphoidNeighbours{BoneId::Trapezium, BoneId::Trapezoid,
                                                     BoneId::Capitate, BoneId::Radius};
 
+/// Fingers, invented: a metacarpal's shaft past its section, then its phalanges [mm].
+struct Finger {
+  BoneId metacarpal;
+  double shaft_mm;
+  std::array<double, 3> phalanges_mm;  ///< 0: there is none
+};
+constexpr std::array<Finger, 5> kFingers{
+    Finger{BoneId::Metacarpal1, 24, {30, 22, 0}}, Finger{BoneId::Metacarpal2, 40, {40, 23, 17}},
+    Finger{BoneId::Metacarpal3, 39, {44, 28, 18}}, Finger{BoneId::Metacarpal4, 34, {41, 26, 18}},
+    Finger{BoneId::Metacarpal5, 31, {32, 18, 16}}};
+constexpr double kFingerJointMm = 1.6;
+/// Heads, knobs and rods against the metacarpal's section.
+constexpr double kHeadPart = 1.15;
+constexpr double kKnobPart = 0.95;
+constexpr double kRodPart = 0.7;
+constexpr double kThinner = 0.85;  ///< from phalanx to phalanx
+
 constexpr std::size_t slot_of(BoneId bone) { return static_cast<std::size_t>(bone) - 1; }
 
 /// The largest connected patch of a bone's section, sampled on a square grid about the origin of
@@ -83,6 +100,7 @@ Shaft shaft_of(const anatomy::WristModel& model, const anatomy::ModelBone& bone)
   // The distal radius and ulna are still flared where the model ends; metacarpals hardly.
   shaft.narrowing = bone.bone == BoneId::Radius ? 0.62 : (bone.bone == BoneId::Ulna ? 0.75 : 0.9);
   shaft.narrows_over_mm = belongs_to_forearm(bone.bone) ? 32.0 : 14.0;
+  shaft.length_mm = kShaftLengthMm;
   return shaft;
 }
 
@@ -91,9 +109,9 @@ Aabb with_shaft(Aabb box, const Shaft& shaft) {
   Aabb section;
   section.include(shaft.centre);
   Aabb end;
-  end.include(shaft.centre + shaft.axis * kShaftLengthMm);
+  end.include(shaft.centre + shaft.axis * shaft.length_mm);
   box.include(section.grown(r));
-  box.include(end.grown(r));
+  box.include(end.grown(r + shaft.head_mm));
   return box;
 }
 
@@ -103,28 +121,70 @@ Shape shape_of(const anatomy::ModelBone& bone) {
 
 }  // namespace
 
-BoneShapes::BoneShapes(const anatomy::WristModel& model, const std::optional<Fracture>& fracture)
+BoneShapes::BoneShapes(const anatomy::WristModel& model,
+                       const std::optional<Fracture>& fracture,
+                       bool has_fingers)
     : model_(&model), fracture_(fracture) {
   for (const anatomy::ModelBone& bone : model.bones()) {
     Shape shape = shape_of(bone);
     if (bone.cut_plane) {
       shafts_[slot_of(bone.bone)] = shaft_of(model, bone);
+      if (has_fingers && !belongs_to_forearm(bone.bone)) add_finger(bone);
       shape.bounds = with_shaft(bone.bounds, shafts_[slot_of(bone.bone)]);
     }
     if (bone.bone == BoneId::Scaphoid && is_apart()) shape.part = BonePart::Proximal;
     shapes_.push_back(shape);
   }
-  if (!is_apart()) return;
-  Shape distal = shape_of(model.bone(BoneId::Scaphoid));
-  distal.part = BonePart::Distal;
-  distal.label = kScaphoidDistalLabel;
-  const Mat3& turn = fracture_->rotation;
-  const double angle =
-      std::acos(std::clamp((turn.rows[0].x + turn.rows[1].y + turn.rows[2].z - 1) / 2, -1.0, 1.0));
-  const double reach =
-      length(distal.bounds.extent()) * std::max(0.1, angle) + length(fracture_->shift);
-  distal.bounds = distal.bounds.grown(reach);
-  shapes_.push_back(distal);
+  if (is_apart()) {
+    Shape distal = shape_of(model.bone(BoneId::Scaphoid));
+    distal.part = BonePart::Distal;
+    distal.label = kScaphoidDistalLabel;
+    const Mat3& turn = fracture_->rotation;
+    const double angle = std::acos(
+        std::clamp((turn.rows[0].x + turn.rows[1].y + turn.rows[2].z - 1) / 2, -1.0, 1.0));
+    const double reach =
+        length(distal.bounds.extent()) * std::max(0.1, angle) + length(fracture_->shift);
+    distal.bounds = distal.bounds.grown(reach);
+    shapes_.push_back(distal);
+  }
+  for (std::size_t k = 0; k < fingers_.size(); ++k) {
+    const Phalanx& bone = fingers_[k];
+    Shape shape{BoneId::Metacarpal1, BonePart::Whole, kBackgroundLabel, {}, static_cast<int>(k)};
+    shape.bounds.include(bone.from);
+    shape.bounds.include(bone.to);
+    shape.bounds = shape.bounds.grown(bone.knob_mm + 1);
+    shapes_.push_back(shape);
+  }
+}
+
+void BoneShapes::add_finger(const anatomy::ModelBone& metacarpal) {
+  Shaft& shaft = shafts_[slot_of(metacarpal.bone)];
+  const auto finger = std::find_if(kFingers.begin(), kFingers.end(), [&](const Finger& f) {
+    return f.metacarpal == metacarpal.bone;
+  });
+  shaft.head_mm = kHeadPart * shaft.radius_mm;
+  shaft.length_mm = finger->shaft_mm;
+  double along = shaft.length_mm + shaft.head_mm;
+  double part = 1;
+  for (const double length_mm : finger->phalanges_mm) {
+    if (!(length_mm > 0)) break;
+    const double knob = kKnobPart * part * shaft.radius_mm;
+    along += kFingerJointMm + knob;
+    const Vec3 from = shaft.centre + shaft.axis * along;
+    along += length_mm - 2 * knob;
+    fingers_.push_back(
+        {from, shaft.centre + shaft.axis * along, kRodPart * part * shaft.radius_mm, knob});
+    along += knob;
+    part *= kThinner;
+  }
+}
+
+double BoneShapes::phalanx_value(int phalanx, const Vec3& p) const noexcept {
+  const Phalanx& bone = fingers_[static_cast<std::size_t>(phalanx)];
+  const Vec3 axis = bone.to - bone.from;
+  const double t = std::clamp(dot(p - bone.from, axis) / squared_length(axis), 0.0, 1.0);
+  return std::min({distance(p, bone.from + axis * t) - bone.rod_mm,
+                   distance(p, bone.from) - bone.knob_mm, distance(p, bone.to) - bone.knob_mm});
 }
 
 double BoneShapes::long_bone_value(BoneId bone, const Vec3& p) const noexcept {
@@ -141,7 +201,11 @@ double BoneShapes::long_bone_value(BoneId bone, const Vec3& p) const noexcept {
       1.0 - (1.0 - shaft.narrowing) * smooth_step(0, shaft.narrows_over_mm, along);
   const Vec3 in_section = shaft.centre + (from_centre - shaft.axis * along) / narrowing;
   const double swept = model_->uncut_value(bone, in_section) * narrowing;
-  return std::max({swept, radial - shaft.radius_mm - kSliverMarginMm, along - kShaftLengthMm});
+  const double value =
+      std::max({swept, radial - shaft.radius_mm - kSliverMarginMm, along - shaft.length_mm});
+  if (!(shaft.head_mm > 0)) return value;
+  const Vec3 head = shaft.centre + shaft.axis * shaft.length_mm;
+  return std::min(value, distance(p, head) - shaft.head_mm);
 }
 
 double BoneShapes::fragment_value(BonePart part, const Vec3& p) const noexcept {
@@ -161,6 +225,7 @@ double BoneShapes::fragment_value(BonePart part, const Vec3& p) const noexcept {
 }
 
 double BoneShapes::value(const Shape& shape, const Vec3& p) const noexcept {
+  if (shape.phalanx >= 0) return phalanx_value(shape.phalanx, p);
   if (shape.part != BonePart::Whole) return fragment_value(shape.part, p);
   if (model_->bone(shape.bone).cut_plane) return long_bone_value(shape.bone, p);
   return model_->uncut_value(shape.bone, p);

@@ -20,7 +20,16 @@ struct Shape {
   BoneId bone = BoneId::Radius;
   BonePart part = BonePart::Whole;
   std::uint8_t label = 0;
-  Aabb bounds;  ///< holds all of it, shaft included; frame Wrist of the model [mm]
+  Aabb bounds;       ///< holds all of it, shaft included; frame Wrist of the model [mm]
+  int phalanx = -1;  ///< place in BoneShapes' fingers; -1: a bone of the wrist
+};
+
+/// A bone of a finger: a rod between two knobs. Simulated to be left out: no bone of a case.
+struct Phalanx {
+  Vec3 from{};
+  Vec3 to{};
+  double rod_mm = 0;   ///< radius
+  double knob_mm = 0;  ///< radius
 };
 
 /// How a shaft goes on beyond the cut.
@@ -31,14 +40,19 @@ struct Shaft {
   double radius_mm = 0;  ///< of the main section, about its centre
   double narrowing = 1;  ///< of the section, at the end of the narrowing
   double narrows_over_mm = 1;
+  double length_mm = 0;  ///< past the section; then a head, where there are fingers
+  double head_mm = 0;    ///< radius; 0: the shaft just ends, beyond every field of view
 };
 
 /// Frame Wrist of the model, unscaled [mm].
 class BoneShapes {
  public:
-  BoneShapes(const anatomy::WristModel& model, const std::optional<Fracture>& fracture);
+  /// @param has_fingers  metacarpals end in heads, and phalanges follow
+  BoneShapes(const anatomy::WristModel& model,
+             const std::optional<Fracture>& fracture,
+             bool has_fingers = false);
 
-  /// In the order of their labels; a broken scaphoid is two.
+  /// In the order of their labels; a broken scaphoid is two; phalanges last.
   [[nodiscard]] const std::vector<Shape>& shapes() const noexcept { return shapes_; }
 
   /// Implicit value: zero on the surface, negative inside, at most the distance outside.
@@ -64,11 +78,14 @@ class BoneShapes {
   [[nodiscard]] bool is_apart() const noexcept { return fracture_ && fracture_->is_apart; }
   [[nodiscard]] double long_bone_value(BoneId bone, const Vec3& p) const noexcept;
   [[nodiscard]] double fragment_value(BonePart part, const Vec3& p) const noexcept;
+  [[nodiscard]] double phalanx_value(int phalanx, const Vec3& p) const noexcept;
+  void add_finger(const anatomy::ModelBone& metacarpal);
 
   const anatomy::WristModel* model_;
   std::optional<Fracture> fracture_;
   std::vector<Shape> shapes_;
   std::array<Shaft, kBoneCount> shafts_{};
+  std::vector<Phalanx> fingers_;
 };
 
 }  // namespace carpus::phantom

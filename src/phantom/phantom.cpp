@@ -9,8 +9,10 @@
 #include "phantom/phantom.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,14 @@ constexpr double kTableSkinMm = 1.0;
 constexpr double kTableFoamMm = 12.0;
 constexpr double kTableSkinHu = 200;
 constexpr double kTableFoamHu = -930;
+/// The two halves of a bipartite bone lie so across its longest side [rad].
+constexpr double kBipartiteTilt = 0.3;
+/// Which bones were seen in two halves.
+constexpr std::array<BoneId, 5> kBipartiteBones{BoneId::Scaphoid, BoneId::Lunate, BoneId::Trapezium,
+                                                BoneId::Trapezoid, BoneId::Hamate};
+/// A lunate's corner keeps so far from its neighbours [mm].
+constexpr double kFacetJointMm = 1.3;
+constexpr double kFacetBlendMm = 1.0;
 /// Fused bones: within a joint this wide there is bone of this density.
 constexpr double kFusionMm = 3.4;
 constexpr double kFusionHu = 450;
@@ -107,6 +117,15 @@ std::vector<BonePlace> bone_places(const BoneShapes& bones,
   return places;
 }
 
+/// What makes one bone of this person another one.
+struct Variant {
+  std::optional<BoneId> bipartite;
+  Plane split;  ///< of it
+  double split_mm = 0;
+  Vec3 facet{};  ///< where the lunate's corner reaches to the hamate
+  double facet_mm = 0;
+};
+
 struct Scene {
   const BoneShapes& bones;
   const BoneTissue& tissue;
@@ -115,6 +134,24 @@ struct Scene {
   double scale;
   const PhantomOptions& options;
   std::vector<BonePlace> places;  ///< of the bones, in the order of their shapes
+  Variant variant;
+
+  /// As BoneShapes::value or signed_distance gave it, of a bone that may be another one.
+  [[nodiscard]] double varied(const Shape& shape, const Vec3& q, double value) const {
+    if (shape.bone == variant.bipartite && shape.phalanx < 0) {
+      value = std::max(value, 0.5 * variant.split_mm - std::abs(variant.split.signed_distance(q)));
+    }
+    if (shape.bone != BoneId::Lunate || !(variant.facet_mm > 0)) return value;
+    double corner = distance(q, variant.facet) - variant.facet_mm;
+    if (corner > 2 * kReachMm) return value;
+    for (const BoneId other : {BoneId::Hamate, BoneId::Triquetrum, BoneId::Capitate}) {
+      const Shape& neighbour = bones.shapes()[static_cast<std::size_t>(other) - 1];
+      corner = std::max(corner, kFacetJointMm - bones.value(neighbour, q));
+    }
+    const double blend = std::clamp(0.5 + 0.5 * (value - corner) / kFacetBlendMm, 0.0, 1.0);
+    // A smooth minimum.
+    return value + (corner - value) * blend - kFacetBlendMm * blend * (1 - blend);
+  }
 
   [[nodiscard]] Vec3 model_point(const Vec3& patient) const {
     const Vec3 p = (wrist_from_patient * Point<frame::Patient>{patient}).v / scale;
@@ -133,6 +170,44 @@ void check(const PhantomOptions& o) {
                          " mm is not between 0.15 and 2 mm");
     }
   }
+}
+
+/// Where the lunate's surface is next to the hamate.
+Vec3 corner_of_lunate(const BoneShapes& bones, const anatomy::WristModel& model) {
+  constexpr double kStepMm = 0.2;
+  const Vec3 from = model.bone(BoneId::Lunate).bounds.centre();
+  const Vec3 towards = normalized_or(model.bone(BoneId::Hamate).bounds.centre() - from, {-1, 0, 0});
+  const Shape& lunate = bones.shapes()[static_cast<std::size_t>(BoneId::Lunate) - 1];
+  Vec3 p = from;
+  for (int k = 0; k < 100 && bones.value(lunate, p) < 0; ++k) p = p + towards * kStepMm;
+  return p;
+}
+
+Variant make_variant(const BoneShapes& bones,
+                     const anatomy::WristModel& model,
+                     const PhantomOptions& o) {
+  Variant variant;
+  Rng rng(o.seed ^ 0xB1BULL);
+  if (o.scan.bipartite_mm > 0) {
+    BoneId bone = kBipartiteBones[rng.below(kBipartiteBones.size())];
+    // What is broken is two already.
+    if (o.fracture != FractureKind::None && bone == BoneId::Scaphoid) bone = BoneId::Lunate;
+    variant.bipartite = bone;
+    const Aabb& box = model.bone(bone).bounds;
+    const Vec3 extent = box.extent();
+    Vec3 along{1, 0, 0};
+    if (extent.y > extent.x && extent.y > extent.z) along = {0, 1, 0};
+    if (extent.z > extent.x && extent.z > extent.y) along = {0, 0, 1};
+    const Vec3 tilt{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    const Vec3 normal = normalized_or(along + tilt * kBipartiteTilt, along);
+    variant.split = {normal, dot(normal, box.centre())};
+    variant.split_mm = o.scan.bipartite_mm;
+  }
+  if (o.scan.hamate_facet_mm > 0) {
+    variant.facet = corner_of_lunate(bones, model);
+    variant.facet_mm = o.scan.hamate_facet_mm;
+  }
+  return variant;
 }
 
 /// Scanner: x towards the wrist's +y, y dorsal, z distal, a little tilted.
@@ -181,6 +256,11 @@ GridGeometry field_of_view(const Scene& scene, const PhantomOptions& options) {
     (is_thumb_low ? box.low.x : box.high.x) =
         is_thumb_low ? box.high.x - widest : box.low.x + widest;
   }
+  if (options.scan.cut_off_mm > 0) {
+    const double by = (kAirAroundMm + options.scan.cut_off_mm) * scene.scale;
+    const bool is_low = Rng(options.seed ^ 0xC07ULL).uniform() < 0.5;
+    (is_low ? box.low.x : box.high.x) += is_low ? by : -by;
+  }
   GridGeometry g;
   g.spacing = options.spacing;
   g.origin = box.low;
@@ -212,7 +292,8 @@ void find_bones(const Scene& scene, const GridGeometry& g, int z, SliceBones& ou
   const auto& shapes = scene.bones.shapes();
   std::vector<Aabb> boxes;
   for (std::size_t s = 0; s < shapes.size(); ++s) {
-    boxes.push_back(shapes[s].bounds.grown(reach + 3 * length(scene.places[s].shift)));
+    boxes.push_back(
+        shapes[s].bounds.grown(reach + 3 * length(scene.places[s].shift) + scene.variant.facet_mm));
   }
   std::size_t i = 0;
   for (int y = 0; y < g.size[1]; ++y) {
@@ -222,9 +303,10 @@ void find_bones(const Scene& scene, const GridGeometry& g, int z, SliceBones& ou
       for (std::size_t s = 0; s < shapes.size(); ++s) {
         if (!boxes[s].contains(p)) continue;
         const Vec3 q = scene.places[s].model_point(p);
-        const double f = scene.bones.value(shapes[s], q);
+        const double f = scene.varied(shapes[s], q, scene.bones.value(shapes[s], q));
         if (f > reach) continue;
-        const auto d = static_cast<float>(scene.bones.signed_distance(shapes[s], q) * scene.scale);
+        const auto d = static_cast<float>(
+            scene.varied(shapes[s], q, scene.bones.signed_distance(shapes[s], q)) * scene.scale);
         if (d < out.first_mm[i]) {
           out.second_mm[i] = out.first_mm[i];
           out.second[i] = out.nearest[i];
@@ -371,7 +453,8 @@ Wire wire_of(const Scene& scene, const LongAxis& axis) {
     const Vec3 p = (axis.centroid + axis.direction * t) * scene.scale;
     return (patient_from_wrist * Point<frame::Wrist>{p}).v;
   };
-  return {at(axis.least + 2), at(axis.greatest + 6), scene.options.scan.metal_radius_mm};
+  const double beyond = scene.options.scan.is_screw ? -2 : 6;
+  return {at(axis.least + 2), at(axis.greatest + beyond), scene.options.scan.metal_radius_mm};
 }
 
 /// Metal, hardening, motion, kernel, thick slices: in the order in which they come about.
@@ -412,7 +495,7 @@ Phantom make_phantom(const PhantomOptions& options, const Progress& progress) {
   }
   phantom.wrist_from_patient = pose_in_scanner(options.seed, options.scan.tilt_degrees);
   progress("outline", 0.0);
-  const BoneShapes bones(model, phantom.fracture);
+  const BoneShapes bones(model, phantom.fracture, options.scan.has_fingers);
   const BoneTissue tissue(bones, phantom.scaphoid_axis, options.seed * 11 + 1);
   const SoftTissue soft(bones, options.side, options.seed * 13 + 2);
   const Scene scene{bones,
@@ -421,7 +504,8 @@ Phantom make_phantom(const PhantomOptions& options, const Progress& progress) {
                     phantom.wrist_from_patient,
                     options.scale,
                     options,
-                    bone_places(bones, model, options)};
+                    bone_places(bones, model, options),
+                    make_variant(bones, model, options)};
 
   const GridGeometry g = field_of_view(scene, options);
   Grid<float> hu(g);

@@ -47,6 +47,16 @@ std::string_view name_of(Condition condition) noexcept {
       return "scapholunate_gap";
     case Condition::Fused:
       return "fused";
+    case Condition::Screw:
+      return "screw";
+    case Condition::CutOff:
+      return "cut_off";
+    case Condition::WholeHand:
+      return "whole_hand";
+    case Condition::Bipartite:
+      return "bipartite";
+    case Condition::LunateTypeTwo:
+      return "lunate_type_two";
   }
   return "";
 }
@@ -116,6 +126,24 @@ void apply(Condition condition, double severity, ScanOptions& o) noexcept {
       break;
     case Condition::Fused:
       o.is_fused = true;
+      break;
+    case Condition::Screw:
+      o.is_screw = true;
+      o.metal_radius_mm = between(1.2, 1.7, t);
+      o.metal_streaks_hu = between(200, 900, t);
+      break;
+    case Condition::CutOff:
+      o.cut_off_mm = between(4, 16, t);
+      break;
+    case Condition::WholeHand:
+      o.has_fingers = true;
+      o.distal_reach_mm = between(90, 160, t);
+      break;
+    case Condition::Bipartite:
+      o.bipartite_mm = between(0.8, 1.6, t);
+      break;
+    case Condition::LunateTypeTwo:
+      o.hamate_facet_mm = between(1.5, 3.0, t);
       break;
   }
 }

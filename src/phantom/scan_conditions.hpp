@@ -25,7 +25,8 @@ struct ScanOptions {
   /// Darkening by a path through 20 mm of cortical bone [HU]: the second order of the
   /// polychromatic attenuation, summed along four directions of each axial slice.
   double beam_hardening_hu = 0;
-  double metal_radius_mm = 0;  ///< of a steel wire left in the scaphoid; 0 none
+  double metal_radius_mm = 0;  ///< of a steel wire or screw left in the scaphoid; 0 none
+  bool is_screw = false;       ///< within the bone; a wire stands out of its distal pole
   double metal_streaks_hu = 0;
   double motion_step_mm = 0;  ///< the arm moves across once, at a slice near the middle
   bool has_table = false;     ///< a sandwich of two dense layers below the arm
@@ -36,6 +37,7 @@ struct ScanOptions {
   double proximal_reach_mm = 32;  ///< field of view from the wrist's origin towards the elbow
   double distal_reach_mm = 54;    ///< and towards the fingers
   double width_mm = 96;           ///< across, at most
+  double cut_off_mm = 0;          ///< of the arm, at one side, out of the field of view
   // The patient.
   double bone_density = 1;  ///< of cortex and core; 0.5 is severe osteoporosis
   double cortex_thickness = 1;
@@ -44,6 +46,9 @@ struct ScanOptions {
   double size_variation = 0;       ///< each bone smaller by up to this part
   double scapholunate_gap_mm = 0;  ///< the lunate moves off, and extends by 6 degrees a mm (DISI)
   bool is_fused = false;           ///< lunate and triquetrum grown together
+  double bipartite_mm = 0;     ///< one carpal bone is two from birth, with so wide a joint between
+  double hamate_facet_mm = 0;  ///< a lunate of type II: how far its corner reaches to the hamate
+  bool has_fingers = false;    ///< metacarpals are whole and phalanges follow
 };
 
 enum class Condition : std::uint8_t {
@@ -64,14 +69,21 @@ enum class Condition : std::uint8_t {
   OtherAnatomy,
   ScapholunateGap,
   Fused,
+  Screw,
+  CutOff,
+  WholeHand,
+  Bipartite,
+  LunateTypeTwo,
 };
-inline constexpr std::array<Condition, 17> kAllConditions{
+inline constexpr std::array<Condition, 22> kAllConditions{
     Condition::SmoothKernel,    Condition::SharpKernel,  Condition::BeamHardening,
     Condition::Metal,           Condition::Motion,       Condition::ThickSlices,
     Condition::LowDose,         Condition::Table,        Condition::Cast,
     Condition::Oblique,         Condition::ShortForearm, Condition::ShortHand,
     Condition::Osteoporosis,    Condition::DenseBone,    Condition::OtherAnatomy,
-    Condition::ScapholunateGap, Condition::Fused};
+    Condition::ScapholunateGap, Condition::Fused,        Condition::Screw,
+    Condition::CutOff,          Condition::WholeHand,    Condition::Bipartite,
+    Condition::LunateTypeTwo};
 
 /// "smooth_kernel", "sharp_kernel", ...
 [[nodiscard]] std::string_view name_of(Condition condition) noexcept;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imaging/binary_mask.hpp"
 #include "phantom/phantom.hpp"
 #include "phantom/scanner_effects.hpp"
 
@@ -120,6 +121,81 @@ TEST(ScanConditions, EachChangesThePhantomAndKeepsItsCarpus) {
     const auto before = static_cast<double>(voxels_of(plain, bone));
     EXPECT_NEAR(static_cast<double>(voxels_of(made, bone)) / before, 1, 0.3) << name_of(bone);
   }
+}
+
+Phantom made_with(Condition condition, double severity) {
+  PhantomOptions o = coarse();
+  apply(condition, severity, o.scan);
+  return make_phantom(o);
+}
+
+std::size_t pieces_of(const Phantom& p, BoneId bone) {
+  Grid<std::uint8_t> mask(p.labels.geometry());
+  for (std::size_t i = 0; i < mask.values().size(); ++i) {
+    mask[i] = p.labels[i] == static_cast<std::uint8_t>(bone) ? 1 : 0;
+  }
+  const imaging::Components pieces = imaging::connected_components(mask.view());
+  return static_cast<std::size_t>(std::count_if(pieces.voxels.begin(), pieces.voxels.end(),
+                                                [](std::size_t n) { return n > 50; }));
+}
+
+TEST(ScanConditions, ABipartiteBoneIsOneOfSeveralInTwoHalvesUnderOneName) {
+  PhantomOptions o = coarse();
+  apply(Condition::Bipartite, 1, o.scan);
+  o.scan.bipartite_mm = 2.5;  // seen by voxels of 1 mm
+  const Phantom made = make_phantom(o);
+  std::size_t in_two = 0;
+  for (const BoneId bone : kAllBones) in_two += pieces_of(made, bone) == 2 ? 1U : 0U;
+  EXPECT_EQ(in_two, 1U);
+}
+
+TEST(ScanConditions, ALunateOfTypeTwoReachesFartherAndTouchesNobody) {
+  const Phantom plain = make_phantom(coarse());
+  const Phantom made = made_with(Condition::LunateTypeTwo, 1);
+  EXPECT_GT(voxels_of(made, BoneId::Lunate), voxels_of(plain, BoneId::Lunate) + 10);
+  EXPECT_EQ(pieces_of(made, BoneId::Lunate), 1U);
+  for (const BoneId other : {BoneId::Hamate, BoneId::Capitate, BoneId::Triquetrum}) {
+    EXPECT_EQ(voxels_of(made, other), voxels_of(plain, other)) << name_of(other);
+  }
+}
+
+TEST(ScanConditions, AWholeHandHasFingersThatAreNoBoneOfTheCase) {
+  const Phantom made = made_with(Condition::WholeHand, 1);
+  const GridGeometry& g = made.labels.geometry();
+  EXPECT_GT(g.size[2] * g.spacing.z, 180);
+  std::size_t dense_beyond = 0;
+  for (std::size_t i = 0; i < made.ct.values().size(); ++i) {
+    const Vec3 p = (made.wrist_from_patient *
+                    Point<frame::Patient>{g.patient_from_voxel(
+                        {static_cast<double>(g.index_of(i).x), static_cast<double>(g.index_of(i).y),
+                         static_cast<double>(g.index_of(i).z)})})
+                       .v;
+    if (p.x > -110) continue;  // distal of every metacarpal's head
+    dense_beyond += made.ct[i] > 400 ? 1U : 0U;
+    ASSERT_EQ(made.labels[i], 0);
+  }
+  EXPECT_GT(dense_beyond, 3000U);
+  for (const BoneId bone : {BoneId::Metacarpal2, BoneId::Metacarpal5}) {
+    EXPECT_EQ(pieces_of(made, bone), 1U);
+  }
+}
+
+TEST(ScanConditions, AnArmOutOfTheFieldOfViewAndAScrewInTheScaphoid) {
+  const Phantom plain = make_phantom(coarse());
+  const Phantom made = made_with(Condition::CutOff, 1);
+  EXPECT_NEAR(plain.ct.geometry().size[0] - made.ct.geometry().size[0], 20, 1);
+  const Phantom screwed = made_with(Condition::Screw, 1);
+  const auto steel = [](const Phantom& p) {
+    std::size_t inside = 0, outside = 0;
+    for (std::size_t i = 0; i < p.ct.values().size(); ++i) {
+      if (p.ct[i] < 3000) continue;
+      (p.labels[i] == static_cast<std::uint8_t>(BoneId::Scaphoid) ? inside : outside) += 1;
+    }
+    return std::pair{inside, outside};
+  };
+  EXPECT_EQ(steel(plain).first, 0U);
+  EXPECT_GT(steel(screwed).first, 60U);
+  EXPECT_LT(steel(screwed).second, steel(screwed).first / 10);
 }
 
 TEST(ScanConditions, ThickSlicesAndLessDensity) {

@@ -28,6 +28,7 @@ constexpr double kMarginMm = 24.0;
 constexpr double kIgnoredBeyondMm = 8.0 * kBlendMm;
 /// The part of the hand that any field of view here can show, along the forearm.
 constexpr double kDistalEndMm = -85.0;
+constexpr double kFingerEndMm = -190.0;
 constexpr double kProximalEndMm = 55.0;
 
 constexpr double kAirDepth = -1000.0;
@@ -107,7 +108,8 @@ GridGeometry coarse_geometry(const BoneShapes& bones) {
   Aabb box;
   for (const Shape& shape : bones.shapes()) box.include(shape.bounds);
   box = box.grown(kMarginMm);
-  box.low.x = std::max(box.low.x, kDistalEndMm);
+  const bool has_fingers = bones.shapes().back().phalanx >= 0;
+  box.low.x = std::max(box.low.x, has_fingers ? kFingerEndMm : kDistalEndMm);
   box.high.x = std::min(box.high.x, kProximalEndMm);
   GridGeometry g;
   g.spacing = {kCoarseStepMm, kCoarseStepMm, kCoarseStepMm};

@@ -16,6 +16,7 @@
 #include "imaging/binary_mask.hpp"
 #include "imaging/gaussian.hpp"
 #include "mesh/marching_cubes.hpp"
+#include "mesh/self_intersection.hpp"
 #include "mesh/simplify.hpp"
 #include "mesh/smooth.hpp"
 
@@ -94,7 +95,10 @@ TriangleMesh simplified(const TriangleMesh& mesh, const BoneSurfaceOptions& opti
     TriangleMesh candidate =
         mesh::simplify(mesh, {static_cast<std::size_t>(wanted * factor), options.max_error_mm})
             .mesh;
-    if (candidate.facets.size() < best.facets.size()) best = std::move(candidate);
+    if (candidate.facets.size() < best.facets.size() &&
+        mesh::count_self_intersections(candidate) == 0) {
+      best = std::move(candidate);
+    }
     if (static_cast<double>(best.facets.size()) < kNearTarget * wanted) break;
   }
   return best;
@@ -169,8 +173,11 @@ MeshIn<frame::Bone> build_bone_surface(const BoneField& field, const BoneSurface
   mesh::SmoothOptions smoothing;
   smoothing.iterations = options.smoothing_pairs;
   smoothing.max_displacement_mm = options.max_smoothing_mm;
-  surface = mesh::smooth(std::move(surface), smoothing);
-  return MeshIn<frame::Bone>(simplified(surface, options));
+  TriangleMesh smoothed = mesh::smooth(surface, smoothing);
+  // Marching cubes does not cross itself; what smoothing did to a thin place is not worth a
+  // crossing.
+  if (mesh::count_self_intersections(smoothed) > 0) smoothed = std::move(surface);
+  return MeshIn<frame::Bone>(simplified(smoothed, options));
 }
 
 void label_by_fields(std::span<const BoneField> fields,

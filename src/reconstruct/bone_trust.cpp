@@ -7,113 +7,62 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "anatomy/model_shapes.hpp"
 #include "core/text_format.hpp"
+#include "geometry/trilinear.hpp"
 #include "hull/fast_hull.hpp"
 #include "hull/polytope_measures.hpp"
 #include "imaging/binary_mask.hpp"
+#include "imaging/region_merging.hpp"
+#include "mesh/normals.hpp"
+#include "reconstruct/named_segmentation.hpp"
 
 namespace carpus::reconstruct {
 namespace {
 
 using Labels = GridView<const std::uint16_t>;
 
-/// A face whose two voxels differ by less than this part of the local cortex is no edge.
-constexpr float kLeastStep = 0.12F;
-/// The edge is put at half of the cortex; this much lower and higher it should lie nearly there.
-constexpr float kShift = 0.1F;
 /// No bone but a fatty marrow is so thin.
 constexpr float kDarkHu = 80;
-/// Points of the border that a hull is made of.
-constexpr std::size_t kHullPoints = 4000;
 
 struct Tally {
   std::size_t voxels = 0;
-  double faces_mm2 = 0;
-  double leak_mm2 = 0;
-  double weak_mm2 = 0;
-  double bright_mm2 = 0;
-  double step_mm2 = 0;  ///< sum of steps times area
-  double outer_mm2 = 0;
   std::size_t dark = 0;
-  std::size_t unsteady = 0;
   bool touches_border = false;
-  std::vector<Vec3> rim;
   VoxelIndex low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(),
                  std::numeric_limits<int>::max()};
   VoxelIndex high{-1, -1, -1};
 };
 
-/// One face between voxel `i` of a bone and its neighbour `j`.
-void count_face(const Labels& labels,
-                const GridView<const float>& excess,
-                std::size_t i,
-                std::size_t j,
-                double face_mm2,
-                Tally& tally) {
-  if (labels[i] == labels[j]) return;
-  tally.faces_mm2 += face_mm2;
-  if (labels[j] != 0) {
-    tally.leak_mm2 += face_mm2;
-  } else {
-    const float step = excess[i] - excess[j];
-    tally.outer_mm2 += face_mm2;
-    tally.step_mm2 += static_cast<double>(std::clamp(step, 0.0F, 1.0F)) * face_mm2;
-    if (step < kLeastStep) tally.weak_mm2 += face_mm2;
-    if (excess[j] > 0) tally.bright_mm2 += face_mm2;
-  }
-  // An edge between 0.4 and 0.6 of the cortex moves when the threshold does.
-  if (excess[i] < kShift) ++tally.unsteady;
-  if (excess[j] > -kShift) ++tally.unsteady;
-}
-
-std::vector<Tally> tally_of(const Labels& labels,
-                            const GridView<const float>& excess,
-                            const GridView<const float>& hu) {
-  const GridGeometry& g = labels.geometry();
+std::vector<Tally> tally_of(const Labels& labels, const GridView<const float>& hu) {
+  const std::array<int, 3>& size = labels.geometry().size;
   std::vector<Tally> tallies(256);
-  const std::array<VoxelIndex, 6> steps{
-      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-  const std::array<double, 3> face_mm2{g.spacing.y * g.spacing.z, g.spacing.x * g.spacing.z,
-                                       g.spacing.x * g.spacing.y};
-  for (std::size_t i = 0; i < labels.values().size(); ++i) {
-    if (labels[i] == 0 || labels[i] > 255) continue;
-    Tally& tally = tallies[labels[i]];
-    ++tally.voxels;
-    if (hu[i] < kDarkHu) ++tally.dark;
-    const VoxelIndex v = g.index_of(i);
-    tally.low = {std::min(tally.low.x, v.x), std::min(tally.low.y, v.y),
-                 std::min(tally.low.z, v.z)};
-    tally.high = {std::max(tally.high.x, v.x), std::max(tally.high.y, v.y),
-                  std::max(tally.high.z, v.z)};
-    bool on_rim = false;
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      const VoxelIndex n{v.x + steps[s].x, v.y + steps[s].y, v.z + steps[s].z};
-      if (!g.contains(n)) {
-        tally.touches_border = true;
-        continue;
+  std::size_t i = 0;
+  for (int z = 0; z < size[2]; ++z) {
+    for (int y = 0; y < size[1]; ++y) {
+      for (int x = 0; x < size[0]; ++x, ++i) {
+        if (labels[i] == 0 || labels[i] > 255) continue;
+        Tally& tally = tallies[labels[i]];
+        ++tally.voxels;
+        if (hu[i] < kDarkHu) ++tally.dark;
+        tally.low = {std::min(tally.low.x, x), std::min(tally.low.y, y), std::min(tally.low.z, z)};
+        tally.high = {std::max(tally.high.x, x), std::max(tally.high.y, y),
+                      std::max(tally.high.z, z)};
       }
-      const std::size_t j = g.offset_of(n);
-      on_rim = on_rim || labels[j] != labels[i];
-      count_face(labels, excess, i, j, face_mm2[s / 2], tally);
     }
-    if (on_rim) {
-      tally.rim.push_back(g.patient_from_voxel(
-          {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}));
-    }
+  }
+  for (Tally& t : tallies) {
+    t.touches_border =
+        t.voxels > 0 && (t.low.x == 0 || t.low.y == 0 || t.low.z == 0 || t.high.x == size[0] - 1 ||
+                         t.high.y == size[1] - 1 || t.high.z == size[2] - 1);
   }
   return tallies;
 }
 
-double hull_volume(std::vector<Vec3> points) {
-  if (points.size() > kHullPoints) {
-    for (std::size_t k = 0; k < kHullPoints; ++k) {
-      points[k] = points[k * points.size() / kHullPoints];
-    }
-    points.resize(kHullPoints);
-  }
-  const hull::HullResult made = hull::build_fast_hull(points);
+double hull_volume(const TriangleMesh& surface) {
+  const hull::HullResult made = hull::build_fast_hull(surface.vertices);
   return made.status == hull::HullStatus::Ok ? hull::measures_of(made.polytope).volume_mm3 : 0.0;
 }
 
@@ -142,6 +91,101 @@ double noise_of(const Labels& labels, const GridView<const float>& hu) {
   }
   return count > 0 ? std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)) / 2)
                    : 0.0;
+}
+
+/// The CT along the normal of a surface, from 1.5 mm within to 1.5 mm beyond it.
+class Profile {
+ public:
+  static constexpr double kStepMm = 0.25;
+  static constexpr int kHalf = 6;
+
+  Profile(const GridView<const float>& excess, const Vec3& at, const Vec3& outwards) {
+    for (int k = -kHalf; k <= kHalf; ++k) {
+      const double value = sample_at(excess, at + outwards * (k * kStepMm),
+                                     std::numeric_limits<double>::quiet_NaN());
+      is_whole_ = is_whole_ && !std::isnan(value);
+      values_[static_cast<std::size_t>(k + kHalf)] = value;
+    }
+  }
+  /// All of it lies in the scan.
+  [[nodiscard]] bool is_whole() const { return is_whole_; }
+  /// @param k  steps beyond the surface
+  [[nodiscard]] double operator[](int k) const {
+    return values_[static_cast<std::size_t>(k + kHalf)];
+  }
+  /// Where the CT falls to half of the cortex, next to the surface [mm]; none within 1.25 mm.
+  [[nodiscard]] std::optional<double> edge() const {
+    constexpr double kReachMm = 1.25;
+    std::optional<double> nearest;
+    for (int k = -kHalf; k < kHalf; ++k) {
+      const double a = (*this)[k];
+      const double b = (*this)[k + 1];
+      if (!(a > 0 && b <= 0)) continue;
+      const double mm = kStepMm * (k + a / (a - b));
+      if (std::abs(mm) < kReachMm && (!nearest || std::abs(mm) < std::abs(*nearest))) nearest = mm;
+    }
+    return nearest;
+  }
+
+ private:
+  std::array<double, 2 * kHalf + 1> values_{};
+  bool is_whole_ = true;
+};
+
+/// What the surface meets in the CT. Where it was closed flat at the end of the scan, nothing.
+void measure_edge(const TriangleMesh& surface,
+                  std::uint16_t label,
+                  const Labels& labels,
+                  const GridView<const float>& excess,
+                  BoneEvidence& e) {
+  constexpr int kHalfMm = 2;  // steps
+  constexpr int kOneMm = 4;   // steps
+  constexpr double kNextMm = 0.75;
+  constexpr double kFaintStep = 0.25;  // of the cortex, over 1 mm
+  constexpr double kWidthOf = 0.4;     // the width is that of so much of the cortex
+  constexpr double kLeastStep = 0.05;
+  constexpr double kUnknownMm = 1.25;
+  const double area = area_of(surface);
+  const double volume = std::abs(volume_of(surface));
+  e.roughness = area / (std::cbrt(36 * std::numbers::pi) * std::pow(volume, 2.0 / 3));
+  const double hull_mm3 = hull_volume(surface);
+  // Of the voxels: a surface knows nothing of hollows within.
+  e.solidity = hull_mm3 > 0 ? e.volume_mm3 / hull_mm3 : 0.0;
+  const std::vector<Vec3> normals = mesh::vertex_normals(surface);
+  const GridGeometry& g = labels.geometry();
+  double count = 0, off_mm = 0, width_mm = 0, voxel_mm = 0;
+  double contact = 0, dense = 0, none = 0, faint = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3& at = surface.vertices[i];
+    const Vec3& n = normals[i];
+    const Profile profile(excess, at, n);
+    if (!profile.is_whole()) continue;
+    const double step = profile[-kHalfMm] - profile[kHalfMm];
+    const std::optional<double> edge = profile.edge();
+    const auto next = voxel_at(labels, at + n * kNextMm, std::uint16_t{0});
+    const Vec3 along = g.direction.transposed() * n;
+    count += 1;
+    off_mm += edge ? std::abs(*edge) : kUnknownMm;
+    none += edge ? 0 : 1;
+    width_mm += kWidthOf / std::max(step, kLeastStep);
+    faint += step < kFaintStep ? 1 : 0;
+    dense += profile[kOneMm] > 0 ? 1 : 0;
+    contact += next != 0 && next != label ? 1 : 0;
+    voxel_mm += std::abs(along.x) * g.spacing.x + std::abs(along.y) * g.spacing.y +
+                std::abs(along.z) * g.spacing.z;
+  }
+  if (!(count > 0) || !(volume > 0)) {
+    e.no_edge = e.faint = 1;
+    return;
+  }
+  const double share = area / volume / count;
+  e.contact = contact / count;
+  e.dense_beyond = dense / count;
+  e.no_edge = none / count;
+  e.faint = faint / count;
+  e.off_edge = off_mm * share;
+  e.blur = width_mm * share;
+  e.coarseness = voxel_mm * share;
 }
 
 struct LabelName {
@@ -178,15 +222,42 @@ void compare_volumes(std::vector<BoneEvidence>& bones) {
   }
 }
 
+/// A shaft that was cut off its own base or head by mistake is a body without a name that goes on
+/// where the bone ends.
+void measure_severed(const Labels& regions,
+                     const anatomy::BoneNaming& naming,
+                     std::vector<BoneEvidence>& bones) {
+  constexpr double kGrownOnMm2 = 8;
+  const Grid<float> flat(regions.geometry());
+  const imaging::RegionTable table = imaging::measure_regions(regions, flat.view());
+  const auto is_named = [&](std::size_t region) {
+    return region <= naming.regions.size() && naming.regions[region - 1].has_value();
+  };
+  for (const auto& [pair, contact] : table.contacts) {
+    const auto [a, b] = pair;
+    if (is_named(a) == is_named(b) || contact.area_mm2 < kGrownOnMm2) continue;
+    const std::size_t named = is_named(a) ? a : b;
+    const std::size_t nameless = is_named(a) ? b : a;
+    const std::uint8_t label = label_for(*naming.regions[named - 1]);
+    for (BoneEvidence& bone : bones) {
+      if (bone.label != label || !(bone.volume_mm3 > 0)) continue;
+      bone.severed += static_cast<double>(table.voxels[nameless]) *
+                      regions.geometry().voxel_volume_mm3() / bone.volume_mm3;
+    }
+  }
+}
+
 double excess_over(double value, double limit) { return std::max(0.0, value - limit); }
 
 }  // namespace
 
 std::vector<BoneEvidence> measure_evidence(const Labels& labels,
+                                           const Labels& regions,
                                            const GridView<const float>& edge_excess,
                                            const GridView<const float>& smoothed_hu,
+                                           std::span<const LabelSurface> surfaces,
                                            const anatomy::BoneNaming& naming) {
-  const std::vector<Tally> tallies = tally_of(labels, edge_excess, smoothed_hu);
+  const std::vector<Tally> tallies = tally_of(labels, smoothed_hu);
   const double voxel_mm3 = labels.geometry().voxel_volume_mm3();
   const double noise_hu = noise_of(labels, smoothed_hu);
   const anatomy::ModelShapes& model = anatomy::generic_model_shapes(naming.side);
@@ -205,78 +276,84 @@ std::vector<BoneEvidence> measure_evidence(const Labels& labels,
     if (is_carpal && !name.is_part && !t.touches_border) {
       e.volume_ratio = e.volume_mm3 / (bone.volume_mm3 * std::pow(naming.scale, 3));
     }
-    const double hull_mm3 = hull_volume(t.rim);
-    e.solidity = hull_mm3 > 0 ? e.volume_mm3 / hull_mm3 : 0.0;
-    e.leak = t.faces_mm2 > 0 ? t.leak_mm2 / t.faces_mm2 : 0.0;
-    e.weak_rim = t.faces_mm2 > 0 ? t.weak_mm2 / t.faces_mm2 : 1.0;
-    e.unsteady = static_cast<double>(t.unsteady) / static_cast<double>(t.voxels);
+    e.solidity = 0;
     e.detached = detached_part(labels, number, t);
-    e.roughness =
-        t.faces_mm2 / (std::cbrt(36 * std::numbers::pi) * std::pow(e.volume_mm3, 2.0 / 3));
     e.noise_hu = noise_hu;
-    e.sharpness = t.outer_mm2 > 0 ? t.step_mm2 / t.outer_mm2 : 0.0;
-    e.bright_rim = t.faces_mm2 > 0 ? t.bright_mm2 / t.faces_mm2 : 1.0;
-    e.rim_part = static_cast<double>(t.rim.size()) / static_cast<double>(t.voxels);
     e.dark = static_cast<double>(t.dark) / static_cast<double>(t.voxels);
     e.wrist_misfit = naming.cost;
+    const auto surface =
+        std::find_if(surfaces.begin(), surfaces.end(),
+                     [&](const LabelSurface& each) { return each.label == number; });
+    if (surface != surfaces.end() && !surface->surface->facets.empty()) {
+      measure_edge(*surface->surface, number, labels, edge_excess, e);
+    } else {
+      e.no_edge = e.faint = 1;
+    }
     result.push_back(e);
   }
   compare_volumes(result);
+  measure_severed(regions, naming, result);
   return result;
 }
 
 std::span<const EvidenceField> evidence_fields() {
   using E = BoneEvidence;
-  static constexpr std::array<EvidenceField, 16> kFields{{{"volume_mm3", &E::volume_mm3},
+  static constexpr std::array<EvidenceField, 18> kFields{{{"volume_mm3", &E::volume_mm3},
                                                           {"misfit", &E::misfit},
                                                           {"volume_ratio", &E::volume_ratio},
+                                                          {"relative_volume", &E::relative_volume},
                                                           {"solidity", &E::solidity},
-                                                          {"leak", &E::leak},
-                                                          {"weak_rim", &E::weak_rim},
-                                                          {"unsteady", &E::unsteady},
                                                           {"detached", &E::detached},
                                                           {"roughness", &E::roughness},
-                                                          {"noise_hu", &E::noise_hu},
-                                                          {"relative_volume", &E::relative_volume},
-                                                          {"sharpness", &E::sharpness},
-                                                          {"bright_rim", &E::bright_rim},
-                                                          {"rim_part", &E::rim_part},
+                                                          {"contact", &E::contact},
+                                                          {"dense_beyond", &E::dense_beyond},
+                                                          {"no_edge", &E::no_edge},
+                                                          {"faint", &E::faint},
+                                                          {"off_edge", &E::off_edge},
+                                                          {"blur", &E::blur},
+                                                          {"coarseness", &E::coarseness},
                                                           {"dark", &E::dark},
+                                                          {"severed", &E::severed},
+                                                          {"noise_hu", &E::noise_hu},
                                                           {"wrist_misfit", &E::wrist_misfit}}};
   return kFields;
 }
 
 const std::vector<std::string>& concern_names() {
-  static const std::vector<std::string> kNames{"misfit",   "volume",   "hollow", "leak", "weak rim",
-                                               "unsteady", "detached", "rough",  "noise"};
+  static const std::vector<std::string> kNames{"misfit",   "volume",       "detached",
+                                               "rough",    "dense beyond", "no edge",
+                                               "off edge", "coarse",       "dark"};
   return kNames;
 }
 
 std::vector<double> concerns_of(const BoneEvidence& e) {
   return {std::log1p(e.misfit),
-          std::abs(std::log(std::max(e.volume_ratio, 1e-3))),
-          excess_over(0.95, e.solidity),
-          std::sqrt(e.leak),
-          e.weak_rim,
-          e.unsteady,
+          std::abs(std::log(std::max(e.relative_volume, 1e-3))),
           std::sqrt(std::max(0.0, e.detached)),
-          excess_over(e.roughness, 1.5),
-          e.noise_hu / 100};
+          excess_over(e.roughness, 1.1),
+          std::sqrt(e.dense_beyond),
+          std::sqrt(e.no_edge),
+          e.off_edge,
+          e.coarseness,
+          std::sqrt(e.dark)};
 }
 
 namespace {
 
-/// Set by hand: docs/decisions/0061-trust.md. In the order of concerns_of.
-constexpr std::array<double, 9> kWeights{0.9, 3.0, 8.0, 6.0, 8.0, 2.0, 6.0, 1.5, 1.0};
-constexpr double kOffset = 5.5;
+/// Fitted: docs/decisions/0061-trust.md. In the order of concerns_of.
+constexpr std::array<double, 9> kWeights{3.40, 0.60, 4.94, 6.53, 6.29, 6.19, 21.25, 0.20, 2.69};
+constexpr double kOffset = 6.81;
 /// Beyond these a reason is said; also where the confidence is low and nothing else is known.
 constexpr double kSaidMisfit = anatomy::kSuspiciousBoneCost;
 constexpr double kSaidVolume = 0.45;
 constexpr double kSaidSolidity = 0.7;
-constexpr double kSaidLeak = 0.06;
-constexpr double kSaidWeakRim = 0.12;
+constexpr double kSaidContact = 0.15;
+constexpr double kSaidNoEdge = 0.08;
+constexpr double kSaidBlur = 0.55;
+constexpr double kSaidCoarseness = 0.75;
 constexpr double kSaidDetached = 0.01;
 constexpr double kSaidNoise = 45;
+constexpr double kSaidSevered = 0.1;
 
 std::string reasons_of(const BoneEvidence& e) {
   std::string text;
@@ -291,16 +368,24 @@ std::string reasons_of(const BoneEvidence& e) {
                e.volume_ratio < 1 ? "lost a part" : "swallowed a neighbour or soft tissue"));
   }
   if (e.solidity < kSaidSolidity) say("it is hollow or ragged: fill it where marrow was left out");
-  if (e.leak > kSaidLeak) {
+  if (e.contact > kSaidContact) {
     say(format("%.0f %% of its surface touches another bone: part them along the joint",
-               100 * e.leak));
+               100 * e.contact));
   }
-  if (e.weak_rim > kSaidWeakRim) {
-    say(format("%.0f %% of its border has no edge in the CT: draw it there", 100 * e.weak_rim));
+  if (e.no_edge > kSaidNoEdge) {
+    say(format("%.0f %% of its surface has no edge in the CT: draw it there", 100 * e.no_edge));
   }
   if (e.detached > kSaidDetached) {
     say(format("%.0f %% of it lies apart from the rest: join it or give it another name",
                100 * e.detached));
+  }
+  if (e.severed > kSaidSevered) {
+    say("a body without a name grows on it: join the two if they are one bone");
+  }
+  if (e.coarseness > kSaidCoarseness) {
+    say("the voxels are coarse for a bone so small: use a scan with thinner slices");
+  } else if (e.blur > kSaidBlur) {
+    say("its edge is blurred: use a sharper kernel, or a scan in which the arm lay still");
   }
   if (e.noise_hu > kSaidNoise) {
     say("the scan is noisy or streaked: use a scan of a higher dose or a softer kernel");
@@ -317,7 +402,8 @@ BoneTrust judge(const BoneEvidence& e) {
   BoneTrust trust;
   trust.confidence = 1 / (1 + std::exp(-sum));
   // What no fit may talk away.
-  const bool is_impossible = e.misfit > 12 || e.detached > 0.05 || e.volume_ratio < 0.4;
+  const bool is_impossible =
+      e.misfit > 12 || e.detached > 0.05 || e.volume_ratio < 0.4 || e.severed > kSaidSevered;
   if (is_impossible) trust.confidence = std::min(trust.confidence, 0.3);
   trust.flagged = trust.confidence < kTrustedConfidence;
   if (!trust.flagged) return trust;

@@ -12,28 +12,33 @@
 
 #include "anatomy/bone_naming.hpp"
 #include "geometry/grid.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace carpus::reconstruct {
 
-/// What is measured on one bone, or one part of a broken one.
+/// What is measured on one bone, or one part of a broken one. Nothing in it counts voxels, so that
+/// coarse and fine scans are judged alike. "Of its surface" means of its vertices, which lie
+/// evenly.
 struct BoneEvidence {
   std::uint8_t label = 0;
   double volume_mm3 = 0;
   double misfit = 0;        ///< of place and shape to the model's bone (anatomy::RegionName)
   double volume_ratio = 1;  ///< to the model's bone at this wrist's size; 1 for a part or a stump
-  double solidity = 1;      ///< volume over that of its convex hull
-  double leak = 0;          ///< part of its border that touches another bone directly
-  double weak_rim = 0;      ///< part of its border without an edge in the CT
-  double unsteady = 0;      ///< part of it that comes or goes as the edge is put at 0.4 or 0.6
-  double detached = 0;      ///< part that hangs together with the rest nowhere
-  double roughness = 0;     ///< border's area over that of a ball of the same volume
-  double noise_hu = 0;      ///< of the scan, in the soft tissue around
   double relative_volume = 1;  ///< volume_ratio over its median among this scan's carpal bones
-  double sharpness = 1;        ///< mean step in the CT across its border, in parts of the cortex
-  double bright_rim = 0;       ///< part of its border beyond which the CT is as dense as bone
-  double rim_part = 0;         ///< part of its voxels on the border: how coarse the scan is for it
-  double dark = 0;             ///< part of it no denser than soft tissue
-  double wrist_misfit = 0;     ///< of the scan's naming as a whole
+  double solidity = 1;         ///< volume over that of its convex hull
+  double detached = 0;         ///< part that hangs together with the rest nowhere
+  double roughness = 0;        ///< surface's area over that of a ball of the same volume
+  double contact = 0;          ///< part of its surface beyond which another bone lies at once
+  double dense_beyond = 0;     ///< part of it beyond which the CT is still as dense as bone
+  double no_edge = 0;          ///< part of it that has no edge in the CT within 1.25 mm
+  double faint = 0;            ///< part of it across which the CT hardly falls
+  double off_edge = 0;  ///< mean distance from it to the CT's edge, times area over volume: a share
+  double blur = 0;      ///< mean width of the CT's edge, likewise
+  double coarseness = 0;  ///< the voxels' width across it, likewise
+  double dark = 0;        ///< part of the bone no denser than soft tissue
+  double severed = 0;     ///< volume of nameless bodies that grow on it without a gap, over its own
+  double noise_hu = 0;    ///< of the scan, in the soft tissue around
+  double wrist_misfit = 0;  ///< of the scan's naming as a whole
 };
 
 /// What a row of a study keeps of the evidence, by name.
@@ -52,20 +57,29 @@ struct BoneTrust {
 /// Below it a bone is flagged.
 inline constexpr double kTrustedConfidence = 0.5;
 
+struct LabelSurface {
+  std::uint16_t label = 0;
+  const TriangleMesh* surface = nullptr;  ///< [Patient, mm], closed, outwards
+};
+
 /// Measures each label of `labels` but 0, in their order, with the naming that made them.
 ///
 /// @param labels  bones, by their numbers (anatomy/bone_id.hpp), on the segmented part of the scan
+/// @param regions  imaging::BoneSegmentation::regions, same grid: with those that have no name
 /// @param edge_excess  imaging::BoneSegmentation::edge_excess, same grid
 /// @param smoothed_hu  likewise
+/// @param surfaces  of the labels; where one is missing, nothing is known of its edge
 [[nodiscard]] std::vector<BoneEvidence> measure_evidence(
     const GridView<const std::uint16_t>& labels,
+    const GridView<const std::uint16_t>& regions,
     const GridView<const float>& edge_excess,
     const GridView<const float>& smoothed_hu,
+    std::span<const LabelSurface> surfaces,
     const anatomy::BoneNaming& naming);
 
-/// The confidence by a logistic function of the evidence, with weights that were set before any
-/// scan of `carpus study segmentation` was seen (docs/decisions/0061-trust.md), and the reasons in
-/// words.
+/// The confidence by a logistic function of the evidence, with weights that were fitted on
+/// simulated scans and judged on others (`carpus study segmentation`,
+/// docs/decisions/0061-trust.md), and the reasons in words.
 [[nodiscard]] BoneTrust judge(const BoneEvidence& evidence);
 
 /// What the logistic function weighs, each 0 where a bone is as it should be; in a fixed order.

@@ -10,6 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "reconstruct/bone_surface.hpp"
 
 namespace carpus::reconstruct {
 namespace {
@@ -19,33 +22,53 @@ using testing::HasSubstr;
 constexpr std::uint16_t kLunate = static_cast<std::uint16_t>(BoneId::Lunate);
 constexpr std::uint16_t kCapitate = static_cast<std::uint16_t>(BoneId::Capitate);
 
-/// Two balls of 7 mm radius in voxels of 0.7 mm, 2 mm apart, with a sharp edge.
+/// Two balls of 7 mm radius, in voxels of 0.7 mm if not said otherwise, 3 mm apart, with a sharp
+/// edge.
 struct TwoBalls {
   Grid<std::uint16_t> labels;
   Grid<float> excess;
   Grid<float> hu;
   anatomy::BoneNaming naming;
+  int nameless_below = 0;  ///< slices in which the first ball is a region without a name
 
-  TwoBalls() {
+  explicit TwoBalls(double spacing = 0.7) {
+    const double finer = 0.7 / spacing;
     GridGeometry g;
-    g.size = {52, 26, 26};
-    g.spacing = {0.7, 0.7, 0.7};
+    g.size = {static_cast<int>(52 * finer), static_cast<int>(26 * finer),
+              static_cast<int>(26 * finer)};
+    g.spacing = {spacing, spacing, spacing};
     labels = Grid<std::uint16_t>(g);
     excess = Grid<float>(g, -0.5F);
     hu = Grid<float>(g, 45.0F);
     for (std::size_t i = 0; i < labels.values().size(); ++i) {
       const VoxelIndex v = g.index_of(i);
-      const auto from = [&](double x) { return 0.7 * length({v.x - x, v.y - 12.5, v.z - 12.5}); };
+      const auto from = [&](double x) {
+        return spacing * length({v.x - x * finer, v.y - 12.5 * finer, v.z - 12.5 * finer});
+      };
       if (from(13) < 7) labels[i] = kLunate;
       if (from(37) < 7) labels[i] = kCapitate;
       if (labels[i] != 0) excess[i] = 0.5F;
     }
     naming.regions = {anatomy::RegionName{BoneId::Lunate, BonePart::Whole, 0.4},
-                      anatomy::RegionName{BoneId::Capitate, BonePart::Whole, 0.4}};
+                      anatomy::RegionName{BoneId::Capitate, BonePart::Whole, 0.4}, std::nullopt};
   }
 
+  [[nodiscard]] MeshIn<frame::Bone> surface_of(std::uint16_t label) const {
+    return build_bone_surface(build_bone_field(labels.view(), label, excess.view()));
+  }
   [[nodiscard]] BoneEvidence lunate() const {
-    const auto all = measure_evidence(labels.view(), excess.view(), hu.view(), naming);
+    std::vector<LabelSurface> surfaces;
+    const auto lunate_surface = surface_of(kLunate);
+    const auto capitate_surface = surface_of(kCapitate);
+    surfaces.push_back({kLunate, &lunate_surface});
+    surfaces.push_back({kCapitate, &capitate_surface});
+    Grid<std::uint16_t> regions(labels.geometry());
+    for (std::size_t i = 0; i < labels.values().size(); ++i) {
+      regions[i] = labels[i] == kLunate ? 1 : (labels[i] == kCapitate ? 2 : 0);
+      if (regions[i] == 1 && labels.geometry().index_of(i).z < nameless_below) regions[i] = 3;
+    }
+    const auto all =
+        measure_evidence(labels.view(), regions.view(), excess.view(), hu.view(), surfaces, naming);
     EXPECT_EQ(all.size(), 2U);
     EXPECT_EQ(all.front().label, kLunate);
     return all.front();
@@ -55,13 +78,17 @@ struct TwoBalls {
 TEST(BoneTrust, MeasuresNothingWrongOnASoundBone) {
   const BoneEvidence e = TwoBalls().lunate();
   EXPECT_NEAR(e.volume_mm3, 4.0 / 3 * 3.14159 * 343, 60);
-  EXPECT_EQ(e.leak, 0);
-  EXPECT_EQ(e.weak_rim, 0);
-  EXPECT_EQ(e.unsteady, 0);
+  EXPECT_EQ(e.contact, 0);
+  EXPECT_EQ(e.dense_beyond, 0);
+  EXPECT_EQ(e.no_edge, 0);
+  EXPECT_EQ(e.faint, 0);
   EXPECT_EQ(e.detached, 0);
   EXPECT_NEAR(e.misfit, 0.4, 1e-12);
   EXPECT_GT(e.solidity, 0.95);
-  EXPECT_NEAR(e.roughness, 1.5, 0.1);  // a ball of cubes has 1.5 times its area
+  EXPECT_NEAR(e.roughness, 1, 0.05);
+  // Area over volume of a ball is 3 / r; cubes are 0.7 to 0.7 sqrt(3) mm wide, 1.05 in the mean.
+  EXPECT_NEAR(e.coarseness, 1.05 * 3 / 7, 0.03);
+  EXPECT_LT(e.off_edge, 0.05);
 }
 
 TEST(BoneTrust, MeasuresWhereOneBoneTouchesAnother) {
@@ -73,15 +100,40 @@ TEST(BoneTrust, MeasuresWhereOneBoneTouchesAnother) {
       balls.labels[i] = v.x < 25 ? kLunate : kCapitate;
     }
   }
-  EXPECT_GT(balls.lunate().leak, 0.03);
+  EXPECT_GT(balls.lunate().contact, 0.03);
 }
 
-TEST(BoneTrust, MeasuresABorderWithoutAnEdgeAndOneThatMovesWithTheThreshold) {
-  TwoBalls balls;
-  for (float& value : balls.excess.values()) value *= 0.1F;  // a step of 0.1 of the cortex
-  const BoneEvidence e = balls.lunate();
-  EXPECT_EQ(e.weak_rim, 1);
-  EXPECT_GT(e.unsteady, 0.2);
+TEST(BoneTrust, MeasuresASurfaceWithoutAnEdgeOneThatIsFaintAndOneThatIsElsewhere) {
+  TwoBalls faint;
+  for (float& value : faint.excess.values()) value *= 0.1F;  // a step of 0.1 of the cortex
+  EXPECT_EQ(faint.lunate().faint, 1);
+  EXPECT_GT(faint.lunate().blur, 2 * TwoBalls().lunate().blur);
+  TwoBalls leaking;
+  for (float& value : leaking.excess.values()) value = 0.5F;
+  EXPECT_GT(leaking.lunate().no_edge, 0.99);
+  EXPECT_GT(leaking.lunate().dense_beyond, 0.99);
+  TwoBalls elsewhere;  // the CT's edge lies one voxel farther out than the label's
+  const GridGeometry& g = elsewhere.labels.geometry();
+  for (std::size_t i = 0; i < elsewhere.labels.values().size(); ++i) {
+    const VoxelIndex v = g.index_of(i);
+    if (0.7 * length({v.x - 13.0, v.y - 12.5, v.z - 12.5}) < 7.7) elsewhere.excess[i] = 0.5F;
+  }
+  EXPECT_GT(elsewhere.lunate().off_edge, TwoBalls().lunate().off_edge + 0.1);
+}
+
+TEST(BoneTrust, FindsTheSameOnCoarseAndOnFineVoxels) {
+  const auto measured = [](double spacing) {
+    TwoBalls balls(spacing);
+    for (float& value : balls.excess.values()) value *= 0.3F;
+    return balls.lunate();
+  };
+  const BoneEvidence coarse = measured(0.7);
+  const BoneEvidence fine = measured(0.35);
+  EXPECT_NEAR(fine.roughness, coarse.roughness, 0.05);
+  EXPECT_NEAR(fine.dense_beyond, coarse.dense_beyond, 0.02);
+  EXPECT_NEAR(fine.no_edge, coarse.no_edge, 0.02);
+  EXPECT_NEAR(fine.solidity, coarse.solidity, 0.03);
+  EXPECT_NEAR(fine.coarseness, coarse.coarseness / 2, 0.02);
 }
 
 TEST(BoneTrust, MeasuresAPieceApartAndAHollow) {
@@ -97,15 +149,28 @@ TEST(BoneTrust, MeasuresAPieceApartAndAHollow) {
   EXPECT_LT(hollow.lunate().solidity, 0.6);
 }
 
+TEST(BoneTrust, MeasuresABodyWithoutANameThatGrowsOnIt) {
+  EXPECT_EQ(TwoBalls().lunate().severed, 0);
+  TwoBalls severed;
+  severed.nameless_below = 8;
+  EXPECT_GT(severed.lunate().severed, 0.1);
+  EXPECT_TRUE(judge(severed.lunate()).flagged);
+  EXPECT_NE(judge(severed.lunate()).why.find("join the two"), std::string::npos);
+}
+
 BoneEvidence sound() {
   BoneEvidence e;
   e.label = 4;
   e.volume_mm3 = 1400;
   e.misfit = 0.2;
   e.solidity = 0.92;
-  e.weak_rim = 0.005;
-  e.unsteady = 0.02;
-  e.roughness = 1.6;
+  e.roughness = 1.15;
+  e.contact = 0.01;
+  e.dense_beyond = 0.01;
+  e.faint = 0.002;
+  e.off_edge = 0.02;
+  e.blur = 0.25;
+  e.coarseness = 0.4;
   e.noise_hu = 8;
   return e;
 }
@@ -129,13 +194,25 @@ TEST(BoneTrust, FlagsEachFaultAndSaysWhatToDo) {
   e = sound();
   e.detached = 0.2;
   expect_said(e, "lies apart");
+  e = sound();
+  e.no_edge = 0.4;
+  e.off_edge = 0.3;
+  e.faint = 0.5;
+  expect_said(e, "no edge");
+  e = sound();
+  e.coarseness = 1.6;
+  e.off_edge = 0.2;
+  e.no_edge = 0.06;
+  expect_said(e, "voxels are coarse");
 }
 
 TEST(BoneTrust, MoreOfAnyConcernNeverMeansMoreConfidence) {
   const double best = judge(sound()).confidence;
-  for (const auto field : {&BoneEvidence::misfit, &BoneEvidence::leak, &BoneEvidence::weak_rim,
-                           &BoneEvidence::unsteady, &BoneEvidence::detached,
-                           &BoneEvidence::roughness, &BoneEvidence::noise_hu}) {
+  for (const auto field :
+       {&BoneEvidence::misfit, &BoneEvidence::detached, &BoneEvidence::roughness,
+        &BoneEvidence::contact, &BoneEvidence::dense_beyond, &BoneEvidence::no_edge,
+        &BoneEvidence::faint, &BoneEvidence::off_edge, &BoneEvidence::blur,
+        &BoneEvidence::coarseness, &BoneEvidence::noise_hu, &BoneEvidence::wrist_misfit}) {
     BoneEvidence e = sound();
     e.*field += 0.3;
     EXPECT_LE(judge(e).confidence, best);

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "imaging/binary_mask.hpp"
+#include "imaging/gaussian.hpp"
 
 namespace carpus::reconstruct {
 namespace {
@@ -40,6 +42,15 @@ struct Separation {
 /// the third (0.7 against 237).
 constexpr std::array<Separation, 3> kFurtherSeparations{{{1.0, 250}, {1.0, 180}, {3.0, 250}}};
 
+/// What the first attempt was made of: it is smoothed once for all of them.
+imaging::SmoothedScan smoothed_again(const Grid<std::int16_t>& ct, const BoneSegmentation& first) {
+  const auto& size = first.smoothed_hu.geometry().size;
+  const VoxelIndex& low = first.offset;
+  const imaging::VoxelBox box{low, {low.x + size[0] - 1, low.y + size[1] - 1, low.z + size[2] - 1}};
+  return {true, imaging::as_float(imaging::crop(ct.view(), box).view()), first.smoothed_hu, low,
+          first.densest_hu};
+}
+
 bool fits(const BoneNaming& naming) {
   return naming.cost < anatomy::kDoubtfulNamingCost && naming.missing.empty();
 }
@@ -49,10 +60,11 @@ bool fits(const BoneNaming& naming) {
 NamedSegmentation segment_and_name(const Grid<std::int16_t>& ct,
                                    imaging::BoneSegmentationOptions options,
                                    const SegmentStage& stage) {
-  const auto attempt = [&] {
+  const auto attempt = [&](imaging::SmoothedScan scan) {
     NamedSegmentation result;
     result.segmentation = imaging::segment_bones(
-        ct.view(), options, [&](std::string_view name, double fraction) { stage(name, fraction); });
+        std::move(scan), options,
+        [&](std::string_view name, double fraction) { stage(name, fraction); });
     if (result.segmentation.status != imaging::SegmentationStatus::Ok) {
       refuse_boneless(result.segmentation, ct.geometry());
     }
@@ -61,12 +73,13 @@ NamedSegmentation segment_and_name(const Grid<std::int16_t>& ct,
         anatomy::name_bones(result.segmentation.regions.view(), result.segmentation.region_count);
     return result;
   };
-  NamedSegmentation best = attempt();
+  stage("smooth", 0.0);
+  NamedSegmentation best = attempt(imaging::smooth_scan(ct.view(), options));
   for (const Separation& other : kFurtherSeparations) {
     if (fits(best.naming)) break;
     options.cleft_weight = other.cleft_weight;
     options.bone_threshold_hu = other.bone_threshold_hu;
-    NamedSegmentation next = attempt();
+    NamedSegmentation next = attempt(smoothed_again(ct, best.segmentation));
     if (next.naming.cost < best.naming.cost) best = std::move(next);
   }
   return best;

@@ -31,6 +31,8 @@ using imaging::RegionLabel;
 
 /// Part of the whole work that segmentation takes, for the progress bar.
 constexpr double kSegmentationShare = 0.35;
+/// Of the model wrist; adults' are 0.85 to 1.15.
+constexpr double kSmallestAdult = 0.78;
 
 std::string list_of(const std::vector<BoneId>& bones) {
   std::string text;
@@ -76,6 +78,11 @@ std::vector<std::string> warnings_of(const BoneNaming& naming) {
   }
   const auto nameless = static_cast<std::size_t>(
       std::count(naming.regions.begin(), naming.regions.end(), std::nullopt));
+  if (naming.scale < kSmallestAdult) {
+    warnings.push_back("the wrist is " + std::to_string(std::lround(100 * naming.scale)) +
+                       " % of an adult's size. If it is a child's, do not use the case: growth "
+                       "plates and bones that are not ossified yet are not known here");
+  }
   if (naming.far_bodies > 0) {
     warnings.push_back(std::to_string(naming.far_bodies) +
                        " bodies beyond the wrist (fingers, sesamoids, a support) were left out");
@@ -138,8 +145,10 @@ void build_surfaces(const BoneSegmentation& s,
     }
   });
   label_by_fields(fields, label_of, labels.view());
-  const auto evidence =
-      measure_evidence(labels.view(), s.edge_excess.view(), s.smoothed_hu.view(), naming);
+  std::vector<LabelSurface> surfaces;
+  for (const cases::Bone& bone : data.bones) surfaces.push_back({bone.label, &bone.surface});
+  const auto evidence = measure_evidence(labels.view(), s.regions.view(), s.edge_excess.view(),
+                                         s.smoothed_hu.view(), surfaces, naming);
   for (const BoneEvidence& each : evidence) {
     for (std::size_t i = 0; i < label_of.size(); ++i) {
       if (label_of[i] == each.label) result.figures[i].trust = judge(each);

@@ -195,6 +195,21 @@ TEST(ReconstructCase, MakesACaseOfASimulatedIntactRightWrist) {
   expect_structures(r, 10);
 }
 
+TEST(ReconstructCase, SaysWhereAWristIsAsSmallAsAChilds) {
+  const SimulatedWrist adult = simulate(Side::Right, false);
+  const auto warnings = [&](double size) {
+    GridGeometry g = adult.ct.geometry();
+    g.spacing = g.spacing * size;
+    std::string all;
+    const std::vector<std::int16_t> values(adult.ct.values().begin(), adult.ct.values().end());
+    const Reconstruction r = reconstruct_case(Grid<std::int16_t>(g, values), {});
+    for (const std::string& text : r.warnings) all += text + "\n";
+    return all;
+  };
+  EXPECT_THAT(warnings(0.7), testing::HasSubstr("a child's, do not use"));
+  EXPECT_THAT(warnings(0.9), testing::Not(testing::HasSubstr("child")));
+}
+
 TEST(ReconstructCase, ManagesThickSlicesByTryingOtherSeparations) {
   const SimulatedWrist wrist = simulate(Side::Left, false, 1.25);
   const Reconstruction r = reconstruct_case(wrist.ct, {});

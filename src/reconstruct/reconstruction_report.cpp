@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesh/genus.hpp"
+#include "mesh/self_intersection.hpp"
 
 namespace carpus::reconstruct {
 namespace {
@@ -83,6 +84,10 @@ void append_bones(const ReconstructionReport& report, std::string& text) {
       append(text, "  %s: its surface has %d handles, where a bone has none: look for a leak\n",
              b.name.c_str(), b.genus);
     }
+    if (b.self_intersections > 0) {
+      append(text, "  %s: its surface passes through itself at %zu pairs of facets\n",
+             b.name.c_str(), b.self_intersections);
+    }
   }
 }
 
@@ -144,6 +149,7 @@ ReconstructionReport make_report(const Reconstruction& reconstruction,
     line.naming_cost = reconstruction.figures[i].naming_cost;
     line.trust = reconstruction.figures[i].trust;
     line.genus = mesh::genus_of(bone.surface);
+    line.self_intersections = mesh::count_self_intersections(bone.surface);
     report.bones.push_back(line);
   }
   add_dice(dice, reconstruction, report);
@@ -187,7 +193,8 @@ std::string json_of(const ReconstructionReport& report) {
                              {"confidence", b.trust.confidence},
                              {"flagged", b.trust.flagged},
                              {"why", b.trust.why},
-                             {"genus", b.genus}});
+                             {"genus", b.genus},
+                             {"self_intersections", b.self_intersections}});
   }
   json["dice_mean"] = number_or_null(report.dice_mean);
   json["dice_min"] = number_or_null(report.dice_min);

@@ -25,7 +25,8 @@ struct BoneLine {
   double hull_seconds = 0;
   double naming_cost = 0;
   BoneTrust trust;
-  int genus = 0;  ///< handles of the surface; a bone has none
+  int genus = 0;                       ///< handles of the surface; a bone has none
+  std::size_t self_intersections = 0;  ///< pairs of its facets that cross
 };
 
 struct ReconstructionReport {
@@ -51,7 +52,8 @@ struct ReconstructionReport {
 [[nodiscard]] std::string text_of(const ReconstructionReport& report);
 
 /// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets",
-/// "confidence", "flagged", "why", "genus"}],
+/// "confidence", "flagged", "why", "genus",
+/// "self_intersections"}],
 /// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": [], "structures":
 /// {"generated": true, "count", "in_bone_mm", "in_another_mm", "under_skin_mm", "portals":
 /// [{"portal", "nerve", "mm"}]}}; the Dice figures are null without a truth. A bone that was not

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -31,6 +32,16 @@ constexpr std::size_t kLongestTitle = 100;
 constexpr std::size_t kLongestId = 64;
 /// What a file may be; anything else is not stored.
 constexpr std::array<std::string_view, 5> kKinds{"dcm", "nii", "nii.gz", "nrrd", "mha"};
+
+/// What a look makes.
+struct MadeFile {
+  std::string_view name;
+  const char* media_type;
+};
+constexpr std::array<MadeFile, 3> kMadeFiles{MadeFile{"bones.glb", "model/gltf-binary"},
+                                             MadeFile{"labels.nii.gz", "application/gzip"},
+                                             MadeFile{"mended.json", "application/json"}};
+constexpr std::uintmax_t kLargestMadeFile = std::uintmax_t{256} << 20U;
 
 std::string new_word() {
   std::array<std::uint64_t, 2> bytes{};
@@ -150,6 +161,7 @@ HttpResponse NewCaseDesk::answer(const HttpRequest& request) {
     return make_json("{}");
   }
   if (request.method == "GET" && path == kNewCasePath) return tell();
+  if (request.method == "GET" && path == kNewCaseMadePath) return give_out(request);
   return make_problem(404, "There is no such thing here.");
 }
 
@@ -214,10 +226,21 @@ HttpResponse NewCaseDesk::run(const HttpRequest& request) {
     return make_problem(400, "It does not say of which case.");
   }
   if (files_.empty()) return make_problem(400, "There is no file to make it of.");
-  if (!of_case->empty() && (files_.size() != 1 || !files_.front().ends_with(".nii.gz"))) {
+  const bool is_look = text_in_query(request.target, "look") == "1";
+  const bool are_labels = std::all_of(files_.begin(), files_.end(), [](const std::string& file) {
+    return file.ends_with(".nii.gz");
+  });
+  if (is_look && (of_case->empty() || files_.size() > 2 || !are_labels)) {
+    return make_problem(400, "To look at come labels of a case, nii.gz, and those before.");
+  }
+  if (!is_look && !of_case->empty() && (files_.size() != 1 || !are_labels)) {
     return make_problem(400, "Labels come as one file, nii.gz.");
   }
   NewCaseTask task;
+  if (is_look) {
+    task.purpose = text_in_query(request.target, "grow") == "1" ? NewCasePurpose::GrownLook
+                                                                : NewCasePurpose::Look;
+  }
   task.folder = folder_;
   task.files = files_;
   task.title = *title;
@@ -273,6 +296,7 @@ void NewCaseDesk::work(const NewCaseTask& task) {
     return;
   }
   stage_ = Stage::Done;
+  if (!outcome_.made.empty()) return;  // its page fetches it, and gives it up
   // What was brought is a patient's: it stays no longer than needed.
   remove_later(folder_);
 }
@@ -294,6 +318,26 @@ HttpResponse NewCaseDesk::tell() const {
   }
   // What a program said is not promised to be text.
   return make_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+HttpResponse NewCaseDesk::give_out(const HttpRequest& request) const {
+  const auto wanted = text_in_query(request.target, "file");
+  const auto* file = std::find_if(kMadeFiles.begin(), kMadeFiles.end(),
+                                  [&](const MadeFile& each) { return wanted == each.name; });
+  const bool is_there = stage_ == Stage::Done && !outcome_.made.empty();
+  if (!is_there || file == kMadeFiles.end()) return make_problem(404, "No such thing was made.");
+  if (options_.truth->is_closed()) {
+    return make_problem(409, "An assessed operation is under way here; look when it has ended.");
+  }
+  const fs::path path = outcome_.made / file->name;
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (error || size > kLargestMadeFile) return make_problem(404, "No such thing was made.");
+  std::string bytes(size, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) return make_problem(404, "What was made cannot be read.");
+  return make_response(200, file->media_type, std::move(bytes));
 }
 
 void NewCaseDesk::tend() {

@@ -11,7 +11,12 @@
 //   GET    /api/new_case                      {"may_add": …}, whether who asks may do all this
 //   GET    /api/new_case?word=W               how far it is; "choosing": which series there are
 //   POST   /api/new_case/run?…&series=0       makes it of the first of them
-//   DELETE /api/new_case?word=W               gives it up
+//   POST   /api/new_case/run?…&of=ID&look=1   makes no case of changed labels, only the bones that
+//   they
+//                                             change, to be looked at; &grow=1 lets the water in
+//                                             first
+//   GET    /api/new_case/made?word=W&file=F   what it made: "bones.glb", "labels.nii.gz",
+//   "mended.json" DELETE /api/new_case?word=W               gives it up
 #pragma once
 
 #include <array>
@@ -34,13 +39,22 @@
 
 namespace carpus::server {
 
+/// What becomes of what is brought.
+enum class NewCasePurpose : std::uint8_t {
+  Case,      ///< a case, or a new version of one
+  Look,      ///< the surfaces of the bones that were changed, as they are painted
+  GrownLook  ///< the same after the watershed took what was painted as markers
+};
+
 /// What a case is to be made of: a scan, or the changed labels of a case, for a new version of it.
+/// To look at: the labels as they are, and if there is a second file, as they were before.
 struct NewCaseTask {
   std::filesystem::path folder;  ///< with the files, and room for what is made of them
   std::vector<std::string> files;
   std::string title;         ///< may be empty; no control characters
   std::string of_case;       ///< id of the case whose labels were changed; empty: a scan
   std::string series_uid{};  ///< which of several; empty: the only one
+  NewCasePurpose purpose = NewCasePurpose::Case;
 };
 
 /// One of several series that were brought, as a person tells them apart; no date, nobody's name.
@@ -55,6 +69,8 @@ struct NewCaseOutcome {
   std::string id;                     ///< of the new case; empty: there is none
   std::string problem;                ///< why there is neither, and what to do
   std::vector<SeriesOffer> series{};  ///< of which a person must choose one; else empty
+  /// Of a look: the folder, within the task's, whose files are given out until it is given up.
+  std::filesystem::path made{};
 };
 
 struct NewCaseOptions {
@@ -96,6 +112,7 @@ class NewCaseDesk {
   [[nodiscard]] HttpResponse run(const HttpRequest& request);
   [[nodiscard]] HttpResponse run_chosen(const HttpRequest& request);
   [[nodiscard]] HttpResponse start(const NewCaseTask& task);
+  [[nodiscard]] HttpResponse give_out(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse tell() const;
   [[nodiscard]] bool is_current(const HttpRequest& request) const;
   void give_up();

@@ -53,6 +53,14 @@ class NewCaseDeskTest : public ::testing::Test {
       }
       while (waits_ && !stop) std::this_thread::sleep_for(1ms);
       if (!offers_.empty() && task.series_uid.empty()) return NewCaseOutcome{{}, "two", offers_};
+      if (task.purpose != NewCasePurpose::Case) {
+        fs::create_directories(task.folder / "mended");
+        std::ofstream(task.folder / "mended" / "bones.glb") << "surfaces";
+        std::ofstream(task.folder / "mended" / "secret") << "no";
+        NewCaseOutcome look;
+        look.made = task.folder / "mended";
+        return look;
+      }
       return NewCaseOutcome{"demo-2", {}};
     };
     network_options_.port = 0;
@@ -225,6 +233,41 @@ TEST_F(NewCaseDeskTest, OfSeveralSeriesOneIsChosenByAPerson) {
   EXPECT_EQ(wait_for(word, "done")["id"], "demo-2");
   EXPECT_EQ(made_of_.series_uid, "1.2.4");
   EXPECT_EQ(made_of_.title, "A wrist");
+  expect_clean_soon();
+}
+
+TEST_F(NewCaseDeskTest, ALookGivesOutWhatItMadeAndNothingElseUntilItIsGivenUp) {
+  start();
+  const std::string word = begin();
+  const std::string made = "/api/new_case/made?word=" + word + "&file=";
+  EXPECT_THAT(change("GET", made + "bones.glb"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(put(file(word, "nii.gz"), "now"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(put(file(word, "nii.gz"), "before"), StartsWith("HTTP/1.1 200"));
+  const std::string run = "/api/new_case/run?word=" + word;
+  EXPECT_THAT(change("POST", run + "&look=1"), StartsWith("HTTP/1.1 400")) << "of no case";
+  EXPECT_THAT(change("POST", run + "&of=demo"), StartsWith("HTTP/1.1 400")) << "two for a case";
+  EXPECT_THAT(change("POST", run + "&of=demo&look=1&grow=1"), StartsWith("HTTP/1.1 200"));
+  EXPECT_EQ(wait_for(word, "done")["problem"], "");
+  EXPECT_EQ(made_of_.purpose, NewCasePurpose::GrownLook);
+  EXPECT_EQ(made_of_.files.size(), 2U);
+  EXPECT_EQ(body_of(change("GET", made + "bones.glb")), "surfaces");
+  for (const char* other : {"labels.nii.gz", "secret", "..%2F00001.nii.gz", ""}) {
+    EXPECT_THAT(change("GET", made + other), StartsWith("HTTP/1.1 404")) << other;
+  }
+  EXPECT_THAT(change("GET", "/api/new_case/made?word=other&file=bones.glb"),
+              StartsWith("HTTP/1.1 409"));
+  EXPECT_THAT(change("DELETE", "/api/new_case?word=" + word), StartsWith("HTTP/1.1 200"));
+  expect_clean_soon();
+}
+
+TEST_F(NewCaseDeskTest, ALookThatNobodyFetchesIsThrownAway) {
+  desk_options_.lapse = 300ms;
+  start();
+  const std::string word = begin();
+  EXPECT_THAT(put(file(word, "nii.gz"), "now"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(change("POST", "/api/new_case/run?word=" + word + "&of=demo&look=1"),
+              StartsWith("HTTP/1.1 200"));
+  wait_for(word, "done");
   expect_clean_soon();
 }
 

@@ -25,6 +25,7 @@ inline constexpr std::size_t kMaxHeadFields = 100;
 /// DELETE, and PUT, which has a body.
 inline constexpr std::string_view kNewCasePath = "/api/new_case";
 inline constexpr std::string_view kNewCaseRunPath = "/api/new_case/run";
+inline constexpr std::string_view kNewCaseMadePath = "/api/new_case/made";
 inline constexpr std::string_view kNewCaseFilePath = "/api/new_case/file";
 /// A body that claims to be longer is refused before a byte of it is read.
 inline constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{1} << 30U;

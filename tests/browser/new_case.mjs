@@ -92,6 +92,37 @@ async function bringAndMend(page, station, zip) {
     const { cases } = await (await fetch(`${station.url}/api/cases`)).json();
     expect(cases.length === 2, `${cases.length} cases`);
   });
+  await check(page, "what is painted or marked is shown as a surface at once", async () => {
+    const said = page.locator(".scan-said");
+    const anew = async (what) => {
+      await said.filter({ hasText: /Hamate: surface made anew in [\d.]+ s/ }).waitFor({ timeout: 60_000 });
+      const seconds = Number(/in ([\d.]+) s/.exec(await said.textContent())[1]);
+      console.log(`     ${what}: ${seconds} s`);
+      await page.waitForTimeout(300);
+      return page.locator(".scan-panel.bones").screenshot();
+    };
+    await page.locator("[data-bone=hamate]").click();
+    await page.locator(".scan-panel.coronal canvas").focus();
+    const before = await page.locator(".scan-panel.bones").screenshot();
+    for (let i = 0; i < 5; ++i) await page.keyboard.press("Shift+ArrowRight");
+    await page.keyboard.press("a");
+    await page.keyboard.press(".");
+    await page.keyboard.press("Enter");
+    const painted = await anew("painted");
+    expect(!painted.equals(before), "the picture of the bones is the same");
+    await shot(page, "scan_painted_surface");
+    await page.keyboard.press("z");
+    await said.filter({ hasText: "Making the surface anew" }).waitFor();
+    await anew("taken back");
+    await page.keyboard.press("w");
+    await page.keyboard.press("Enter");
+    await anew("marked");
+    await shot(page, "scan_marked_surface");
+    await page.keyboard.press("z");
+    await said.filter({ hasText: "Making the surface anew" }).waitFor();
+    await anew("taken back, with what the marker found");
+    await page.keyboard.press("Escape");
+  });
   const mended = await check(page, "a bone is painted and run again as a new version", async () => {
     await page.locator("[data-bone=capitate]").click();
     await page.locator(".scan-panel.axial canvas").focus();

@@ -166,10 +166,12 @@ CaseHeader header_from(const Json& json) {
   if (!side) throw IoError("the side is neither left nor right");
   data.side = *side;
   const Json& provenance = json.at("provenance");
-  data.provenance = {
-      provenance.at("simulated").get<bool>(), provenance.at("source").get<std::string>(),
-      provenance.at("made_by").get<std::string>(), provenance.at("made_at").get<std::string>(),
-      provenance.value("conventions", std::vector<std::string>{})};
+  data.provenance = {provenance.at("simulated").get<bool>(),
+                     provenance.at("source").get<std::string>(),
+                     provenance.at("made_by").get<std::string>(),
+                     provenance.at("made_at").get<std::string>(),
+                     provenance.value("conventions", std::vector<std::string>{}),
+                     provenance.value("version_of", std::string())};
   take(json.at("wrist_from_patient"), data.wrist_from_patient);
   const Json& scaphoid = json.at("scaphoid");
   data.scaphoid = {
@@ -205,6 +207,9 @@ std::string case_json_text(const cases::CaseData& data) {
                         {"made_by", data.provenance.made_by},
                         {"made_at", data.provenance.made_at},
                         {"conventions", data.provenance.conventions}};
+  if (!data.provenance.version_of.empty()) {
+    json["provenance"]["version_of"] = data.provenance.version_of;
+  }
   json["wrist_from_patient"] = json_of(data.wrist_from_patient);
   json["scaphoid"] = {{"central_axis", json_of(data.scaphoid.central_axis)},
                       {"central_radius_mm", data.scaphoid.central_radius_mm},

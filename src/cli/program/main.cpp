@@ -24,6 +24,7 @@
 #include "cli/fluoroscopy_command.hpp"
 #include "cli/hull_command.hpp"
 #include "cli/kinematics_command.hpp"
+#include "cli/mend_command.hpp"
 #include "cli/parallel_executor.hpp"
 #include "cli/phantom_command.hpp"
 #include "cli/reconstruct_command.hpp"
@@ -50,6 +51,7 @@ void add_commands(CLI::App& app) {
   add_stock_command(app);
   add_reconstruct_command(app);
   add_segment_command(app);
+  add_mend_command(app);
   add_soft_tissue_command(app);
   add_export_command(app);
   add_kinematics_command(app);

@@ -87,17 +87,7 @@ export class BonesPanel {
   async load(url: string, colors: readonly BoneColor[], up: Vec3, from: Vec3): Promise<void> {
     const loaded = await new GLTFLoader().loadAsync(url);
     if (this.isGone) return;
-    loaded.scene.updateMatrixWorld(true);
-    loaded.scene.traverse((node) => {
-      if (!(node instanceof THREE.Mesh)) return;
-      const mesh = node as THREE.Mesh;
-      const name = mesh.name !== "" ? mesh.name : (mesh.parent?.name ?? "");
-      const bone = colors.find((one) => one.name === name);
-      if (bone === undefined) return;
-      const geometry = mesh.geometry.clone().applyMatrix4(mesh.matrixWorld);
-      if (geometry.getAttribute("normal") === undefined) geometry.computeVertexNormals();
-      this.setBone(bone, geometry);
-    });
+    this.take(loaded.scene, colors);
     const box = new THREE.Box3().setFromObject(this.bones);
     if (box.isEmpty()) return;
     const radius = box.getBoundingSphere(new THREE.Sphere()).radius;
@@ -110,17 +100,45 @@ export class BonesPanel {
     this.ask();
   }
 
-  /** New or in place of the one of this name. */
-  setBone({ name, color }: BoneColor, geometry: THREE.BufferGeometry): void {
-    const old = this.bones.getObjectByName(name);
-    if (old instanceof THREE.Mesh) {
-      (old as THREE.Mesh).geometry.dispose();
-      this.bones.remove(old);
+  /** In place of those of the same colours, of which there may be fewer now. @param glb  undefined: none is left */
+  async mend(bones: readonly BoneColor[], glb: ArrayBuffer | undefined): Promise<void> {
+    const loaded = glb === undefined ? undefined : await new GLTFLoader().parseAsync(glb, "");
+    if (this.isGone) return;
+    // A bone may have another name now, as the part of one that was split; its label's colour stays.
+    for (const { color } of bones) this.dropBone(color);
+    if (loaded !== undefined) this.take(loaded.scene, bones);
+    this.ask();
+  }
+
+  private take(scene: THREE.Object3D, colors: readonly BoneColor[]): void {
+    scene.updateMatrixWorld(true);
+    scene.traverse((node) => {
+      if (!(node instanceof THREE.Mesh)) return;
+      const mesh = node as THREE.Mesh;
+      const name = mesh.name !== "" ? mesh.name : (mesh.parent?.name ?? "");
+      const bone = colors.find((one) => one.name === name);
+      if (bone === undefined) return;
+      const geometry = mesh.geometry.clone().applyMatrix4(mesh.matrixWorld);
+      if (geometry.getAttribute("normal") === undefined) geometry.computeVertexNormals();
+      this.setBone(bone, geometry);
+    });
+  }
+
+  private dropBone(color: number): void {
+    for (const mesh of this.bones.children.filter((one) => one.userData["color"] === color)) {
+      (mesh as THREE.Mesh).geometry.dispose();
+      this.bones.remove(mesh);
     }
+  }
+
+  /** New or in place of the one of this colour. */
+  setBone({ name, color }: BoneColor, geometry: THREE.BufferGeometry): void {
+    this.dropBone(color);
     const rgb = ((color & 255) << 16) | (color & 0xff00) | (color >>> 16);
     const material = new THREE.MeshStandardMaterial({ color: rgb, roughness: 0.75 });
     const mesh = new THREE.Mesh(geometry, material);
     mesh.name = name;
+    mesh.userData["color"] = color;
     this.bones.add(mesh);
     this.ask();
   }

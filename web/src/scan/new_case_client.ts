@@ -3,10 +3,13 @@
 //
 // A new case on the host: files are brought one after another, then the host makes a case of them and
 // tells how far it is. Nothing of it goes anywhere else.
+import { parseMended, type MendedBone } from "./mended_model";
 import { parseState, type SeriesOffer } from "./new_case_model";
 
 const ADDRESS = "/api/new_case";
 const LOOK_EVERY_MS = 400;
+/** Of what takes a second or two. */
+const LOOK_OFTEN_MS = 50;
 /** The host throws away what nobody asks after for half a minute. */
 const KEEP_EVERY_MS = 5_000;
 
@@ -133,5 +136,58 @@ export async function makeNewCase(
   } catch (error) {
     await ask("DELETE", `${ADDRESS}?${word}`).catch(() => undefined);
     throw error;
+  }
+}
+
+export interface MendWish {
+  /** The case whose labels they are. */
+  readonly of: string;
+  /** As they are now, packed. */
+  readonly labels: Blob;
+  /** And before what was painted; undefined for those of the case. */
+  readonly before: Blob | undefined;
+  /** What was painted is a marker: the host lets the water in. */
+  readonly grows: boolean;
+}
+
+export interface MendedLook {
+  readonly bones: readonly MendedBone[];
+  /** Surfaces, of those bones that have voxels. */
+  readonly glb: ArrayBuffer | undefined;
+  /** The labels after the water, packed; only where it was let in. */
+  readonly labels: Blob | undefined;
+}
+
+/** Only the bones that were painted, made anew by the host; no case is changed or made. */
+export async function lookAtMended(wish: MendWish, signal: AbortSignal): Promise<MendedLook> {
+  const begun = JSON.parse(await ask("POST", ADDRESS, signal)) as { readonly word: string };
+  const word = `word=${encodeURIComponent(begun.word)}`;
+  const made = async (file: string): Promise<Response> => {
+    const answer = await fetch(`${ADDRESS}/made?${word}&file=${file}`, { signal });
+    if (!answer.ok) throw new Error((await answer.text()).trim());
+    return answer;
+  };
+  try {
+    for (const content of [wish.labels, ...(wish.before === undefined ? [] : [wish.before])]) {
+      await put(`${ADDRESS}/file?${word}&as=nii.gz`, content, () => undefined, signal);
+    }
+    const of = `&of=${encodeURIComponent(wish.of)}&look=1${wish.grows ? "&grow=1" : ""}`;
+    await ask("POST", `${ADDRESS}/run?${word}${of}`, signal);
+    for (;;) {
+      const now = parseState(await ask("GET", `${ADDRESS}?${word}`, signal));
+      if (now.state === "done" && now.problem !== "") throw new Error(now.problem);
+      if (now.state === "done") break;
+      await new Promise((wake) => setTimeout(wake, LOOK_OFTEN_MS));
+      signal.throwIfAborted();
+    }
+    const bones = parseMended(await (await made("mended.json")).text());
+    const isThere = bones.some((bone) => bone.volumeMm3 > 0);
+    return {
+      bones,
+      glb: isThere ? await (await made("bones.glb")).arrayBuffer() : undefined,
+      labels: wish.grows ? await (await made("labels.nii.gz")).blob() : undefined,
+    };
+  } finally {
+    await ask("DELETE", `${ADDRESS}?${word}`).catch(() => undefined);
   }
 }

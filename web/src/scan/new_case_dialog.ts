@@ -5,7 +5,6 @@
 import { button, make, setText } from "../dom";
 import { fromDrop, fromFiles } from "./brought_files";
 import { scanAmong, type Candidate } from "./brought_files_model";
-import { rememberVersion } from "./earlier_version";
 import { makeNewCase, type NewCaseWish } from "./new_case_client";
 import { progressText } from "./new_case_model";
 import { askForSeries } from "./series_choice";
@@ -120,8 +119,7 @@ export class NewCaseDialog {
       yield { as: "nii.gz", content: labels };
     })();
     const choose = (): Promise<number> => Promise.reject(new Error("Labels are one volume."));
-    const id = await this.make({ files, bytes: labels.size, title: "", of, choose });
-    if (id !== undefined) rememberVersion(id, of);
+    await this.make({ files, bytes: labels.size, title: "", of, choose });
   }
 
   dispose(): void {
@@ -165,8 +163,7 @@ export class NewCaseDialog {
     }
   }
 
-  /** @return the new case; undefined where there is none, which was said */
-  private async make(wish: NewCaseWish): Promise<string | undefined> {
+  private async make(wish: NewCaseWish): Promise<void> {
     const running = new AbortController();
     this.running = running;
     this.choice.hidden = true;
@@ -195,10 +192,8 @@ export class NewCaseDialog {
       this.done.replaceChildren(look);
       setText(this.cancel, "Close");
       this.made(id);
-      return id;
     } catch (error) {
       if (!running.signal.aborted) this.complain(error);
-      return undefined;
     } finally {
       this.running = undefined;
     }

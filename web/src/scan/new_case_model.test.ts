@@ -1,7 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { earlierVersion, rememberVersion } from "./earlier_version";
 import { parseState, progressText, seriesFigures, seriesTitle } from "./new_case_model";
 
 describe("what the host tells of a new case", () => {
@@ -27,33 +26,5 @@ describe("what the host tells of a new case", () => {
       "214 slices, spacing not known",
     );
     expect(progressText("surfaces", 0.426)).toBe("surfaces: 43 %");
-  });
-});
-
-describe("the version before", () => {
-  const store = (): Storage => {
-    const all = new Map<string, string>();
-    return {
-      getItem: (key: string) => all.get(key) ?? null,
-      setItem: (key: string, value: string) => all.set(key, value),
-    } as unknown as Storage;
-  };
-
-  it("is remembered as long as there is such a case", () => {
-    const kept = store();
-    rememberVersion("demo-2", "demo", kept);
-    rememberVersion("demo-3", "demo-2", kept);
-    expect(earlierVersion("demo-3", ["demo", "demo-2"], kept)).toBe("demo-2");
-    expect(earlierVersion("demo-2", ["demo", "demo-2"], kept)).toBe("demo");
-    expect(earlierVersion("demo-3", ["demo"], kept)).toBeUndefined();
-    expect(earlierVersion("demo", ["demo"], kept)).toBeUndefined();
-  });
-
-  it("is nothing where what was kept is damaged", () => {
-    const kept = store();
-    kept.setItem("carpus.versions", "{");
-    expect(earlierVersion("a", ["b"], kept)).toBeUndefined();
-    rememberVersion("a", "b", kept);
-    expect(earlierVersion("a", ["b"], kept)).toBe("b");
   });
 });

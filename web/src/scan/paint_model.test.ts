@@ -50,6 +50,25 @@ describe("labels that are mended", () => {
     paint.end();
     expect(count(volume, 5)).toBe(SIDE);
   });
+  it("take the host's answer as part of the stroke, or on its own where something came between", () => {
+    const volume = labels(() => 0);
+    const paint = new LabelPaint(volume);
+    paint.begin();
+    paint.stroke(middle, middle, 1, 5);
+    paint.end();
+    const stroke = paint.latest;
+    paint.take(Uint32Array.of(0, 1), Uint8Array.of(5, 5), stroke === paint.latest);
+    expect([volume.values[0], volume.values[1]]).toEqual([5, 5]);
+    expect(paint.undo()).toBe(true);
+    expect(count(volume, 5)).toBe(0);
+    expect(paint.canUndo).toBe(false);
+    expect(paint.redo()).toBe(true);
+    paint.fill(5);
+    paint.take(Uint32Array.of(7), Uint8Array.of(5), false);
+    expect(paint.undo()).toBe(true);
+    expect(volume.values[7]).toBe(0);
+    expect(volume.values[0]).toBe(5);
+  });
   it("come back by undo and go again by redo, to the voxel", () => {
     const volume = labels((x) => (x > 10 ? 2 : 1));
     const before = volume.values.slice();

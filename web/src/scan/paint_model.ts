@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Labels changed by hand: a ball that paints or erases along a line, a hollow filled, two bones made one, a
-// bone cut in two. Each change can be taken back and made again.
+// bone cut in two, and what the host found from a marker. Each change can be taken back and made again.
 import type { Vec3 } from "../protocol";
 import { applied, type Volume } from "./nifti_model";
 import { along, cross, dot } from "./planes_model";
@@ -57,6 +57,24 @@ export class LabelPaint {
     this.undone.length = 0;
     let kept = this.done.reduce((sum, one) => sum + one.indices.length, 0);
     while (kept > MOST_KEPT && this.done.length > 1) kept -= this.done.shift()?.indices.length ?? 0;
+  }
+
+  /** The host's answer to what was painted: one change with it, unless something came between. */
+  take(indices: Uint32Array, labels: Uint8Array, joins: boolean): void {
+    const last = joins ? this.done.pop() : undefined;
+    this.begin();
+    if (last !== undefined) {
+      last.indices.forEach((i, k) => this.open?.set(i, last.before[k] ?? 0));
+    }
+    indices.forEach((i, k) => {
+      this.set(i, labels[k] ?? 0);
+    });
+    this.end();
+  }
+
+  /** The last change that was not taken back: another one where something came between. */
+  get latest(): object | undefined {
+    return this.done.at(-1);
   }
 
   undo(): boolean {

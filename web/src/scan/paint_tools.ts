@@ -1,17 +1,19 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What mends labels: brush and eraser, fill, rename or merge, split by a line, undo and redo, and the mended
-// labels as a file. What changed is marked until it is saved.
+// What mends labels: brush, eraser and marker, fill, rename or merge, split by a line, undo and redo, and the
+// mended labels as a file. What changed is marked until it is saved.
 import { button, make, setText } from "../dom";
 import type { Vec3 } from "../protocol";
-import { niftiOf, type Volume } from "./nifti_model";
+import { MendedLooks, type MendedLooksWishes } from "./mended_looks";
+import type { Volume } from "./nifti_model";
+import { packedLabels } from "./packed_labels";
 import { LabelPaint } from "./paint_model";
 import type { Plane } from "./planes_model";
 import { boneTitle, KNOWN_BONES, type ScannedBone } from "./scan_case_model";
 import type { Brush } from "./slice_panel";
 
-export type PaintTool = "paint" | "erase" | "split";
+export type PaintTool = "paint" | "erase" | "mark" | "split";
 type Phase = "down" | "move" | "up";
 
 export interface PaintWishes {
@@ -21,7 +23,14 @@ export interface PaintWishes {
   readonly makeVersion: ((labels: Blob) => Promise<void>) | undefined;
   /** A bone has voxels now that had none, or the other way. */
   bonesChanged(): void;
+  /** Shows mended surfaces, made by the host of this case; undefined for who may not ask it for any. */
+  readonly look: { readonly of: string; readonly show: MendedLooksWishes["show"] } | undefined;
 }
+
+const SPLIT_SAID =
+  "Drag a line across the bone in hand: what lies to its right, walking along it, becomes the other bone.";
+const MARK_SAID =
+  "Mark what belongs to the bone in hand, roughly: how far it goes is found in the CT.";
 
 const RADII_MM = [0.3, 0.5, 0.8, 1.2, 2, 3, 5] as const;
 
@@ -34,6 +43,7 @@ export class PaintTools {
   private radius = 2;
   private last: Vec3 | undefined;
   private isSaved = true;
+  private readonly looks: MendedLooks | undefined;
   private readonly size = make("output", { "aria-label": "Radius of the brush" });
   private readonly other: HTMLSelectElement;
   private readonly title = make("strong");
@@ -65,8 +75,20 @@ export class PaintTools {
     this.buttons = {
       paint: toggle("paint", "Paint", "{KeyA}"),
       erase: toggle("erase", "Erase", "{KeyE}"),
+      mark: toggle("mark", "Marker", "{KeyW}"),
       split: toggle("split", "Split by a line", "{KeyK}"),
     };
+    const { look } = wishes;
+    if (look !== undefined) {
+      this.looks = new MendedLooks(look.of, labels, this.paint, {
+        say: wishes.say,
+        show: look.show,
+        labelsChanged: () => {
+          wishes.bonesChanged();
+          this.show();
+        },
+      });
+    }
     this.undoButton = button("Undo", "{KeyZ}", () => {
       this.undo();
     });
@@ -84,7 +106,13 @@ export class PaintTools {
       {},
       make("summary", {}, "Mend the labels"),
       make("p", {}, "Bone in hand: ", this.title),
-      make("div.scan-row", {}, this.buttons.paint, this.buttons.erase),
+      make(
+        "div.scan-row",
+        {},
+        this.buttons.paint,
+        this.buttons.erase,
+        ...(this.looks === undefined ? [] : [this.buttons.mark]),
+      ),
       make("div.scan-row", {}, fewer, this.size, more),
       make(
         "div.scan-row",
@@ -126,10 +154,11 @@ export class PaintTools {
 
   dispose(): void {
     window.removeEventListener("beforeunload", this.warn);
+    this.looks?.dispose();
   }
 
   get brush(): Brush | undefined {
-    if (this.tool !== "paint" && this.tool !== "erase") return undefined;
+    if (this.tool === undefined || this.tool === "split") return undefined;
     return { radiusMm: RADII_MM[this.radius] ?? 1, isEraser: this.tool === "erase" };
   }
 
@@ -142,11 +171,7 @@ export class PaintTools {
   take(tool: PaintTool | undefined): void {
     this.tool = tool;
     if (tool !== undefined) (this.element as HTMLDetailsElement).open = true;
-    this.wishes.say(
-      tool === "split"
-        ? "Drag a line across the bone in hand: what lies to its right, walking along it, becomes the other bone."
-        : "",
-    );
+    this.wishes.say(tool === "split" ? SPLIT_SAID : tool === "mark" ? MARK_SAID : "");
     this.show();
   }
 
@@ -163,7 +188,7 @@ export class PaintTools {
     else if (last === undefined) return true;
     this.stroke(phase === "down" ? mm : (last ?? mm), mm);
     this.last = phase === "up" ? undefined : mm;
-    if (phase === "up") this.changed();
+    if (phase === "up") this.changed(tool === "mark");
     else this.wishes.redraw();
     return true;
   }
@@ -173,7 +198,7 @@ export class PaintTools {
     if (this.brush === undefined) return;
     this.paint.begin();
     this.stroke(mm, mm);
-    this.changed();
+    this.changed(this.tool === "mark");
   }
 
   private stroke(from: Vec3, to: Vec3): void {
@@ -221,18 +246,13 @@ export class PaintTools {
     this.show();
   }
 
-  private changed(): void {
+  /** @param grows  by the marker */
+  private changed(grows = false): void {
     this.paint.end();
     this.isSaved = false;
+    this.looks?.changed(grows);
     this.wishes.bonesChanged();
     this.show();
-  }
-
-  private packed(): Promise<Blob> {
-    const packed = new Blob([niftiOf(this.labels)])
-      .stream()
-      .pipeThrough(new CompressionStream("gzip"));
-    return new Response(packed).blob();
   }
 
   /** On the host, from the labels as they are now. */
@@ -242,11 +262,12 @@ export class PaintTools {
       this.wishes.say("New versions are made by who came by an instructor's link.");
       return;
     }
-    this.packed()
-      .then(makeVersion)
-      .catch(() => {
-        this.wishes.say("The labels could not be packed.");
-      });
+    const make = async (): Promise<void> => {
+      await makeVersion(await packedLabels(this.labels));
+    };
+    (this.looks === undefined ? make() : this.looks.whileHeld(make)).catch(() => {
+      this.wishes.say("The labels could not be packed.");
+    });
   }
 
   /** They are in a case of their own now. */
@@ -255,7 +276,7 @@ export class PaintTools {
   }
 
   save(): void {
-    this.packed().then(
+    packedLabels(this.labels).then(
       (blob) => {
         const address = URL.createObjectURL(blob);
         make("a", { href: address, download: "labels.nii.gz" }).click();
@@ -283,6 +304,9 @@ export class PaintTools {
       },
       KeyE: () => {
         this.take(this.tool === "erase" ? undefined : "erase");
+      },
+      KeyW: () => {
+        if (this.looks !== undefined) this.take(this.tool === "mark" ? undefined : "mark");
       },
       KeyK: () => {
         this.take(this.tool === "split" ? undefined : "split");
@@ -316,7 +340,7 @@ export class PaintTools {
   }
 
   private show(): void {
-    for (const tool of ["paint", "erase", "split"] as const) {
+    for (const tool of ["paint", "erase", "mark", "split"] as const) {
       this.buttons[tool].setAttribute("aria-pressed", String(this.tool === tool));
     }
     this.undoButton.disabled = !this.paint.canUndo;

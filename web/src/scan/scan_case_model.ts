@@ -19,6 +19,8 @@ export interface ScannedBone {
 export interface ScannedCase {
   readonly pseudonym: string;
   readonly simulated: boolean;
+  /** Id of the case of which a person corrected the bones; undefined of others. */
+  readonly versionOf: string | undefined;
   readonly side: "left" | "right";
   /** Rows of a rotation. */
   readonly wristFromPatient: readonly [Vec3, Vec3, Vec3];
@@ -62,9 +64,11 @@ export function parseScannedCase(text: string): ScannedCase {
   const bones: unknown[] = Array.isArray(json["bones"]) ? (json["bones"] as unknown[]) : [];
   const provenance = isFields(json["provenance"]) ? json["provenance"] : {};
   const pseudonym = json["pseudonym"];
+  const versionOf = provenance["version_of"];
   return {
     pseudonym: typeof pseudonym === "string" ? pseudonym : "",
     simulated: provenance["simulated"] === true,
+    versionOf: typeof versionOf === "string" && versionOf !== "" ? versionOf : undefined,
     side: json["side"] === "right" ? "right" : "left",
     wristFromPatient: [vector(rows[0]), vector(rows[1]), vector(rows[2])],
     bones: bones.map(bone),

@@ -6,9 +6,11 @@ import { make, setText } from "../dom";
 import type { Vec3 } from "../protocol";
 import { BoneList } from "./bone_list";
 import { BonesPanel } from "./bones_panel";
+import { takeKey, type DeskActs } from "./desk_keys";
 import { placeOfLabel } from "./label_place_model";
 import type { MeasureKind } from "./measure_model";
 import { MeasureTool } from "./measure_tool";
+import type { MendedBone } from "./mended_model";
 import { NewCaseDialog } from "./new_case_dialog";
 import { PaintTools } from "./paint_tools";
 import { applied, extentAlong, finestSpacing, voxelIndexAt, type Volume } from "./nifti_model";
@@ -32,9 +34,6 @@ export interface DeskCase {
   /** A case was made here. */
   added(id: string): void;
 }
-
-const FINE_MM = 0.3;
-const COARSE_MM = 3;
 
 export class ScanDesk {
   readonly element: HTMLElement;
@@ -105,6 +104,7 @@ export class ScanDesk {
         bonesChanged: () => {
           this.list.mark(this.labelAt(this.cross));
         },
+        look: data.mayAdd ? { of: data.id, show: this.showMended.bind(this) } : undefined,
       });
     }
     const pictures = make("div.scan-pictures", {}, ...this.panels.map((panel) => panel.element));
@@ -138,8 +138,9 @@ export class ScanDesk {
     } catch {
       pictures.append(make("p.secondary", {}, "This browser draws no 3-D picture."));
     }
+    const acts = this.acts();
     this.element.addEventListener("keydown", (event) => {
-      this.onKey(event);
+      takeKey(event, acts);
     });
     this.sizes = new ResizeObserver(() => {
       this.ask();
@@ -359,107 +360,74 @@ export class ScanDesk {
     this.ask();
   }
 
-  private onKey(event: KeyboardEvent): void {
-    const { target } = event;
-    const isField = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
-    if (isField || this.help.open || this.newCase.element.open || event.metaKey) return;
-    const isOnPicture = target instanceof HTMLCanvasElement;
-    const done = (isOnPicture && this.moveByKey(event)) || this.actByKey(event, isOnPicture);
-    if (done) event.preventDefault();
-  }
-
-  private moveByKey(event: KeyboardEvent): boolean {
-    const arrows: Readonly<Record<string, readonly [number, number]>> = {
-      ArrowLeft: [-1, 0],
-      ArrowRight: [1, 0],
-      ArrowUp: [0, -1],
-      ArrowDown: [0, 1],
-    };
-    const arrow = arrows[event.key];
-    const panel = this.focused;
-    const { right, down } = panel.planeNow;
-    if (arrow !== undefined && event.ctrlKey) {
-      panel.shift(-30 * arrow[0], -30 * arrow[1]);
-    } else if (arrow !== undefined) {
-      const mm = event.shiftKey ? COARSE_MM : FINE_MM;
-      this.setCross(along(along(this.cross, mm * arrow[0], right), mm * arrow[1], down), false);
-    } else if (event.key === "PageUp" || event.key === "PageDown") {
-      const many = event.shiftKey ? 10 : 1;
-      this.scroll(panel.planeNow, event.key === "PageDown" ? many : -many);
-    } else return false;
-    return true;
-  }
-
-  private actByKey(event: KeyboardEvent, isOnPicture: boolean): boolean {
-    if (event.ctrlKey || event.altKey) return false;
-    if (event.key === "+" || event.key === "=") this.zoom(1.12);
-    else if (event.key === "-") this.zoom(1 / 1.12);
-    else if (event.key === "?") this.help.showModal();
-    else if (event.key === "Enter" && isOnPicture && this.measures.kind !== undefined) {
-      this.addPlace(this.cross);
-    } else if (event.key === "Enter" && isOnPicture && this.mend?.brush !== undefined) {
-      this.mend.dab(this.cross);
-    } else if (this.mend?.onKey(event) === true) return true;
-    else return this.actByCode(event);
-    return true;
-  }
-
-  private actByCode(event: KeyboardEvent): boolean {
-    const acts: Readonly<Record<string, () => void>> = {
-      Digit0: () => {
-        this.fit();
+  private acts(): DeskActs {
+    return {
+      isAway: () => this.help.open || this.newCase.element.open,
+      shiftPicture: (right, down) => {
+        this.focused.shift(right, down);
       },
-      Digit1: () => {
-        this.setWindow(WINDOWS[0] ?? this.grey);
+      moveCross: (rightMm, downMm) => {
+        const { right, down } = this.focused.planeNow;
+        this.setCross(along(along(this.cross, rightMm, right), downMm, down), false);
       },
-      Digit2: () => {
-        this.setWindow(WINDOWS[1] ?? this.grey);
+      scroll: (slices) => {
+        this.scroll(this.focused.planeNow, slices);
       },
-      Digit3: () => {
-        this.setWindow(WINDOWS[2] ?? this.grey);
+      zoom: this.zoom.bind(this),
+      fit: this.fit.bind(this),
+      atCross: this.atCross.bind(this),
+      mend: (event) => this.mend?.onKey(event) === true,
+      window: (which) => {
+        this.setWindow(WINDOWS[which] ?? this.grey);
       },
-      BracketLeft: () => {
-        this.changeOpacity(-10);
-      },
-      BracketRight: () => {
-        this.changeOpacity(10);
-      },
-      KeyO: () => {
-        this.toggleLabels();
-      },
-      KeyX: () => {
+      changeOpacity: this.changeOpacity.bind(this),
+      toggleLabels: this.toggleLabels.bind(this),
+      toggleCross: () => {
         this.crossShown = !this.crossShown;
+        this.ask();
       },
-      KeyB: () => {
-        this.nextBone(event.shiftKey ? -1 : 1);
-      },
-      KeyM: () => {
-        this.measure("distance");
-      },
-      KeyN: () => {
-        this.measure("angle");
-      },
-      KeyP: () => {
-        this.turnPlanes();
-      },
-      Backspace: () => {
+      nextBone: this.nextBone.bind(this),
+      measure: this.measure.bind(this),
+      dropMeasure: () => {
         this.measures.dropLast();
+        this.ask();
       },
-      Escape: () => {
+      turnPlanes: this.turnPlanes.bind(this),
+      putDown: () => {
         this.measures.putDown();
         this.mend?.take(undefined);
         setText(this.said, "");
+        this.ask();
+      },
+      help: () => {
+        this.help.showModal();
       },
     };
-    const act = acts[event.code];
-    act?.();
-    if (act !== undefined) this.ask();
-    return act !== undefined;
+  }
+
+  /** With what is in hand. */
+  private atCross(): boolean {
+    if (this.measures.kind !== undefined) this.addPlace(this.cross);
+    else if (this.mend?.brush !== undefined) this.mend.dab(this.cross);
+    else return false;
+    return true;
+  }
+
+  private showMended(bones: readonly MendedBone[], glb: ArrayBuffer | undefined): void {
+    const mended = bones.map(({ name, label }) => ({
+      name,
+      color: this.colors[label] ?? 0xffffff,
+    }));
+    this.bones?.mend(mended, glb).catch(() => {
+      setText(this.said, "The mended surface could not be shown; the slices are right.");
+    });
+    this.ask();
   }
 
   private changeOpacity(by: number): void {
     this.labelsShown = true;
     this.bar.changeOpacity(by);
+    this.ask();
   }
 
   /** Once, before the next picture on the screen. */

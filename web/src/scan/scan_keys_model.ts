@@ -48,6 +48,10 @@ export const SCAN_HELP: readonly { readonly title: string; readonly lines: reado
           keys: "{KeyA}, {KeyE}",
           text: "paint the bone in hand, erase it; drag, or Enter at the crosshair",
         },
+        {
+          keys: "{KeyW}",
+          text: "marker: mark roughly what belongs to it, and its border is found in the CT",
+        },
         { keys: "{Comma} {Period}", text: "brush smaller, larger" },
         { keys: "{KeyZ}, {KeyY}", text: "undo, redo" },
         { keys: "{KeyF}", text: "fill the bone's hollows" },

@@ -5,7 +5,6 @@
 import { fetchCases } from "../case_data";
 import { button, make, setText } from "../dom";
 import type { CaseList } from "../protocol";
-import { earlierVersion } from "./earlier_version";
 import { mayAddCases } from "./new_case_client";
 import "./scan.css";
 import { ScanDesk } from "./scan_desk";
@@ -37,11 +36,11 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
       return undefined; // bones without labels are seen too
     });
     if (abort.signal.aborted) return;
-    const links = make("span.scan-links", {}, ...ways(cases, id));
+    const links = make("span.scan-links", {}, ...ways(cases, id, scanned.versionOf));
     const added = (): void => {
       fetchCases().then(
         (now) => {
-          links.replaceChildren(...ways(now, id));
+          links.replaceChildren(...ways(now, id, scanned.versionOf));
         },
         () => undefined, // they are in the list when the page is opened next
       );
@@ -68,8 +67,11 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
   };
 }
 
-/** Where else one can go: another case's scan, and the operation. */
-function ways(cases: CaseList, id: string): HTMLElement[] {
+/**
+ * Where else one can go: another case's scan, the version before, where a run made it worse, and the
+ * operation.
+ */
+function ways(cases: CaseList, id: string, before: string | undefined): HTMLElement[] {
   const choice = make(
     "select",
     { "aria-label": "Case" },
@@ -83,12 +85,8 @@ function ways(cases: CaseList, id: string): HTMLElement[] {
     location.hash = `#/scan/${encodeURIComponent(choice.value)}`;
   });
   const operate = make("a.button-link", { href: "#/" }, "Operate");
-  const before = earlierVersion(
-    id,
-    cases.cases.map((one) => one.id),
-  );
   const back =
-    before === undefined
+    before === undefined || !cases.cases.some((one) => one.id === before)
       ? []
       : [
           make(
