@@ -7,6 +7,7 @@
 import { make } from "../dom";
 import type {
   BodyPose,
+  DiscMessage,
   ExerciseMessage,
   HandMessage,
   ScopeMessage,
@@ -50,6 +51,8 @@ export interface ScopeRoom {
   showHand(hand: HandIndex): void;
 }
 
+/** In which the disc lies. */
+const DISC_JOINT = "radiocarpal";
 const LEAN_RAD_PER_S = (28 * Math.PI) / 180;
 const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
 const IN_JOINT_MM_PER_S = 6;
@@ -154,6 +157,7 @@ export class ScopeDesk {
       exercise.bodies.map((one) => one.name),
     );
     this.findings.set(this.plan.findings);
+    for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
@@ -184,6 +188,12 @@ export class ScopeDesk {
     const before = this.scope?.points_seen.length;
     this.scope = message;
     if (before !== message.points_seen.length) this.showPoints();
+  }
+
+  seeDisc(message: DiscMessage): void {
+    const wall = this.walls.find((one) => one.joint === DISC_JOINT);
+    wall?.yieldDisc(message.off_um);
+    this.posed.delete(DISC_JOINT);
   }
 
   /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */
