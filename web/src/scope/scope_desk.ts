@@ -31,7 +31,8 @@ import {
 } from "./scope_hand_model";
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
-import { ScopeReadings, type Plan } from "./scope_readings";
+import { DISC_JOINT, type Plan } from "./scope_plan";
+import { ScopeReadings } from "./scope_readings";
 import "./scope.css";
 
 type HandIndex = 0 | 1;
@@ -51,8 +52,6 @@ export interface ScopeRoom {
   showHand(hand: HandIndex): void;
 }
 
-/** In which the disc lies. */
-const DISC_JOINT = "radiocarpal";
 const LEAN_RAD_PER_S = (28 * Math.PI) / 180;
 const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
 const IN_JOINT_MM_PER_S = 6;
