@@ -193,6 +193,7 @@ class MapMaker {
         bones_(data, table_.traction_n) {
     map_.forearm = body_of(BoneId::Radius).value_or(0);
     map_.disc = tissue.disc.body;
+    map_.disc_sheet = tissue.disc.middle;
     map_.distal = wrist_.way({-1, 0, 0});
   }
 

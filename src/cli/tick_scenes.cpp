@@ -16,6 +16,7 @@
 #include "instruments/instrument.hpp"
 #include "simulation/recording.hpp"
 #include "simulation/world.hpp"
+#include "trainee/arthroscopist.hpp"
 #include "trainee/attempt.hpp"
 #include "trainee/scripted_trainee.hpp"
 
@@ -259,6 +260,37 @@ void operate(const cases::CaseData& data,
   }
 }
 
+/// Operations of the scripted arthroscopist, of which the ticks count in which the scope looks into
+/// a joint, and those in which the disc yields besides.
+void look_round(const cases::CaseData& data,
+                const procedure::Procedure& procedure,
+                std::size_t ticks,
+                TickBench& bench) {
+  SceneTimes looking{"scope_in_joint", {}};
+  SceneTimes yielding{"disc_yields", {}};
+  const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
+  for (std::uint64_t seed = 1; seed <= kMostOperations && (wants(looking) || wants(yielding));
+       ++seed) {
+    World world(data, procedure, seed);
+    trainee::ScriptedArthroscopist hand(data, procedure, trainee::Skill::Expert, seed);
+    hand.examines(world.lesions());
+    while (!world.now().finished && !hand.is_done()) {
+      const Input input = hand.next(world.now());
+      const float us = timed_step(world, input);
+      const Snapshot& now = world.now();
+      if (!now.is_disc_still && wants(yielding)) {
+        yielding.microseconds.push_back(us);
+      } else if (now.scope.facts.is_in_joint[0] && wants(looking)) {
+        looking.microseconds.push_back(us);
+      }
+    }
+    bench.unresolved_contacts += world.faults().unresolved_contacts;
+  }
+  for (SceneTimes* times : {&looking, &yielding}) {
+    if (!times->microseconds.empty()) bench.scenes.push_back(std::move(*times));
+  }
+}
+
 void cost_of_exercise(const cases::CaseData& data,
                       const procedure::Procedure& procedure,
                       ExerciseCosts& costs) {
@@ -291,6 +323,11 @@ TickBench time_ticks(const cases::CaseData& data,
   {
     World world(data, procedure, 1);
     bench.scenes.push_back(scene("quiet", world, ticks, [](double, Input&) {}));
+  }
+  if (trainee::is_arthroscopy(procedure)) {
+    look_round(data, procedure, ticks, bench);
+    cost_of_exercise(data, procedure, bench.costs);
+    return bench;
   }
   bench.scenes.push_back(two_hands(data, procedure, ticks));
   bench.scenes.push_back(wrist_moving(data, procedure, ticks));

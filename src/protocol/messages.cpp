@@ -432,6 +432,13 @@ void write(FieldWriter& out, const Scope& in) {
   out.list("answers", in.answers);
 }
 
+void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }
+
+void write(FieldWriter& out, const Disc& in) {
+  out.name("type", "disc");
+  out.list("off_um", in.off_um);
+}
+
 void read(FieldReader& in, Actions& out) { in.records("actions", 0, 512, out.actions); }
 
 void write(FieldWriter& out, const Actions& in) {
@@ -597,12 +604,13 @@ constexpr std::array<MessageKind<PageMessage>, 22> kPageMessageKinds{
      {"quiz_answer", &read_as<PageMessage, QuizAnswer>},
      {"pause", &read_as<PageMessage, Pause>}}};
 
-constexpr std::array<MessageKind<HostMessage>, 13> kHostMessageKinds{
+constexpr std::array<MessageKind<HostMessage>, 14> kHostMessageKinds{
     {{"welcome", &read_as<HostMessage, Welcome>},
      {"exercise", &read_as<HostMessage, Exercise>},
      {"snapshot", &read_as<HostMessage, Snapshot>},
      {"tissue", &read_as<HostMessage, Tissue>},
      {"scope", &read_as<HostMessage, Scope>},
+     {"disc", &read_as<HostMessage, Disc>},
      {"actions", &read_as<HostMessage, Actions>},
      {"event", &read_as<HostMessage, Event>},
      {"score", &read_as<HostMessage, Score>},

@@ -368,6 +368,14 @@ struct Scope {
   bool operator==(const Scope&) const = default;
 };
 
+/// By how much the disc has yielded; comes when that changed.
+struct Disc {
+  /// of each place of arthroscopy.disc_mm three, along the axes of the Patient frame as the forearm
+  /// was scanned; none: it rests
+  std::vector<std::int64_t> off_um;
+  bool operator==(const Disc&) const = default;
+};
+
 /// All that can be asked for, and whether it would be done; comes when any of it changed.
 struct Actions {
   std::vector<Action> actions;
@@ -453,6 +461,7 @@ using HostMessage = std::variant<Welcome,
                                  Snapshot,
                                  Tissue,
                                  Scope,
+                                 Disc,
                                  Actions,
                                  Event,
                                  Score,

@@ -402,6 +402,7 @@ void read(FieldReader& in, Arthroscopy& out) {
   out.distal = in.vec3("distal", 2.0, 0.0);
   in.records("portals", 0, 16, out.portals);
   in.records("points", 0, 32, out.points);
+  in.list("disc_mm", 0, 160, 10000.0, 0.0, out.disc_mm);
   in.records("lesions", 0, 24, out.lesions);
   in.records("findings", 0, 16, out.findings);
 }
@@ -413,6 +414,7 @@ void write(FieldWriter& out, const Arthroscopy& in) {
   out.vec3("distal", in.distal);
   out.records("portals", in.portals);
   out.records("points", in.points);
+  out.list("disc_mm", in.disc_mm);
   out.records("lesions", in.lesions);
   out.records("findings", in.findings);
 }

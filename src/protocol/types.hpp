@@ -531,6 +531,8 @@ struct Arthroscopy {
   Vec3 distal;
   std::vector<Portal> portals;
   std::vector<TourPoint> points;
+  /// places of the disc as scanned, which goes with the forearm and yields: see `disc`
+  std::vector<Vec3> disc_mm;
   /// of this exercise, to be drawn and not to be told
   std::vector<Lesion> lesions;
   /// none: nothing is asked

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/scope_message.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "arthroscopy/disc_net.hpp"
 #include "arthroscopy/make_lesions.hpp"
 #include "session/body_names.hpp"
 
@@ -22,13 +24,13 @@ std::vector<std::int64_t> numbers_in(std::uint32_t bits) {
   return numbers;
 }
 
-void add_examination(protocol::Arthroscopy& message,
-                     const cases::CaseData& data,
-                     const BodyNames& names,
-                     std::uint64_t seed) {
+cases::JointLesions add_examination(protocol::Arthroscopy& message,
+                                    const cases::CaseData& data,
+                                    const BodyNames& names,
+                                    std::uint64_t seed) {
   const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
   const cases::ArthroscopicMap& map = *data.arthroscopy;
-  const cases::JointLesions made =
+  cases::JointLesions made =
       arthroscopy::make_lesions(data, map, table, arthroscopy::grades_by(seed, table), seed);
   for (const cases::Lesion& lesion : made.lesions) {
     message.lesions.push_back({static_cast<protocol::LesionLook>(lesion.look),
@@ -43,6 +45,7 @@ void add_examination(protocol::Arthroscopy& message,
     }
     message.findings.push_back(std::move(finding));
   }
+  return made;
 }
 
 }  // namespace
@@ -73,7 +76,13 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
                               data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});
   }
-  if (procedure.examines) add_examination(message, data, names, seed);
+  const cases::JointLesions* wrong = nullptr;
+  cases::JointLesions made;
+  if (procedure.examines) {
+    made = add_examination(message, data, names, seed);
+    wrong = &made;
+  }
+  message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong).rest();
   return message;
 }
 
@@ -101,6 +110,19 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
   message.pull_outs = scope.pull_outs;
   for (const std::uint8_t grade : scope.answers) {
     message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
+  }
+  return message;
+}
+
+std::optional<protocol::Disc> disc_message(const simulation::Snapshot& now) {
+  if (now.disc_count == 0) return std::nullopt;
+  protocol::Disc message;
+  if (now.is_disc_still) return message;
+  constexpr double kUmPerMm = 1000.0;
+  for (std::size_t i = 0; i < now.disc_count; ++i) {
+    for (const float off : now.disc_off[i]) {
+      message.off_um.push_back(std::llround(static_cast<double>(off) * kUmPerMm));
+    }
   }
   return message;
 }

@@ -25,4 +25,7 @@ namespace carpus::session {
 [[nodiscard]] std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
                                                            const simulation::Snapshot& now);
 
+/// Without numbers where the disc rests; none in a case without one.
+[[nodiscard]] std::optional<protocol::Disc> disc_message(const simulation::Snapshot& now);
+
 }  // namespace carpus::session

@@ -102,6 +102,9 @@ std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& n
   std::optional<protocol::Scope> scope = scope_message(data_, now);
   if (scope && scope != sent_scope_) messages.emplace_back(*scope);
   sent_scope_ = std::move(scope);
+  std::optional<protocol::Disc> disc = disc_message(now);
+  if (disc && disc != sent_disc_) messages.emplace_back(*disc);
+  sent_disc_ = std::move(disc);
   return messages;
 }
 
@@ -110,6 +113,7 @@ void Session::forget_what_was_sent() noexcept {
   sent_poses_.clear();
   sent_actions_.actions.clear();
   sent_scope_.reset();
+  sent_disc_.reset();
 }
 
 protocol::LoggedEvent Session::describe(const simulation::Event& event) const {

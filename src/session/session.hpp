@@ -80,6 +80,7 @@ class Session {
   std::vector<BonePose> sent_poses_;
   protocol::Actions sent_actions_;
   std::optional<protocol::Scope> sent_scope_;
+  std::optional<protocol::Disc> sent_disc_;
 };
 
 }  // namespace carpus::session

@@ -15,6 +15,7 @@
 #include "geometry/vec3.hpp"
 #include "procedure/mode.hpp"
 #include "simulation/input.hpp"
+#include "yielding/yielding_net.hpp"
 
 namespace carpus::simulation {
 
@@ -171,6 +172,11 @@ struct Snapshot {
   std::uint64_t dose_units = 0;       ///< procedure::dose_units of them
   procedure::TubeSetting tube = procedure::kUsualTube;
   ScopeView scope;
+  /// Of the disc's particles, by how much they are off where they rest, frame Bone of the forearm
+  /// [mm].
+  std::array<std::array<float, 3>, yielding::kMaxParticles> disc_off{};
+  std::uint16_t disc_count = 0;
+  bool is_disc_still = true;
   std::uint8_t aids = 0;  ///< bit i: procedure::Aid i was used
   std::uint32_t undos = 0;
   bool can_undo = false;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "arthroscopy/disc_net.hpp"
 #include "arthroscopy/make_lesions.hpp"
 #include "core/error.hpp"
 #include "simulation/c_arm_angles.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 constexpr double kWorkspaceMm = 1000.0;    // beyond this from the CT's origin a tip makes no sense
 constexpr double kGreatestThrustN = 60.0;  // protocol/protocol.json
+constexpr int kHookTest = 16;              // of the tour [K, B8]
 constexpr double kGreatestShaft = 4.0;     // by component, before it is normalised
 
 std::vector<fields::ContactField> fields_of(const cases::CaseData& data) {
@@ -86,6 +88,12 @@ World::Model::Model(const cases::CaseData& case_data,
       if (squared_length(lesions->shifts[b]) > 0) loose[loose_count++] = b;
     }
   }
+  if (map != nullptr) {
+    disc = arthroscopy::disc_net(*map, lesions ? &*lesions : nullptr);
+    for (const cases::TourPoint& point : map->points) {
+      if (point.number == kHookTest) disc_edge = yielding::nearest(disc, point.at);
+    }
+  }
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
     throw InvalidInput("simulation: the procedure " + declared.id +
@@ -100,6 +108,7 @@ World::State::State(const Model& model)
   snapshot.mode = model.mode;
   snapshot.seed = model.seed;
   scene.set_cuts(tissue.cuts().fields());
+  disc.reset(model.disc);
 }
 
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
@@ -215,6 +224,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
       move_free(model, h);
     }
   }
+  yield_disc(model);
   watch_structures(model);
   watch_scopes(model);
   tick_off_steps(model);

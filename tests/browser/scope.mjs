@@ -75,9 +75,7 @@ export async function arthroscopy(browser, station) {
     const [calls, triangles] = await page
       .locator(".scope")
       .evaluate((e) => [Number(e.dataset.calls), Number(e.dataset.triangles)]);
-    process.stdout.write(
-      `  scope: ${calls} calls, ${triangles} triangles\n`,
-    );
+    process.stdout.write(`  scope: ${calls} calls, ${triangles} triangles\n`);
     expect(calls > 0 && calls <= MOST_CALLS, `${calls} draw calls`);
     expect(triangles <= MOST_TRIANGLES, `${triangles} triangles`);
   });
@@ -91,7 +89,9 @@ export async function arthroscopy(browser, station) {
     await page.keyboard.up("a");
     await picture("touch");
     await page.keyboard.press("f");
-    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.click(
+      "dialog[open] button[value=finish], dialog[open] .primary",
+    );
     await page.waitForURL(/#\/attempts\/\d+/);
     await page.getByText("Cartilage seen").first().waitFor();
     await picture("score");
@@ -122,7 +122,12 @@ export async function examination(browser, station) {
       const title = page.locator(".scope-points-title");
       if (/Midcarpal/.test(await title.innerText())) break;
     }
-    await holdUntil(page, "a", "Scope in the joint by MC", "the scope, midcarpal");
+    await holdUntil(
+      page,
+      "a",
+      "Scope in the joint by MC",
+      "the scope, midcarpal",
+    );
     await hold(page, "a", 200);
     for (let turn = 0; turn < 6; ++turn) {
       const seen = await page.locator(".scope-points .is-seen").count();
@@ -139,7 +144,8 @@ export async function examination(browser, station) {
     const rows = page.locator(".finding");
     const count = await rows.count();
     expect(count >= 10, `${count} things are asked`);
-    for (let i = 0; i < count; ++i) await rows.nth(i).locator("label").first().click();
+    for (let i = 0; i < count; ++i)
+      await rows.nth(i).locator("label").first().click();
     await rows.first().locator("label").nth(2).click();
     await picture("report");
     await page.keyboard.press("Escape");
@@ -151,10 +157,48 @@ export async function examination(browser, station) {
     await page.keyboard.press("Escape");
     await page.waitForTimeout(10_000); // the least look that is judged
     await page.keyboard.press("f");
-    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.click(
+      "dialog[open] button[value=finish], dialog[open] .primary",
+    );
     await page.waitForURL(/#\/attempts\/\d+/);
     await page.getByText("Findings that are not there").first().waitFor();
     await picture("score");
   });
+  await check(
+    page,
+    "looked at again, the scope shows what it showed",
+    async () => {
+      const id = /attempts\/(\d+)/.exec(page.url())[1];
+      const attempt = await (
+        await fetch(`${station.url}/api/attempts/${id}`)
+      ).json();
+      const length = Math.round(attempt.duration_s * 1000);
+      await page.goto(`${station.url}/#/replay/${id}?t=${length / 1000}`);
+      await page.waitForFunction(
+        (wanted) => window.carpusReplay?.ticks()[0] === wanted,
+        length,
+      );
+      await page
+        .locator(".replay-monitor .panel-title", {
+          hasText: "in the midcarpal joint",
+        })
+        .waitFor();
+      await page.waitForTimeout(500);
+      await picture("replay");
+      const spread = await page
+        .locator(".scope-replay canvas")
+        .evaluate((canvas) => {
+          const small = document.createElement("canvas");
+          small.width = small.height = 32;
+          const context = small.getContext("2d");
+          context.drawImage(canvas, 0, 0, 32, 32);
+          const { data } = context.getImageData(0, 0, 32, 32);
+          const grey = [];
+          for (let i = 0; i < data.length; i += 4) grey.push(data[i]);
+          return Math.max(...grey) - Math.min(...grey);
+        });
+      expect(spread > 60, `the picture is blank: ${spread} grey levels`);
+    },
+  );
   await page.context().close();
 }

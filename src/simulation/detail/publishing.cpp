@@ -69,7 +69,7 @@ void World::State::publish_item(const Model& model, std::size_t index) noexcept 
   view.tip_hu = density_hu(model, item.tip);
 }
 
-void World::State::publish_hand(std::size_t hand) noexcept {
+void World::State::publish_hand(const Model& model, std::size_t hand) noexcept {
   detail::HandState& held = spent.hands[hand];
   HandView& view = snapshot.hands[hand];
   view.item = now.held[hand];
@@ -81,6 +81,7 @@ void World::State::publish_hand(std::size_t hand) noexcept {
   const Vec3& wish = held.plan.tip;
   view.contact_depth_mm = view.touching ? distance(wish, item->tip) : 0.0;
   view.force_in_patient = {};
+  scope_state.felt[hand] = {};
   if (item == nullptr) {
     held.coupling.release(wish);
     return;
@@ -88,6 +89,8 @@ void World::State::publish_hand(std::size_t hand) noexcept {
   // The hand is tied to where its instrument could go: free, to beside the bone; in bone to its
   // line, along which it goes as far as the bone lets it.
   view.force_in_patient = held.coupling.force_n(item->tip, wish, haptics::kForceLimitN);
+  view.force_in_patient += hook_force(model, hand);
+  scope_state.felt[hand] = view.force_in_patient;
   faults.forces_zeroed += held.coupling.take_faults();
 }
 
@@ -104,6 +107,7 @@ void World::State::publish_state(const Model& model) noexcept {
   while (current < steps.size() && (now.completed_steps >> current & 1U) != 0) ++current;
   snapshot.step = static_cast<std::uint8_t>(spent.ended != 0 ? steps.size() : current);
   for (std::size_t i = 0; i < kMaxItems; ++i) publish_item(model, i);
+  if (model.map != nullptr) publish_disc(model);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) snapshot.patient_from_bone[b] = poses[b];
   snapshot.wrist = spent.wrist;
   if (snapshot.tissue_revision != spent.tissue_revision ||
@@ -131,7 +135,7 @@ void World::State::publish_state(const Model& model) noexcept {
 }
 
 void World::State::publish(const Model& model) noexcept {
-  for (std::size_t h = 0; h < kHands; ++h) publish_hand(h);
+  for (std::size_t h = 0; h < kHands; ++h) publish_hand(model, h);
   publish_state(model);
 }
 
@@ -147,6 +151,7 @@ void World::State::update_hash(const Model& model) noexcept {
   // Nor do procedures in which nothing enters joints.
   if (model.map != nullptr) {
     visit(scope_state, fields);
+    yielding::NetState::visit(disc, model.disc.size(), fields);
     if (scope_state.look_count > 0) detail::visit_look(looks[scope_state.look_count - 1], fields);
   }
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);

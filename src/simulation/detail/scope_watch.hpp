@@ -17,6 +17,7 @@
 namespace carpus::simulation::detail {
 
 inline constexpr std::uint8_t kNoPortal = procedure::kNoBody;
+inline constexpr std::uint16_t kNothingHooked = 0xFFFF;
 inline constexpr std::size_t kMaxLooks = 4096;
 /// A point is seen once it was in view for so long without a break [E].
 inline constexpr std::uint32_t kSeenTicks = 1000;
@@ -43,6 +44,11 @@ struct ScopeState {
   std::uint32_t look_count = 0;
   std::array<std::uint32_t, cases::kMaxLesions> lesion_ticks{};  ///< since it came into view
   std::uint32_t lesions_seen = 0;
+  std::array<double, kHands> gives_mm{};  ///< by which the disc has yielded to the tip
+  std::array<Vec3, kHands> grip{};        ///< from the tip to what is hooked, when it was
+  std::array<Vec3, kHands> felt{};        ///< force on each hand, of the tick before [N]
+  std::array<bool, kHands> has_edge{};    ///< the probe's hook has touched its ulnar edge
+  std::array<std::uint16_t, kHands> hooked{kNothingHooked, kNothingHooked};  ///< its particle
   cases::Grades answers = cases::not_judged();
 };
 
@@ -55,6 +61,11 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(state.is_in_joint[h]);
     v(state.last_tip[h]);
     v(state.path_mm[h]);
+    v(state.gives_mm[h]);
+    v(state.grip[h]);
+    v(state.felt[h]);
+    v(state.has_edge[h]);
+    v(state.hooked[h]);
   }
   for (auto& ticks : state.in_view_ticks) v(ticks);
   v(state.points_in_view);
@@ -92,7 +103,7 @@ void visit_look(SomeLook& look, Visitor&& v) noexcept {
                   state.camera_turn_deg <= 180.0 && state.most_force_n >= 0.0;
   for (std::size_t h = 0; h < kHands; ++h) {
     is_sound = is_sound && (state.portal[h] == kNoPortal || state.portal[h] < portals) &&
-               state.path_mm[h] >= 0.0;
+               state.path_mm[h] >= 0.0 && state.gives_mm[h] >= 0.0;
   }
   return is_sound;
 }

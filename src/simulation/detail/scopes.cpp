@@ -98,7 +98,8 @@ World::State::Wall World::State::wall_at(const Model& model,
   }
   const arthroscopy::OpenedSpace space =
       joint_space_at(model, model.map->portals[portal].joint, tip);
-  if (space.is_near && space.distance_mm <= kWallMm) return {};
+  const double gives = scope_state.gives_mm[hand];  // where the disc is under it
+  if (space.is_near && space.distance_mm <= kWallMm + gives) return {};
   const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
   if (is_in_hole(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
   const WayIn way = way_in(model, portal);
@@ -110,7 +111,7 @@ World::State::Wall World::State::wall_at(const Model& model,
   const bool is_in = scope_state.is_in_joint[hand];
   if (!is_in && deep <= way.capsule_mm) return {off - kTunnelMm, aside * (-1.0 / off)};
   if (squared_length(space.outwards) > 0.5) {
-    return {space.distance_mm - kWallMm, -space.outwards};
+    return {space.distance_mm - kWallMm - gives, -space.outwards};
   }
   return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }
@@ -309,7 +310,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
     const std::size_t what = kind_of(model, *item).optic ? 0 : 1;
     state.path_mm[what] += distance(state.last_tip[h], item->tip);
     state.last_tip[h] = item->tip;
-    const double force = length(snapshot.hands[h].force_in_patient);  // of the tick before
+    const double force = length(state.felt[h]);
     if (force > kWarnN) ++state.warn_ticks;
     if (force > kInjuryN) ++state.injury_ticks;
     state.most_force_n = std::max(state.most_force_n, force);

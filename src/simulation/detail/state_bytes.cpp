@@ -69,6 +69,7 @@ std::vector<std::byte> World::write_state() const {
   if (state.structures.size() > 0) visit(state.structure_state, fields);
   if (model_->map != nullptr) {
     visit(state.scope_state, fields);
+    yielding::NetState::visit(state.disc, model_->disc.size(), fields);
     for (std::size_t i = 0; i < state.scope_state.look_count; ++i) {
       detail::visit_look(state.looks[i], fields);
     }
@@ -104,9 +105,12 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::StructureState structures;
   if (state_->structures.size() > 0) visit(structures, fields);
   detail::ScopeState scope;
+  yielding::NetState disc;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
+    disc.reset(model_->disc);
+    yielding::NetState::visit(disc, model_->disc.size(), fields);
     is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size());
     if (is_sound) looks.resize(scope.look_count);
     for (procedure::ScopeLook& look : looks) detail::visit_look(look, fields);
@@ -126,6 +130,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->spent = *spent;
   next->structure_state = structures;
   next->scope_state = scope;
+  if (model_->map != nullptr) next->disc = disc;
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);

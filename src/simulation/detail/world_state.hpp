@@ -27,6 +27,7 @@
 #include "simulation/detail/tissue.hpp"
 #include "simulation/permission.hpp"
 #include "simulation/world.hpp"
+#include "yielding/yielding_net.hpp"
 
 namespace carpus::simulation {
 
@@ -54,6 +55,8 @@ struct World::Model {
   std::optional<cases::JointLesions> lesions;    ///< of an examination
   std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
   std::size_t loose_count = 0;
+  yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
+  std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
 };
 
 /// Everything that changes.
@@ -64,6 +67,7 @@ struct World::State {
   detail::Spent spent;
   detail::StructureState structure_state;
   detail::ScopeState scope_state;
+  yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   detail::StructureWatch structures;
   detail::Tissue tissue;
@@ -293,6 +297,11 @@ struct World::State {
   void publish_scope(const Model& model) noexcept;
   [[nodiscard]] procedure::ScopeRecord scope_record(const Model& model) const;
 
+  // yielding_disc.cpp
+  void yield_disc(const Model& model) noexcept;
+  [[nodiscard]] Vec3 hook_force(const Model& model, std::size_t hand) const noexcept;
+  void publish_disc(const Model& model) noexcept;
+
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;
   struct Facts {
@@ -307,7 +316,7 @@ struct World::State {
   void publish(const Model& model) noexcept;
   void publish_state(const Model& model) noexcept;
   void publish_item(const Model& model, std::size_t index) noexcept;
-  void publish_hand(std::size_t hand) noexcept;
+  void publish_hand(const Model& model, std::size_t hand) noexcept;
   void update_hash(const Model& model) noexcept;
 
   [[nodiscard]] detail::Item* in_hand(std::size_t hand) noexcept {

@@ -380,6 +380,8 @@ export interface Arthroscopy {
   readonly distal: Vec3;
   readonly portals: readonly Portal[];
   readonly points: readonly TourPoint[];
+  /** places of the disc as scanned, which goes with the forearm and yields: see `disc` */
+  readonly disc_mm: readonly Vec3[];
   /** of this exercise, to be drawn and not to be told */
   readonly lesions: readonly Lesion[];
   /** none: nothing is asked */
@@ -1065,6 +1067,13 @@ export interface ScopeMessage {
   readonly answers: readonly number[];
 }
 
+/** By how much the disc has yielded; comes when that changed. */
+export interface DiscMessage {
+  readonly type: "disc";
+  /** of each place of arthroscopy.disc_mm three, along the axes of the Patient frame as the forearm was scanned; none: it rests */
+  readonly off_um: readonly number[];
+}
+
 /** All that can be asked for, and whether it would be done; comes when any of it changed. */
 export interface ActionsMessage {
   readonly type: "actions";
@@ -1149,6 +1158,7 @@ export type HostMessage =
   | SnapshotMessage
   | TissueMessage
   | ScopeMessage
+  | DiscMessage
   | ActionsMessage
   | EventMessage
   | ScoreMessage

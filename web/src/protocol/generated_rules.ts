@@ -202,6 +202,7 @@ export const SCHEMA: Schema = {
       distal: {"type": "vec3", "limit": 2},
       portals: {"type": "array", "of": {"type": "portal"}, "max_items": 16},
       points: {"type": "array", "of": {"type": "tour_point"}, "max_items": 32},
+      disc_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 160},
       lesions: {"type": "array", "of": {"type": "lesion"}, "max_items": 24},
       findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
     } },
@@ -567,6 +568,9 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     points_in_view: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
     pull_outs: {"type": "integer", "min": 0, "max": 4294967295},
     answers: {"type": "array", "of": {"type": "integer", "min": -1, "max": 14}, "max_items": 16},
+  },
+  disc: {
+    off_um: {"type": "array", "of": {"type": "integer", "min": -20000, "max": 20000}, "max_items": 480},
   },
   actions: {
     actions: {"type": "array", "of": {"type": "action"}, "max_items": 512},

@@ -39,6 +39,22 @@ describe("statesOf", () => {
     expect(states.map((state) => state.tracks.length)).toEqual([1, 1, 2]);
     expect(states.every((state) => state.bodies.length === 1)).toBe(true);
   });
+
+  it("gives the scope and the disc to the snapshot that they came after, and carries them on", () => {
+    const scope = (pullOuts: number): HostMessage =>
+      ({ type: "scope", pull_outs: pullOuts }) as HostMessage;
+    const states = statesOf([
+      snapshot(1),
+      scope(0),
+      snapshot(2),
+      snapshot(3),
+      scope(1),
+      { type: "disc", off_um: [0, 0, -500] },
+      snapshot(4),
+    ]);
+    expect(states.map((state) => state.scope?.pull_outs)).toEqual([0, 0, 1, 1]);
+    expect(states.map((state) => state.discUm.length)).toEqual([0, 0, 3, 3]);
+  });
 });
 
 describe("ReplayBuffer", () => {

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // States of a replay as they come, stretch by stretch, and which are wanted next. The host tells
-// bodies and removed bone only where they changed within a stretch; here every state has them.
-import type { BodyPose, HostMessage, SnapshotMessage, Track } from "../protocol";
+// bodies, removed bone and the scope only where they changed within a stretch; here every state has them.
+import type { BodyPose, HostMessage, ScopeMessage, SnapshotMessage, Track } from "../protocol";
 
 export interface ReplayState {
   readonly snapshot: SnapshotMessage;
   readonly bodies: readonly BodyPose[];
   readonly tracks: readonly Track[];
+  /** Of an arthroscopy, while a hand holds a scope. */
+  readonly scope: ScopeMessage | undefined;
+  /** Of the message `disc`. */
+  readonly discUm: readonly number[];
 }
 
 export interface Stretch {
@@ -28,12 +32,20 @@ const MOST_KEPT = 400;
 export function statesOf(messages: readonly HostMessage[]): ReplayState[] {
   let bodies: readonly BodyPose[] = [];
   let tracks: readonly Track[] = [];
+  let scope: ScopeMessage | undefined;
+  let discUm: readonly number[] = [];
   const states: ReplayState[] = [];
   for (const message of messages) {
     if (message.type === "tissue") tracks = message.tracks;
+    if (message.type === "scope") scope = message;
+    if (message.type === "disc") discUm = message.off_um;
+    const last = states.at(-1);
+    // Both come after the snapshot that they belong to.
+    if (last !== undefined && (message.type === "scope" || message.type === "disc"))
+      states[states.length - 1] = { ...last, scope, discUm };
     if (message.type !== "snapshot") continue;
     bodies = message.bodies ?? bodies;
-    states.push({ snapshot: message, bodies, tracks });
+    states.push({ snapshot: message, bodies, tracks, scope, discUm });
   }
   return states;
 }

@@ -7,6 +7,7 @@ import { fetchReplayPicture } from "../case_data";
 import { make, setText } from "../dom";
 import { faceNames, makeFrameMap } from "../frames";
 import type { Attempt, CArmPicture, CaseDescription, ExerciseMessage } from "../protocol";
+import { ScopeReplay } from "../scope";
 import { Theatre, type CaseScene, type ViewId } from "../theatre";
 import { ReplayBuffer, type ReplayState } from "./replay_buffer_model";
 import { fetchStates } from "./replay_client";
@@ -41,6 +42,8 @@ export class ReplayStage {
   private readonly readings = make("p.replay-readings");
   private readonly waiting = make("p.replay-waiting", { role: "status" });
   private readonly bar: ScrubBar;
+  /** Instead of the C-arm's monitor, in an arthroscopy. */
+  private readonly scope: ScopeReplay | undefined;
   private readonly buffer: ReplayBuffer;
   private readonly looks: readonly number[];
   private readonly pictures = new Map<number, CArmPicture>();
@@ -68,6 +71,7 @@ export class ReplayStage {
     const place = make("div.stage", { role: "application", "aria-label": `Theatre, ${title}` });
     this.bar = new ScrubBar(`Moment of ${title}`, this.length, this.marks, handlers.moved);
     this.monitor.sayWhileEmpty("No picture was taken yet.");
+    this.scope = ScopeReplay.of(exercise, scene.jointWalls);
     this.element = make(
       "section.replay-stage",
       { "aria-label": title },
@@ -76,13 +80,20 @@ export class ReplayStage {
         "div.replay-scene",
         {},
         make("div.replay-theatre", {}, place, this.waiting),
-        make(
-          "div.replay-monitor",
-          {},
-          make("header.panel-title", {}, make("h3", {}, "C-arm"), this.pictureName),
-          this.monitor.element,
-          this.strip,
-        ),
+        this.scope === undefined
+          ? make(
+              "div.replay-monitor",
+              {},
+              make("header.panel-title", {}, make("h3", {}, "C-arm"), this.pictureName),
+              this.monitor.element,
+              this.strip,
+            )
+          : make(
+              "div.replay-monitor",
+              {},
+              make("header.panel-title", {}, make("h3", {}, "Scope"), this.scope.caption),
+              this.scope.element,
+            ),
       ),
       this.readings,
       this.bar.element,
@@ -155,10 +166,12 @@ export class ReplayStage {
 
   draw(): void {
     this.theatre.draw();
+    this.scope?.draw();
   }
 
   dispose(): void {
     this.asking?.abort();
+    this.scope?.dispose();
     this.theatre.dispose();
   }
 
@@ -175,6 +188,7 @@ export class ReplayStage {
       this.theatre.setTarget(bodies.filter((one) => one.is_target).map((one) => one.name));
     }
     this.theatre.show(state.snapshot);
+    this.scope?.take(state);
     setText(this.readings, readingsOf(state.snapshot, this.exercise));
   }
 

@@ -4,10 +4,8 @@
 // The report of an examination: of each structure one grade, the healthy one to choose like any other; none
 // is chosen beforehand. Each choice is told at once, the newest counts.
 import { button, make } from "../dom";
-import type { ExerciseMessage } from "../protocol";
+import type { Plan } from "./scope_plan";
 import "./findings_dialog.css";
-
-type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
 
 export class FindingsDialog {
   readonly element: HTMLDialogElement;

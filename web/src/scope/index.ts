@@ -4,3 +4,4 @@
 // The arthroscope: its picture, and the two hands that lead what goes into the joint.
 export { ScopeDesk, type ScopeRoom } from "./scope_desk";
 export { jointWallOf, type JointWall } from "./joint_wall";
+export { ScopeReplay, type ScopeMoment } from "./scope_replay";

@@ -4,7 +4,7 @@
 // The inside of the joint: one closed wall of the host's scene, moved with the bones that it lies on.
 // Generated, not seen in the CT.
 import * as THREE from "three";
-import type { BodyPose } from "../protocol";
+import type { BodyPose, Vec3 } from "../protocol";
 
 /** As soft_tissue::Lining counts: synovium, bone, cartilage, disc, ligament. */
 const LININGS = 5;
@@ -19,7 +19,18 @@ export interface JointWall {
   readonly middle: THREE.Vector3;
   /** Lays it where the bones are now. @param poses  of the bodies, in the case's order */
   pose(poses: readonly BodyPose[]): void;
+  /** Places of the disc as scanned that yield. */
+  setDisc(placesMm: readonly Vec3[]): void;
+  /** By how much they are off, three micrometres each; empty: they rest. */
+  yieldDisc(offUm: readonly number[]): void;
 }
+
+/** What lines the disc's side of the joint. */
+const DISC = 3;
+/** A vertex goes with so many places of the disc, by how near they are. */
+const PLACES = 4;
+/** ... and less, the farther its nearest is [mm]. */
+const DISC_REACH_MM = 2.5;
 
 /** @param surface  of the node, in Patient [mm]. undefined where it is no joint's wall. */
 export function jointWallOf(joint: string, surface: THREE.BufferGeometry): JointWall | undefined {
@@ -63,6 +74,34 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
     into.z += pose.translation_mm[2];
   };
   geometry.computeBoundingSphere();
+  const isDisc = Array.from({ length: count }, (_, v) => Math.round(lining.getX(v)) === DISC);
+  let bound: readonly Bound[] = [];
+  let off: readonly number[] = [];
+  const yielded = new THREE.Vector3();
+  /** Turned as the forearm is. */
+  const addYield = (poses: readonly BodyPose[]): void => {
+    if (off.length === 0) return;
+    for (const { vertex, places, weights } of bound) {
+      yielded.set(0, 0, 0);
+      places.forEach((place, i) => {
+        const w = (weights[i] ?? 0) / 1000;
+        yielded.x += w * (off[3 * place] ?? 0);
+        yielded.y += w * (off[3 * place + 1] ?? 0);
+        yielded.z += w * (off[3 * place + 2] ?? 0);
+      });
+      const pose = poses[proximal.getX(vertex)];
+      if (pose !== undefined) {
+        const [w, x, y, z] = pose.quaternion;
+        yielded.applyQuaternion(turn.set(x, y, z, w));
+      }
+      position.setXYZ(
+        vertex,
+        position.getX(vertex) + yielded.x,
+        position.getY(vertex) + yielded.y,
+        position.getZ(vertex) + yielded.z,
+      );
+    }
+  };
   return {
     joint,
     geometry,
@@ -74,11 +113,54 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
         at(poses[distal.getX(v)], v, moved[1]);
         moved[0].lerp(moved[1], share.getX(v)).toArray(position.array, 3 * v);
       }
+      addYield(poses);
       position.needsUpdate = true;
       geometry.computeVertexNormals();
       geometry.computeBoundingSphere();
     },
+    setDisc: (placesMm) => {
+      bound = placesMm.length === 0 ? [] : boundTo(rest, isDisc, placesMm);
+      off = [];
+    },
+    yieldDisc: (offUm) => {
+      off = offUm;
+    },
   };
+}
+
+interface Bound {
+  readonly vertex: number;
+  readonly places: readonly number[];
+  /** Of each, 1 in all, less far from the disc. */
+  readonly weights: readonly number[];
+}
+
+/** The wall near the disc, each vertex with the places that it goes with. */
+function boundTo(
+  rest: Float32Array,
+  isDisc: readonly boolean[],
+  placesMm: readonly Vec3[],
+): readonly Bound[] {
+  const all: Bound[] = [];
+  for (let vertex = 0; 3 * vertex < rest.length; ++vertex) {
+    const [x, y, z] = [rest[3 * vertex] ?? 0, rest[3 * vertex + 1] ?? 0, rest[3 * vertex + 2] ?? 0];
+    const near = placesMm
+      .map((place, i) => ({ i, mm: Math.hypot(place[0] - x, place[1] - y, place[2] - z) }))
+      .sort((a, b) => a.mm - b.mm)
+      .slice(0, PLACES);
+    const nearest = near[0]?.mm ?? Infinity;
+    if (nearest > DISC_REACH_MM || (isDisc[vertex] !== true && nearest > 0.6 * DISC_REACH_MM))
+      continue;
+    const parts = near.map(({ mm }) => 1 / (mm * mm + 0.04));
+    const sum = parts.reduce((a, b) => a + b, 0);
+    const goes = isDisc[vertex] === true ? 1 : 0.5;
+    all.push({
+      vertex,
+      places: near.map(({ i }) => i),
+      weights: parts.map((part) => (goes * part) / sum),
+    });
+  }
+  return all;
 }
 
 /** Cartilage, disc, ligament, bone; what is left is synovium. Smoothed, so that one runs into another. */

@@ -7,6 +7,7 @@
 import { make } from "../dom";
 import type {
   BodyPose,
+  DiscMessage,
   ExerciseMessage,
   HandMessage,
   ScopeMessage,
@@ -30,7 +31,8 @@ import {
 } from "./scope_hand_model";
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
-import { ScopeReadings, type Plan } from "./scope_readings";
+import { DISC_JOINT, type Plan } from "./scope_plan";
+import { ScopeReadings } from "./scope_readings";
 import "./scope.css";
 
 type HandIndex = 0 | 1;
@@ -154,6 +156,7 @@ export class ScopeDesk {
       exercise.bodies.map((one) => one.name),
     );
     this.findings.set(this.plan.findings);
+    for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
@@ -184,6 +187,12 @@ export class ScopeDesk {
     const before = this.scope?.points_seen.length;
     this.scope = message;
     if (before !== message.points_seen.length) this.showPoints();
+  }
+
+  seeDisc(message: DiscMessage): void {
+    const wall = this.walls.find((one) => one.joint === DISC_JOINT);
+    wall?.yieldDisc(message.off_um);
+    this.posed.delete(DISC_JOINT);
   }
 
   /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */

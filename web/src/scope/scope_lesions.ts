@@ -4,9 +4,9 @@
 // What is wrong in a joint, as the host says it (generated), for the scope's picture: painted on the wall by
 // where each place of it was as scanned, so that it goes with the tissue; loose bodies as balls.
 import * as THREE from "three";
-import type { BodyPose, ExerciseMessage } from "../protocol";
+import type { BodyPose } from "../protocol";
+import type { Plan } from "./scope_plan";
 
-type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
 export type Lesion = Plan["lesions"][number];
 
 /** Of one joint; more are not painted. */

@@ -5,12 +5,11 @@
 // and, while there is no joint to see, what to do next.
 import { make, setText } from "../dom";
 import { keyCap } from "../key_caps";
-import type { ExerciseMessage, ScopeMessage, SnapshotMessage } from "../protocol";
+import type { ScopeMessage, SnapshotMessage } from "../protocol";
 import { ForceGauge } from "./force_gauge";
 import { KEYS_IN_WORDS } from "./scope_keys";
+import type { Plan } from "./scope_plan";
 import { scopeWords } from "./scope_words_model";
-
-export type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
 
 export interface ScopeSituation {
   readonly plan: Plan;

@@ -501,6 +501,9 @@ export class TrainPage {
       case "scope":
         this.scope.seeScope(message);
         break;
+      case "disc":
+        this.scope.seeDisc(message);
+        break;
       case "actions":
         this.seen.takeActions(message);
         break;

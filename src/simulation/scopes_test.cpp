@@ -1,0 +1,280 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What goes into joints, in a box of a joint far from the bones: portals, the disc that yields and
+// can be hooked, answers, keyframes, no allocation.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arthroscopy/pathology_table.hpp"
+#include "simulation/operation_test_support.hpp"
+#include "simulation/world.hpp"
+
+namespace carpus::test {
+// Defined once in this program, where allocation_guard_test.cpp includes it.
+void start_counting_allocations() noexcept;
+int stop_counting_allocations() noexcept;
+}  // namespace carpus::test
+
+namespace carpus::simulation {
+namespace {
+
+/// The joint's middle. Its box is 24 by 24 by 6 mm; +z is distal, the disc is its floor.
+const Vec3 kMiddle{150, 0, 0};
+constexpr double kHalf = 12;
+constexpr double kHalfHigh = 3;
+constexpr double kDiscHalf = 6;
+const Vec3 kEdge = kMiddle + Vec3{0, 4.5, -kHalfHigh};
+
+Grid<float> box() {
+  GridGeometry geometry;
+  geometry.size = {81, 81, 45};
+  geometry.spacing = {0.4, 0.4, 0.4};
+  geometry.origin = kMiddle - Vec3{16, 16, 8.8};
+  std::vector<float> values;
+  for (int z = 0; z < 45; ++z) {
+    for (int y = 0; y < 81; ++y) {
+      for (int x = 0; x < 81; ++x) {
+        const double dx = std::abs(x * 0.4 - 16) - kHalf;
+        const double dy = std::abs(y * 0.4 - 16) - kHalf;
+        const double dz = std::abs(z * 0.4 - 8.8) - kHalfHigh;
+        const double outside = std::hypot(std::max(dx, 0.0), std::max(dy, 0.0), std::max(dz, 0.0));
+        const double inside = std::min(0.0, std::max({dx, dy, dz}));
+        values.push_back(static_cast<float>(std::clamp(outside + inside, -4.0, 4.0)));
+      }
+    }
+  }
+  return {geometry, values};
+}
+
+TriangleMesh disc_sheet() {
+  constexpr int kCells = 12;
+  TriangleMesh mesh;
+  for (int j = 0; j <= kCells; ++j) {
+    for (int i = 0; i <= kCells; ++i) {
+      mesh.vertices.push_back(kMiddle + Vec3{kDiscHalf * (2.0 * i / kCells - 1),
+                                             kDiscHalf * (2.0 * j / kCells - 1), -kHalfHigh - 0.7});
+    }
+  }
+  const auto at = [](int i, int j) { return static_cast<std::uint32_t>(j * (kCells + 1) + i); };
+  for (int j = 0; j < kCells; ++j) {
+    for (int i = 0; i < kCells; ++i) {
+      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+const cases::CaseData& wrist() {
+  static const cases::CaseData data = [] {
+    cases::CaseData made = test::wrist();
+    auto map = std::make_shared<cases::ArthroscopicMap>();
+    const std::uint8_t radius = test::body_of(BoneId::Radius);
+    map->joints.push_back({"radiocarpal", "radiocarpal joint", box(), radius, radius});
+    cases::Portal portal;
+    portal.id = "3-4";
+    portal.skin = kMiddle + Vec3{kHalf + 6, 0, 0};
+    portal.inwards = {-1, 0, 0};
+    portal.capsule_mm = 6;
+    portal.body = radius;
+    map->portals.push_back(portal);
+    cases::TourPoint edge;
+    edge.number = 16;
+    edge.id = "foveal_insertion";
+    edge.at = kEdge;
+    edge.body = radius;
+    edge.is_probed = true;
+    map->points.push_back(edge);
+    map->forearm = radius;
+    map->disc_sheet = disc_sheet();
+    map->distal = {0, 0, 1};
+    made.arthroscopy = map;
+    return made;
+  }();
+  return data;
+}
+
+procedure::Opening open_beside(const cases::CaseData&) {
+  procedure::Opening opening;
+  opening.shaft_in_target = {1, 0, 0};
+  opening.tip_in_target = kMiddle + Vec3{40, 0, 0};
+  return opening;
+}
+
+procedure::Procedure probing(bool examines) {
+  procedure::Procedure made = test::exercise();
+  made.target = BoneId::Radius;
+  made.tray = {*instruments::instrument_of("hook_probe")};
+  for (procedure::Step& step : made.steps) step.instrument = instruments::kNoInstrument;
+  made.opening = open_beside;
+  made.examines = examines;
+  return made;
+}
+
+const procedure::Procedure& probe_alone() {
+  static const procedure::Procedure kProcedure = probing(false);
+  return kProcedure;
+}
+
+/// The probe's wish goes straight from place to place at 20 mm/s.
+class Hand {
+ public:
+  explicit Hand(World& world) : world_(world) {
+    input_.hands[0].tip_in_patient = kMiddle + Vec3{40, 0, 0};
+    input_.hands[0].shaft_in_patient = {1, 0, 0};
+    input_.hands[1] = input_.hands[0];
+  }
+  void go(const Vec3& to, int then_ticks = 0) {
+    Vec3& tip = input_.hands[0].tip_in_patient;
+    while (distance(tip, to) > 1e-9) {
+      const double far = distance(tip, to);
+      tip = far <= 0.02 ? to : tip + (to - tip) * (0.02 / far);
+      step();
+    }
+    for (int i = 0; i < then_ticks; ++i) step();
+  }
+  void step() {
+    world_.step(input_);
+    inputs.push_back(input_);
+  }
+  void command(const Command& command) {
+    input_.command = command;
+    step();
+    input_.command = {};
+  }
+  [[nodiscard]] const Snapshot& now() const { return world_.now(); }
+  [[nodiscard]] Vec3 tip() const { return now().items[0].tip_in_patient; }
+  std::vector<Input> inputs;
+
+ private:
+  World& world_;
+  Input input_;
+};
+
+void enter(Hand& hand) {
+  hand.go(kMiddle + Vec3{kHalf + 2, 0, 0});
+  hand.go(kMiddle + Vec3{0, 0, 0});
+}
+
+/// By how much the particle that moved farthest distally, or proximally (negative), is off.
+double most_off(const Snapshot& now, double sign) {
+  double most = 0;
+  for (std::size_t i = 0; i < now.disc_count; ++i) {
+    most = std::max(most, sign * static_cast<double>(now.disc_off[i][2]));
+  }
+  return most;
+}
+
+TEST(Scopes, ATipEntersByThePortalAndTheWallHoldsItWhereThereIsNoDisc) {
+  World world(wrist(), probe_alone(), 1);
+  Hand hand(world);
+  enter(hand);
+  ASSERT_TRUE(hand.now().scope.facts.is_in_joint[0]);
+  hand.go(kMiddle + Vec3{-9, 0, 0});
+  hand.go(kMiddle + Vec3{-9, 0, -5}, 300);
+  EXPECT_NEAR(hand.tip().z, -kHalfHigh - 0.3, 0.15) << "the rigid wall, beside the disc";
+  EXPECT_TRUE(hand.now().is_disc_still);
+}
+
+TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {
+  World world(wrist(), probe_alone(), 1);
+  Hand hand(world);
+  enter(hand);
+  hand.go(kMiddle + Vec3{0, 0, -4.5}, 800);
+  const double deep = -kHalfHigh - hand.tip().z;
+  EXPECT_GT(deep, 0.4) << "deeper than the rigid wall";
+  EXPECT_LT(deep, 1.5);
+  EXPECT_GT(most_off(hand.now(), -1), 0.2);
+  const double force = length(hand.now().hands[0].force_in_patient);
+  EXPECT_GT(force, 0.1);
+  EXPECT_LT(force, 5);
+  hand.go(kMiddle, 2000);
+  EXPECT_TRUE(hand.now().is_disc_still) << "at rest within 2 s";
+  EXPECT_EQ(most_off(hand.now(), -1), 0);
+}
+
+TEST(Scopes, AHookThatTouchedTheEdgeTakesItAlongUntilItSlips) {
+  World world(wrist(), probe_alone(), 1);
+  Hand hand(world);
+  enter(hand);
+  hand.go(kEdge + Vec3{0, 0, 2});
+  hand.go(kEdge + Vec3{0, 0, -1.0}, 400);
+  double lifted = 0;
+  double pulled = 0;
+  for (double up = -0.9; up < 4; up += 0.1) {
+    hand.go(kEdge + Vec3{0, 0, up}, 40);
+    lifted = std::max(lifted, most_off(hand.now(), 1));
+    pulled = std::max(pulled, -hand.now().hands[0].force_in_patient.z);
+  }
+  EXPECT_GT(lifted, 0.3) << "it followed";
+  EXPECT_GT(pulled, 0.5) << "and pulled back";
+  EXPECT_LT(pulled, 6.0);
+  hand.go(kMiddle, 2500);
+  EXPECT_TRUE(hand.now().is_disc_still) << "it slipped off";
+}
+
+TEST(Scopes, GoesOnFromAKeyframeInThePressToTheSameBits) {
+  World world(wrist(), probe_alone(), 1);
+  Hand hand(world);
+  enter(hand);
+  hand.go(kMiddle + Vec3{0.3, 0.2, -4.2}, 100);
+  ASSERT_FALSE(hand.now().is_disc_still);
+  World other(wrist(), probe_alone(), 1);
+  ASSERT_TRUE(other.read_state(world.write_state()));
+  Hand same(other);
+  Input input = hand.inputs.back();
+  for (int i = 0; i < 300; ++i) {
+    input.hands[0].tip_in_patient.z += 0.01;
+    const std::uint64_t expected = world.step(input).state_hash;
+    ASSERT_EQ(other.step(input).state_hash, expected) << "tick " << i;
+  }
+}
+
+TEST(Scopes, NoTickAllocatesWhileTheDiscYields) {
+  World first(wrist(), probe_alone(), 1);
+  Hand hand(first);
+  enter(hand);
+  hand.go(kEdge + Vec3{0, 0, -1.0}, 200);
+  hand.go(kEdge + Vec3{0, 0, 2}, 200);
+  World world(wrist(), probe_alone(), 1);
+  carpus::test::start_counting_allocations();
+  for (const Input& input : hand.inputs) world.step(input);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
+  EXPECT_EQ(world.now().state_hash, first.now().state_hash);
+}
+
+TEST(Scopes, AnswersOfAnExaminationAreKeptAndCanBeTakenBack) {
+  static const procedure::Procedure kExamination = probing(true);
+  World world(wrist(), kExamination, 1);
+  Hand hand(world);
+  Command answer;
+  answer.kind = CommandKind::Answer;
+  answer.index = answer_index(2, 3);
+  hand.command(answer);
+  EXPECT_EQ(hand.now().scope.answers[2], 3);
+  answer.index = answer_index(2, 1);
+  hand.command(answer);
+  EXPECT_EQ(hand.now().scope.answers[2], 1) << "the newest counts";
+  answer.index = answer_index(2, kNoGrade);
+  hand.command(answer);
+  EXPECT_EQ(hand.now().scope.answers[2], cases::kNotJudged);
+  // What is not asked, and grades that are none.
+  const auto asked = arthroscopy::PathologyTable::generic().findings.size();
+  answer.index = answer_index(asked, 0);
+  EXPECT_NE(why_not(kExamination, hand.now(), answer), Refusal::None);
+  answer.index = answer_index(9, 2);
+  EXPECT_NE(why_not(kExamination, hand.now(), answer), Refusal::None);
+  answer.index = answer_index(9, 1);
+  EXPECT_EQ(why_not(kExamination, hand.now(), answer), Refusal::None);
+  EXPECT_NE(why_not(probe_alone(), hand.now(), answer), Refusal::None) << "nothing is asked";
+  EXPECT_EQ(world.operation_record().scope->answers, cases::not_judged());
+}
+
+}  // namespace
+}  // namespace carpus::simulation

@@ -1,0 +1,179 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "yielding/yielding_net.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <span>
+
+#include "core/rng.hpp"
+
+namespace carpus::yielding {
+namespace {
+
+constexpr Material kMaterial{20.0, 0.3, 0.8, 60.0};
+
+/// A square sheet in z = 0, `half` mm to each side of the origin.
+TriangleMesh square(double half, int cells) {
+  TriangleMesh mesh;
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i <= cells; ++i) {
+      mesh.vertices.push_back({half * (2.0 * i / cells - 1), half * (2.0 * j / cells - 1), 0});
+    }
+  }
+  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (cells + 1) + i); };
+  for (int j = 0; j < cells; ++j) {
+    for (int i = 0; i < cells; ++i) {
+      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+Net sheet() { return Net(square(5, 10), {0, 0, 1}, kMaterial, 0.9); }
+
+/// A tip of 1 mm that is pressed on by so much until it rests: how deep it is.
+double depth_under(const Net& net, const Vec3& at, double newtons, NetState& state) {
+  double depth = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    Tip tip;
+    tip.is_there = true;
+    tip.radius_mm = 1;
+    tip.at = at + Vec3{0, 0, 1.0 - depth};
+    state.step(net, std::span<const Tip>(&tip, 1));
+    depth += 0.01 * (newtons - state.force_on(0).z);
+  }
+  return depth;
+}
+
+TEST(YieldingNet, ParticlesLieOnTheSheetAtLeastTheSpacingApartAndItsRimIsHeld) {
+  const Net net = sheet();
+  EXPECT_GT(net.size(), 80U);
+  EXPECT_LE(net.size(), kMaxParticles);
+  for (std::size_t a = 0; a < net.size(); ++a) {
+    const Vec3& p = net.rest()[a];
+    const bool is_on_rim = std::max(std::abs(p.x), std::abs(p.y)) > 4.99;
+    EXPECT_EQ(net.is_held(a), is_on_rim);
+    EXPECT_NEAR(net.normals()[a].z, 1, 1e-9);
+    for (std::size_t b = 0; b < a; ++b) EXPECT_GE(distance(p, net.rest()[b]), 0.9);
+  }
+}
+
+TEST(YieldingNet, PressedMoreItGivesMoreAndBearsWhatPresses) {
+  const Net net = sheet();
+  const auto state = std::make_unique<NetState>();
+  double before = 0;
+  for (const double newtons : {0.5, 1.0, 2.0}) {
+    state->reset(net);
+    const double depth = depth_under(net, {0, 0, 0}, newtons, *state);
+    EXPECT_NEAR(state->force_on(0).z, newtons, 0.02 * newtons);
+    EXPECT_GT(depth, before);
+    before = depth;
+  }
+  EXPECT_LT(before, 2.5) << "it holds";
+}
+
+/// Without input the energy never grows, from any state, and it rests within 2 s.
+TEST(YieldingNet, LeftToItselfItOnlyLosesEnergyAndComesToRest) {
+  const Net net = sheet();
+  const auto state = std::make_unique<NetState>();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    state->reset(net);
+    // Thrown about by two tips for a tenth of a second.
+    for (int tick = 0; tick < 100; ++tick) {
+      std::array<Tip, 2> tips;
+      for (Tip& tip : tips) {
+        tip.is_there = true;
+        tip.radius_mm = rng.uniform(0.5, 2.0);
+        tip.at = {rng.uniform(-4, 4), rng.uniform(-4, 4), rng.uniform(-2, 1)};
+        if (rng.uniform() < 0.2) tip.hooked = rng.below(net.size());
+      }
+      state->step(net, tips);
+    }
+    double energy = state->energy_n_mm(net);
+    EXPECT_GT(energy, 0);
+    int ticks = 0;
+    while (!state->is_still() && ticks < 4000) {
+      state->step(net, {});
+      const double now = state->energy_n_mm(net);
+      ASSERT_LE(now, energy) << "seed " << seed << ", tick " << ticks;
+      energy = now;
+      ++ticks;
+    }
+    EXPECT_LT(ticks, 2000) << "seed " << seed;
+    EXPECT_EQ(energy, 0);
+  }
+}
+
+TEST(YieldingNet, TheSameTipsGiveTheSameBits) {
+  const Net net = sheet();
+  const auto first = std::make_unique<NetState>();
+  const auto second = std::make_unique<NetState>();
+  for (NetState* state : {first.get(), second.get()}) {
+    state->reset(net);
+    (void)depth_under(net, {0.3, -0.2, 0}, 1.3, *state);
+  }
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    const Vec3 a = first->at(i);
+    const Vec3 b = second->at(i);
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+  }
+}
+
+TEST(YieldingNet, WhatIsHookedFollowsAndPullsBackAndWhatHasComeOffIsSlack) {
+  const Net whole = sheet();
+  Net torn = sheet();
+  torn.come_off({5, -3, 0}, {5, 3, 0}, 3, 0.05, 0);
+  const std::size_t edge = nearest(whole, {4, 0, 0});
+  const auto lift_under = [&](const Net& net, double newtons) {
+    const auto state = std::make_unique<NetState>();
+    state->reset(net);
+    double lift = 0;
+    for (int tick = 0; tick < 3000; ++tick) {
+      Tip tip;
+      tip.is_there = true;
+      tip.hooked = edge;
+      tip.at = net.rest()[edge] + Vec3{0, 0, lift};
+      state->step(net, std::span<const Tip>(&tip, 1));
+      lift += 0.01 * (newtons + state->force_on(0).z);
+    }
+    EXPECT_NEAR(state->force_on(0).z, -newtons, 0.02);
+    return state->at(edge).z - net.rest()[edge].z;
+  };
+  const double intact = lift_under(whole, 1);
+  EXPECT_GT(intact, 0);
+  EXPECT_GT(lift_under(torn, 1), 2 * intact) << "slack where it has come off";
+}
+
+TEST(YieldingNet, WhatHasComeOffStandsOffWhereItRests) {
+  const Net whole = sheet();
+  Net torn = sheet();
+  torn.come_off({5, 0, 0}, {5, 0, 0}, 3, 0.1, 1.3);
+  const std::size_t edge = nearest(whole, {5, 0, 0});
+  EXPECT_NEAR(torn.rest()[edge].z, 1.3, 0.2);
+  const auto state = std::make_unique<NetState>();
+  state->reset(torn);
+  EXPECT_EQ(state->energy_n_mm(torn), 0) << "it is as long as it lies";
+}
+
+TEST(YieldingNet, ASheetWithoutFacetsHasNoParticlesAndStaysStill) {
+  const Net none(TriangleMesh{}, {0, 0, 1}, kMaterial, 1);
+  EXPECT_EQ(none.size(), 0U);
+  const auto state = std::make_unique<NetState>();
+  state->reset(none);
+  Tip tip;
+  tip.is_there = true;
+  state->step(none, std::span<const Tip>(&tip, 1));
+  EXPECT_TRUE(state->is_still());
+  EXPECT_EQ(nearest(none, {0, 0, 0}), kMaxParticles);
+}
+
+}  // namespace
+}  // namespace carpus::yielding

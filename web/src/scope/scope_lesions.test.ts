@@ -1,0 +1,53 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import {
+  lesionUniforms,
+  LooseBodies,
+  MOST_PAINTED,
+  setLesions,
+  type Lesion,
+} from "./scope_lesions";
+import * as THREE from "three";
+
+const lesion = (look: Lesion["look"], joint: string): Lesion => ({
+  look,
+  joint,
+  body: "radius",
+  from_mm: [1, 2, 3],
+  to_mm: [4, 5, 6],
+  radius_mm: 0.5,
+});
+
+describe("what is wrong in a joint", () => {
+  it("is painted in its own joint alone, and a loose body is no paint", () => {
+    const uniforms = lesionUniforms();
+    setLesions(
+      uniforms,
+      [lesion("tear", "midcarpal"), lesion("bare", "radiocarpal"), lesion("loose", "radiocarpal")],
+      "radiocarpal",
+    );
+    expect(uniforms.lesionCount.value).toBe(1);
+    expect(uniforms.lesionTo.value[0]?.w).toBe(6);
+    expect(uniforms.lesionFrom.value[0]?.w).toBe(0.5);
+    setLesions(uniforms, [], "radiocarpal");
+    expect(uniforms.lesionCount.value).toBe(0);
+  });
+
+  it("is painted as far as there is room", () => {
+    const uniforms = lesionUniforms();
+    setLesions(uniforms, Array<Lesion>(MOST_PAINTED + 5).fill(lesion("soft", "a")), "a");
+    expect(uniforms.lesionCount.value).toBe(MOST_PAINTED);
+  });
+
+  it("lies as a ball where its body has taken it", () => {
+    const loose = new LooseBodies(new THREE.MeshBasicMaterial());
+    loose.set([lesion("loose", "radiocarpal"), lesion("tear", "radiocarpal")], ["ulna", "radius"]);
+    expect(loose.group.children.length).toBe(1);
+    const still = { quaternion: [1, 0, 0, 0], translation_mm: [0, 0, 0] } as const;
+    loose.lay("radiocarpal", [still, { ...still, translation_mm: [10, 0, 0] }]);
+    expect(loose.group.children[0]?.position.toArray()).toEqual([11, 2, 3]);
+    loose.lay("midcarpal", [still, still]);
+    expect(loose.group.children[0]?.visible).toBe(false);
+  });
+});
