@@ -27,18 +27,19 @@ class AvrBoard final : public virtual_arm::StopBoard {
   void run_to_us(double us) override { avr_.run_to(us); }
   void receive(std::uint8_t byte) override { avr_.receive(byte); }
   void set_wiper(int leg, double share) override {
-    const double mv = std::round(5000 * share);
+    const double mv = 5000 * share;
     double& last = last_mv_[static_cast<std::size_t>(leg)];
     if (mv == last) return;
     last = mv;
     avr_.set_wiper_mv(leg, mv);
   }
+  void set_roll(double share) override { set_wiper(firmware::SimulatedAvr::kRollInput, share); }
   void brown_out() override { avr_.brown_out(); }
   [[nodiscard]] bool is_supply_on() const override { return avr_.is_supply_on(); }
 
  private:
   firmware::SimulatedAvr avr_;
-  std::array<double, 3> last_mv_{-1, -1, -1};
+  std::array<double, 4> last_mv_{-1, -1, -1, -1};
 };
 
 }  // namespace carpus::bench

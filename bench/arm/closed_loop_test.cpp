@@ -41,6 +41,26 @@ TEST(ClosedLoop, EveryHandStandsStillOnAHardWall) {
   }
 }
 
+/// Along x one leg bears most: the worst of all ways.
+TEST(ClosedLoop, PressedFromBesideItYieldsNoMoreThanIsAllowed) {
+  double worst = 0;
+  for (const std::size_t hand : {0U, 3U}) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+      RigOptions options = with_hand(hand);
+      options.seed = seed;
+      options.normal = {1, 0, 0};
+      OurRig rig(options);
+      const Press pressed = press(rig);
+      std::printf("from beside, %s, specimen %d: %.2f mm at %.2f N\n",
+                  std::string(options.hand.name).c_str(), static_cast<int>(seed), pressed.depth_mm,
+                  pressed.force_n);
+      EXPECT_TRUE(pressed.is_still(rig.quantum_mm())) << pressed.to_and_fro_mm;
+      worst = std::max(worst, pressed.depth_mm);
+    }
+  }
+  EXPECT_LE(worst, 1.1);
+}
+
 TEST(ClosedLoop, AWallGivesNoMoreBackThanItGotAndDoesNotHold) {
   for (const double speed : {50.0, 500.0}) {
     OurRig rig(with_hand(1));

@@ -4,7 +4,8 @@
 // Drive A on an ATmega328P at 16 MHz (Arduino Nano or Uno), for the arm of hardware revision 1.
 //
 //   ADC0..2  potentiometers, supplied from AREF      PB0..2  servos' signals
-//   RXD/TXD  500 kbaud to the host                   PB3     servos' supply: high while driving
+//   ADC3     the tool's roll                         PB3     servos' supply: high while driving
+//   RXD/TXD  500 kbaud to the host
 //
 // Timer 1 counts half microseconds: it is the clock, and makes the pulses, three a frame of 20 ms,
 // one after the other. It has two compare outputs for three servos, so edges are made by hand: the
@@ -31,12 +32,15 @@ constexpr uint8_t kNews = 1;
 constexpr uint16_t kSlotHalfUs = 13333;  // three a frame of 20 ms
 constexpr uint16_t kEarlyHalfUs = 44;
 constexpr uint8_t kConversions = 4;
+constexpr uint8_t kRollInput = kLegs;
+constexpr uint8_t kConversionUs = 96;
 /// A leg's law, and its sample, wait for a frame that so few bytes end, or its answer would wait
 /// for them. Where two of them are due they do not: no line, however bad, holds them up for longer
 /// than from one leg's sample to the next's.
 constexpr uint8_t kBytesALawTakes = 9;
 constexpr uint8_t kBytesASampleTakes = 4;
-static_assert(carpus::firmware::kSamplePeriodUs == 104 * kLegs * kConversions, "Timer 0 below");
+static_assert(carpus::firmware::kSamplePeriodUs == kConversionUs * (kLegs * kConversions + 1),
+              "a round of the legs, and one conversion of the roll");
 
 /// Bytes between an interrupt and the loop.
 template <uint8_t kSize>
@@ -69,6 +73,7 @@ volatile uint8_t send_at = 0;
 volatile uint16_t overflows = 0;
 volatile uint16_t pulses[kLegs] = {0, 0, 0};
 volatile uint16_t sums[kLegs];
+volatile uint16_t roll = 0;  ///< 10 bits of a turn
 volatile uint8_t fresh = 0;  ///< a bit a leg: sums holds a new sample
 volatile uint8_t begun = 0;  ///< a bit a leg: its pulse has begun
 
@@ -116,13 +121,13 @@ void set_up() {
   TCCR1B = _BV(CS11);
   OCR1A = 20000;
   TIMSK1 = _BV(OCIE1A) | _BV(TOIE1);
-  // Timer 0 starts a conversion every 104 us; each takes 26.
+  // Timer 0 starts a conversion every 96 us; each takes 26.
   ADMUX = _BV(REFS0);
   ADCSRA = _BV(ADEN) | _BV(ADPS2) | _BV(ADPS0);
-  DIDR0 = 0x07;
+  DIDR0 = 0x0F;
   TCCR0A = _BV(WGM01);
   TCCR0B = _BV(CS01);
-  OCR0A = 207;
+  OCR0A = 2 * kConversionUs - 1;
   TIMSK0 = _BV(OCIE0A);
   set_sleep_mode(SLEEP_MODE_IDLE);
   sei();
@@ -160,6 +165,13 @@ ISR(TIMER0_COMPA_vect) {
     ADCSRA |= _BV(ADSC);
     return;
   }
+  if (leg == kRollInput) {
+    roll = value;
+    leg = 0;
+    ADMUX = _BV(REFS0);
+    ADCSRA |= _BV(ADSC);
+    return;
+  }
   sum = static_cast<uint16_t>(sum + value);
   if (++count == kConversions) {
     sums[leg] = sum;
@@ -167,7 +179,7 @@ ISR(TIMER0_COMPA_vect) {
     GPIOR0 |= kNews;
     sum = 0;
     count = 0;
-    leg = leg == kLegs - 1 ? uint8_t{0} : static_cast<uint8_t>(leg + 1);
+    ++leg;  // behind the last of them the roll
     ADMUX = static_cast<uint8_t>(_BV(REFS0) | leg);
   }
   ADCSRA |= _BV(ADSC);
@@ -229,9 +241,11 @@ int main() {
       while ((fresh & (1 << leg)) == 0) ++leg;
       cli();
       const uint16_t sum = sums[leg];
+      const uint16_t turned = roll;
       fresh = static_cast<uint8_t>(fresh & ~(1 << leg));
       sei();
       arm.sample(leg, sum, now = clock_us());
+      arm.sample_roll(static_cast<uint16_t>(turned << 2));
       to_step = static_cast<uint8_t>(to_step | (1 << leg));
     } else if (is_due(to_step, arm.bytes_missing(), kBytesALawTakes)) {
       uint8_t leg = 0;

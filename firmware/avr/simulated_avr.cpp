@@ -60,7 +60,7 @@ class QuietStdout {
 struct SimulatedAvr::State {
   avr_t* avr = nullptr;
   SimulatedAvr* owner = nullptr;
-  std::array<avr_irq_t*, kLegs> wipers{};
+  std::array<avr_irq_t*, kRollInput + 1> wipers{};
   avr_irq_t* line = nullptr;
   struct Pin {
     State* state = nullptr;
@@ -121,10 +121,8 @@ SimulatedAvr::SimulatedAvr(const std::string& elf_file) : state_(std::make_uniqu
       },
       &s);
   for (int i = 0; i <= kLegs; ++i) {
-    if (i < kLegs) {
-      s.wipers[static_cast<std::size_t>(i)] =
-          avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0 + i);
-    }
+    s.wipers[static_cast<std::size_t>(i)] =
+        avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0 + i);
     s.pins[static_cast<std::size_t>(i)].state = &s;
     s.pins[static_cast<std::size_t>(i)].number = i;
     avr_irq_register_notify(
@@ -144,6 +142,7 @@ SimulatedAvr::SimulatedAvr(const std::string& elf_file) : state_(std::make_uniqu
         &s.pins[static_cast<std::size_t>(i)]);
   }
   for (int leg = 0; leg < kLegs; ++leg) set_wiper_mv(leg, 2500);
+  set_wiper_mv(kRollInput, 0);
 }
 
 SimulatedAvr::~SimulatedAvr() {
@@ -184,7 +183,12 @@ void SimulatedAvr::run_to(double us) {
 double SimulatedAvr::now_us() const { return state_->us(); }
 
 void SimulatedAvr::set_wiper_mv(int leg, double mv) {
-  const double whole = std::round(std::clamp(mv, 0.0, 5000.0));
+  // The chip divides its reference by 1024, simavr by 1023, and knows whole millivolts only: given
+  // the voltage itself it converts up to a count too low, a third of a degree of a leg. So it is
+  // given that of the count that the chip would come to.
+  constexpr double kReferenceMv = 5000;
+  const double count = std::clamp(std::floor(mv / kReferenceMv * 1024.0), 0.0, 1023.0);
+  const double whole = std::ceil(count * kReferenceMv / 1023.0);
   avr_raise_irq(state_->wipers[static_cast<std::size_t>(leg)], static_cast<std::uint32_t>(whole));
 }
 

@@ -27,8 +27,9 @@ class SimulatedAvr {
   /// Runs to this time since the start [us].
   void run_to(double us);
   [[nodiscard]] double now_us() const;
-  /// Voltage of a potentiometer's wiper, whole millivolts of 5 V.
+  /// Voltage of a potentiometer's wiper, of 5 V; `kRollInput`: of the sensor of the tool's roll.
   void set_wiper_mv(int leg, double mv);
+  static constexpr int kRollInput = 3;
   /// A byte begins on the line now; the firmware has it a byte's time later.
   void receive(std::uint8_t byte);
   /// A supply that failed and came back: everything is as after switching on.

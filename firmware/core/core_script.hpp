@@ -121,7 +121,12 @@ inline void run_motor_script(Digest& digest, ScriptRandom& random) {
       if (ms < 5) {
         send_badly(arm, Hello{}, sequence, now, random);
       } else if (ms < 10) {
-        send_badly(arm, Home{}, sequence, now, random);
+        Home home;
+        for (uint8_t i = 0; i < 3; ++i) {
+          home.electrical_zero[i] = static_cast<uint16_t>(9000 * i);
+          home.windings[i] = static_cast<uint8_t>(1 + i % 2);
+        }
+        send_badly(arm, home, sequence, now, random);
       } else {
         Contact contact;
         contact.normals[2] = 16384;
@@ -144,7 +149,39 @@ inline void run_motor_script(Digest& digest, ScriptRandom& random) {
       counts[i] += static_cast<int32_t>(random.below(21)) - 10 + (ms < 400 ? 1 : -1);
     float torques[3];
     arm.step(counts, now, torques);
-    for (uint8_t i = 0; i < 3; ++i) digest.add(torques[i]);
+    arm.sample_roll(static_cast<uint16_t>(ms & 4095U));
+    for (uint8_t i = 0; i < 3; ++i) {
+      digest.add(torques[i]);
+      for (const float volts : arm.volts(i).volts) digest.add(volts);
+    }
+    digest.add(reply, arm.reply(reply, now));
+  }
+}
+
+/// Rotors that follow their fields at once.
+inline void run_alignment_script(Digest& digest, ScriptRandom& random) {
+  MotorArm arm(9);
+  uint8_t sequence = 0;
+  uint8_t reply[kMaxDeviceFrameBytes];
+  int32_t counts[3] = {100, 200, 300};
+  for (uint32_t step = 0; step < 40000; ++step) {
+    const uint32_t now = step * 250;
+    if (step % 4 == 0) {
+      ++sequence;
+      if (step < 20) {
+        send_badly(arm, Hello{}, sequence, now, random);
+      } else {
+        send_badly(arm, Align{}, sequence, now, random);
+      }
+    }
+    float torques[3];
+    arm.step(counts, now, torques);
+    for (uint8_t i = 0; i < 3; ++i) {
+      const WindingVolts volts = arm.volts(i);
+      for (const float one : volts.volts) digest.add(one);
+      counts[i] +=
+          static_cast<int32_t>(volts.volts[1] > 0.0F) - static_cast<int32_t>(volts.volts[2] > 0.0F);
+    }
     digest.add(reply, arm.reply(reply, now));
   }
 }
@@ -154,6 +191,7 @@ inline uint32_t digest_of_core_script() {
   ScriptRandom random;
   run_stop_script(digest, random);
   run_motor_script(digest, random);
+  run_alignment_script(digest, random);
   return digest.value();
 }
 

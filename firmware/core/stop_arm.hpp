@@ -8,17 +8,19 @@
 
 #include "firmware/core/frame_decoder.hpp"
 #include "firmware/core/leg_stop_drive.hpp"
+#include "firmware/core/tool_roll.hpp"
 #include "firmware/core/watchdog.hpp"
 
 namespace carpus {
 namespace firmware {
 
-constexpr uint16_t kFirmwareRevision = 1;
+constexpr uint16_t kFirmwareRevision = 2;
 
 /// Contacts are not for this drive.
 inline uint8_t stop_arm_payload_bytes(uint8_t kind) {
-  return kind == kind_of(Contact{}) || kind == kind_of(Home{}) ? uint8_t{255}
-                                                               : host_to_device_payload_bytes(kind);
+  return kind == kind_of(Contact{}) || kind == kind_of(Home{}) || kind == kind_of(Align{})
+             ? uint8_t{255}
+             : host_to_device_payload_bytes(kind);
 }
 
 class StopArm {
@@ -48,6 +50,9 @@ class StopArm {
     legs_[leg].sample(counts);
     sampled_us_ = now_us;
   }
+
+  /// The tool's turn, as its sensor says it last [1/4096 turn].
+  void sample_roll(uint16_t roll) { roll_ = roll; }
 
   /// One leg's law, and whether anything may drive at all.
   void step(uint8_t leg, uint32_t now_us) {
@@ -88,7 +93,9 @@ class StopArm {
     sensors.status = status();
     const uint32_t age = (now_us - sampled_us_) / 4;
     sensors.age_4us = static_cast<uint8_t>(age < 255 ? age : 255);
-    for (uint8_t i = 0; i < kLegs; ++i) sensors.counts[i] = legs_[i].counts();
+    for (uint8_t i = 0; i < kLegs; ++i)
+      sensors.legs[i].counts = static_cast<int16_t>(legs_[i].counts());
+    put_roll(roll_, sensors.legs);
     return encode_frame(sensors, sequence_++, to, start);
   }
 
@@ -162,6 +169,7 @@ class StopArm {
   Stop wish_;
   uint32_t unit_;
   uint32_t sampled_us_ = 0;
+  uint16_t roll_ = 0;
   uint8_t sequence_ = 0;
   Answer due_ = Answer::None;
   bool is_asked_ = false;

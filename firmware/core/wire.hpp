@@ -14,12 +14,12 @@
 namespace carpus {
 namespace firmware {
 
-constexpr uint8_t kProtocolVersion = 1;
+constexpr uint8_t kProtocolVersion = 2;
 constexpr uint8_t kSync = 165;
 constexpr uint8_t kFrameOverhead = 5;
 /// Of the longest frame.
 constexpr uint8_t kMaxFrameBytes = 47;
-constexpr uint8_t kMaxDeviceFrameBytes = 30;
+constexpr uint8_t kMaxDeviceFrameBytes = 32;
 /// Of a serial line [1/s].
 constexpr uint32_t kBaud = 500000;
 /// A device that hears nothing new for so long takes its force away [ms].
@@ -103,6 +103,36 @@ void visit_parts_leg_stop(Value& value, Visitor&& v) {
   v("side", value.side);
 }
 
+/// What one potentiometer says, and a third of what the sensor of the tool's roll says: no byte
+/// more on the line.
+struct LegReading {
+  /// [counts]
+  int16_t counts = 0;
+  /// of the roll's 12 bits [1/4096 turn]: leg 0 has the lowest four
+  int16_t roll_part = 0;
+};
+
+inline void read(const uint8_t* from, LegReading& out) {
+  uint16_t word = 0;
+  read(from, word);
+  const uint16_t counts = static_cast<uint16_t>((word)&0xfffU);
+  out.counts = static_cast<int16_t>(counts);
+  const uint16_t roll_part = static_cast<uint16_t>((word >> 12) & 0xfU);
+  out.roll_part = static_cast<int16_t>(roll_part);
+}
+
+inline void write(LegReading value, uint8_t* to) {
+  write(static_cast<uint16_t>(((static_cast<uint16_t>(value.counts) & 0xfffU)) |
+                              ((static_cast<uint16_t>(value.roll_part) & 0xfU) << 12)),
+        to);
+}
+
+template <typename Value, typename Visitor>
+void visit_parts_leg_reading(Value& value, Visitor&& v) {
+  v("counts", value.counts);
+  v("roll_part", value.roll_part);
+}
+
 /// What a device says of itself.
 constexpr uint8_t kStatusConfigured = 1;
 constexpr uint8_t kStatusDriving = 2;
@@ -113,8 +143,14 @@ constexpr uint8_t kStatusHot = 32;
 constexpr uint8_t kStatusAfterReset = 64;
 constexpr uint8_t kStatusTooFast = 128;
 
+/// which way the windings' field turns while the encoder counts up; unknown: nothing is driven
+enum class Windings : uint8_t { Unknown = 0, Along = 1, Against = 2 };
+
 /// A or B
 enum class Drive : uint8_t { Stop = 0, Motor = 1 };
+
+/// refused: a motor did not follow its windings' field
+enum class Progress : uint8_t { Waiting = 0, Turning = 1, Found = 2, Refused = 3 };
 
 /// Asks who is there; answered by `identity`. Takes all force away.
 struct Hello {
@@ -209,30 +245,58 @@ void visit_fields_leg_config(Frame& frame, Visitor&& v) {
   v("most_pulse_us", frame.most_pulse_us);
 }
 
-/// Drive B: the encoders' counts at angle 0 of each leg. Answered by `motion`. While it drives,
-/// refused.
+/// Drive B: the encoders' counts at angle 0 of each leg, and how its motor's windings stand to its
+/// encoder, as `alignment` said. Answered by `motion`. While it drives, refused.
 struct Home {
   /// [counts] -1000000 to 1000000
   int32_t zero_counts[3] = {};
+  /// electrical angle at the encoder's count 0 [pi/32768 rad]
+  uint16_t electrical_zero[3] = {};
+  /// which way the windings' field turns while the encoder counts up; unknown: nothing is driven
+  uint8_t windings[3] = {};
 };
 constexpr uint8_t kind_of(const Home&) { return 6; }
-constexpr uint8_t kPayloadBytesOfHome = 12;
+constexpr uint8_t kPayloadBytesOfHome = 21;
 /// False where a field is out of its range.
 inline bool read_payload(const uint8_t* payload, Home& out) {
   for (uint8_t i = 0; i < 3; ++i) {
     read(payload + 0 + 4 * i, out.zero_counts[i]);
     if (out.zero_counts[i] < -1000000 || out.zero_counts[i] > 1000000) return false;
   }
+  for (uint8_t i = 0; i < 3; ++i) {
+    read(payload + 12 + 2 * i, out.electrical_zero[i]);
+  }
+  for (uint8_t i = 0; i < 3; ++i) {
+    read(payload + 18 + 1 * i, out.windings[i]);
+    if (out.windings[i] > 2) return false;
+  }
   return true;
 }
 inline void write_payload(const Home& frame, uint8_t* payload) {
   for (uint8_t i = 0; i < 3; ++i) write(frame.zero_counts[i], payload + 0 + 4 * i);
+  for (uint8_t i = 0; i < 3; ++i) write(frame.electrical_zero[i], payload + 12 + 2 * i);
+  for (uint8_t i = 0; i < 3; ++i) write(frame.windings[i], payload + 18 + 1 * i);
 }
-constexpr uint8_t payload_bytes_of(const Home&) { return 12; }
+constexpr uint8_t payload_bytes_of(const Home&) { return 21; }
 template <typename Frame, typename Visitor>
 void visit_fields_home(Frame& frame, Visitor&& v) {
   v("zero_counts", frame.zero_counts, 3);
+  v("electrical_zero", frame.electrical_zero, 3);
+  v("windings", frame.windings, 3);
 }
+
+/// Drive B: its motors turn by themselves, one after another, to and fro by a twentieth of a turn,
+/// to find how their windings stand to their encoders. While this comes, again and again. Answered
+/// by `alignment`. While it drives, refused.
+struct Align {};
+constexpr uint8_t kind_of(const Align&) { return 7; }
+constexpr uint8_t kPayloadBytesOfAlign = 0;
+/// False where a field is out of its range.
+inline bool read_payload(const uint8_t* /*payload*/, Align& /*out*/) { return true; }
+inline void write_payload(const Align& /*frame*/, uint8_t* /*payload*/) {}
+constexpr uint8_t payload_bytes_of(const Align&) { return 0; }
+template <typename Frame, typename Visitor>
+void visit_fields_align(Frame& /*frame*/, Visitor&& /*v*/) {}
 
 /// Drive A: the stops of all legs. Answered by `sensors`.
 struct Stop {
@@ -381,8 +445,7 @@ struct Sensors {
   uint8_t status = 0;
   /// of the newest sample when this was sent; 255: older [4 us]
   uint8_t age_4us = 0;
-  /// [counts]
-  uint16_t counts[3] = {};
+  LegReading legs[3] = {};
 };
 constexpr uint8_t kind_of(const Sensors&) { return 130; }
 constexpr uint8_t kPayloadBytesOfSensors = 9;
@@ -392,7 +455,7 @@ inline bool read_payload(const uint8_t* payload, Sensors& out) {
   read(payload + 1, out.status);
   read(payload + 2, out.age_4us);
   for (uint8_t i = 0; i < 3; ++i) {
-    read(payload + 3 + 2 * i, out.counts[i]);
+    read(payload + 3 + 2 * i, out.legs[i]);
   }
   return true;
 }
@@ -400,7 +463,7 @@ inline void write_payload(const Sensors& frame, uint8_t* payload) {
   write(frame.echo, payload + 0);
   write(frame.status, payload + 1);
   write(frame.age_4us, payload + 2);
-  for (uint8_t i = 0; i < 3; ++i) write(frame.counts[i], payload + 3 + 2 * i);
+  for (uint8_t i = 0; i < 3; ++i) write(frame.legs[i], payload + 3 + 2 * i);
 }
 constexpr uint8_t payload_bytes_of(const Sensors&) { return 9; }
 template <typename Frame, typename Visitor>
@@ -408,7 +471,7 @@ void visit_fields_sensors(Frame& frame, Visitor&& v) {
   v("echo", frame.echo);
   v("status", frame.status);
   v("age_4us", frame.age_4us);
-  v("counts", frame.counts, 3);
+  v("legs", frame.legs, 3);
 }
 
 /// Drive B: where its motors are and what they do.
@@ -423,9 +486,11 @@ struct Motion {
   int16_t force_mn[3] = {};
   /// of the windings, estimated [degC]
   uint8_t hottest_c = 0;
+  /// of the tool in its gimbal [1/4096 turn]
+  uint16_t roll = 0;
 };
 constexpr uint8_t kind_of(const Motion&) { return 131; }
-constexpr uint8_t kPayloadBytesOfMotion = 25;
+constexpr uint8_t kPayloadBytesOfMotion = 27;
 /// False where a field is out of its range.
 inline bool read_payload(const uint8_t* payload, Motion& out) {
   read(payload + 0, out.echo);
@@ -439,6 +504,8 @@ inline bool read_payload(const uint8_t* payload, Motion& out) {
     read(payload + 18 + 2 * i, out.force_mn[i]);
   }
   read(payload + 24, out.hottest_c);
+  read(payload + 25, out.roll);
+  if (out.roll > 4095) return false;
   return true;
 }
 inline void write_payload(const Motion& frame, uint8_t* payload) {
@@ -448,8 +515,9 @@ inline void write_payload(const Motion& frame, uint8_t* payload) {
   for (uint8_t i = 0; i < 3; ++i) write(frame.counts[i], payload + 6 + 4 * i);
   for (uint8_t i = 0; i < 3; ++i) write(frame.force_mn[i], payload + 18 + 2 * i);
   write(frame.hottest_c, payload + 24);
+  write(frame.roll, payload + 25);
 }
-constexpr uint8_t payload_bytes_of(const Motion&) { return 25; }
+constexpr uint8_t payload_bytes_of(const Motion&) { return 27; }
 template <typename Frame, typename Visitor>
 void visit_fields_motion(Frame& frame, Visitor&& v) {
   v("echo", frame.echo);
@@ -458,6 +526,52 @@ void visit_fields_motion(Frame& frame, Visitor&& v) {
   v("counts", frame.counts, 3);
   v("force_mn", frame.force_mn, 3);
   v("hottest_c", frame.hottest_c);
+  v("roll", frame.roll);
+}
+
+/// Drive B: how far it is with finding its windings.
+struct Alignment {
+  uint8_t echo = 0;
+  uint8_t status = 0;
+  /// refused: a motor did not follow its windings' field
+  uint8_t progress = 0;
+  /// [pi/32768 rad]
+  uint16_t electrical_zero[3] = {};
+  /// as `windings` of `home`; unknown until found
+  uint8_t windings_found[3] = {};
+};
+constexpr uint8_t kind_of(const Alignment&) { return 132; }
+constexpr uint8_t kPayloadBytesOfAlignment = 12;
+/// False where a field is out of its range.
+inline bool read_payload(const uint8_t* payload, Alignment& out) {
+  read(payload + 0, out.echo);
+  read(payload + 1, out.status);
+  read(payload + 2, out.progress);
+  if (out.progress > 3) return false;
+  for (uint8_t i = 0; i < 3; ++i) {
+    read(payload + 3 + 2 * i, out.electrical_zero[i]);
+  }
+  for (uint8_t i = 0; i < 3; ++i) {
+    read(payload + 9 + 1 * i, out.windings_found[i]);
+    if (out.windings_found[i] > 2) return false;
+  }
+  return true;
+}
+inline void write_payload(const Alignment& frame, uint8_t* payload) {
+  write(frame.echo, payload + 0);
+  write(frame.status, payload + 1);
+  write(frame.progress, payload + 2);
+  for (uint8_t i = 0; i < 3; ++i) write(frame.electrical_zero[i], payload + 3 + 2 * i);
+  for (uint8_t i = 0; i < 3; ++i) write(frame.windings_found[i], payload + 9 + 1 * i);
+}
+constexpr uint8_t payload_bytes_of(const Alignment&) { return 12; }
+template <typename Frame, typename Visitor>
+void visit_fields_alignment(Frame& frame, Visitor&& v) {
+  v("echo", frame.echo);
+  v("status", frame.status);
+  v("progress", frame.progress);
+  v("electrical_zero", frame.electrical_zero, 3);
+  v("windings_found", frame.windings_found, 3);
 }
 
 /// Length of the payload of a kind that goes this way; 255: there is no such kind.
@@ -470,7 +584,9 @@ inline uint8_t host_to_device_payload_bytes(uint8_t kind) {
     case 3:
       return 15;
     case 6:
-      return 12;
+      return 21;
+    case 7:
+      return 0;
     case 4:
       return 6;
     case 5:
@@ -488,7 +604,9 @@ inline uint8_t device_to_host_payload_bytes(uint8_t kind) {
     case 130:
       return 9;
     case 131:
-      return 25;
+      return 27;
+    case 132:
+      return 12;
     default:
       return 255;
   }
@@ -507,11 +625,13 @@ void visit_frames(Visitor&& v) {
   v("release", Release{});
   v("leg_config", LegConfig{});
   v("home", Home{});
+  v("align", Align{});
   v("stop", Stop{});
   v("contact", Contact{});
   v("identity", Identity{});
   v("sensors", Sensors{});
   v("motion", Motion{});
+  v("alignment", Alignment{});
 }
 
 template <typename Visitor>
@@ -532,6 +652,11 @@ void visit_fields(LegConfig& frame, Visitor&& v) {
 template <typename Visitor>
 void visit_fields(Home& frame, Visitor&& v) {
   visit_fields_home(frame, v);
+}
+
+template <typename Visitor>
+void visit_fields(Align& frame, Visitor&& v) {
+  visit_fields_align(frame, v);
 }
 
 template <typename Visitor>
@@ -560,8 +685,18 @@ void visit_fields(Motion& frame, Visitor&& v) {
 }
 
 template <typename Visitor>
+void visit_fields(Alignment& frame, Visitor&& v) {
+  visit_fields_alignment(frame, v);
+}
+
+template <typename Visitor>
 void visit_parts(LegStop& value, Visitor&& v) {
   visit_parts_leg_stop(value, v);
+}
+
+template <typename Visitor>
+void visit_parts(LegReading& value, Visitor&& v) {
+  visit_parts_leg_reading(value, v);
 }
 
 }  // namespace firmware

@@ -131,7 +131,7 @@ TEST(Wire, ReadsAndWritesEveryGoldenFrame) {
       ++seen;
     });
   }
-  EXPECT_EQ(seen, 18) << "two of each of nine frames";
+  EXPECT_EQ(seen, 22) << "two of each of eleven frames";
 }
 
 TEST(Wire, RefusesEveryInvalidFrameForItsReason) {

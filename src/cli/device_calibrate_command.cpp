@@ -29,9 +29,8 @@ struct CalibrateArguments {
 };
 
 /// What the sensors say for this step, once the servos, where they turn, have come there.
-std::vector<std::array<std::int32_t, devices::kLegs>> listen(
-    devices::HostLoop& loop,
-    const devices::ArmCalibrator& calibrator) {
+std::vector<std::array<std::int32_t, devices::kLegs>>
+listen(devices::HostLoop& loop, const devices::ArmCalibrator& calibrator, LoopState& state) {
   std::vector<std::array<std::int32_t, devices::kLegs>> samples;
   loop.turn_servos(calibrator.pulse_us());
   std::this_thread::sleep_for(std::chrono::milliseconds(calibrator.settle_ms()));
@@ -40,9 +39,11 @@ std::vector<std::array<std::int32_t, devices::kLegs>> listen(
   const std::size_t wanted = calibrator.sample_count();
   const auto until =
       std::chrono::steady_clock::now() + std::chrono::milliseconds(1000 + 2 * wanted);
-  while (samples.size() < wanted && std::chrono::steady_clock::now() < until) {
+  while (!calibrator.is_enough(samples.size(), state.device.windings) &&
+         std::chrono::steady_clock::now() < until) {
     while (const auto sample = loop.next_raw()) samples.push_back(*sample);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    (void)loop.look(state);
   }
   return samples;
 }
@@ -98,7 +99,8 @@ void run(const CalibrateArguments& arguments) {
         wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" + std::to_string(steps) +
                        "] " + calibrator.instruction());
       }
-      if (const auto problem = calibrator.take(listen(loop, calibrator))) {
+      const auto samples = listen(loop, calibrator, state);
+      if (const auto problem = calibrator.take(samples, state.device.windings)) {
         std::printf("  %s\n", problem->c_str());
         // Or servos would be asked to turn for ever, of an arm that is gone.
         (void)loop.look(state);

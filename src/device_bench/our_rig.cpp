@@ -93,7 +93,8 @@ void OurRig::hear(std::uint8_t byte, double us) {
     if (decoder_.read_frame(sensors)) {
       status_ = sensors.status;
       echo = sensors.echo;
-      for (std::size_t i = 0; i < 3; ++i) angles[i] = calibrations_[i].angle_at(sensors.counts[i]);
+      for (std::size_t i = 0; i < 3; ++i)
+        angles[i] = calibrations_[i].angle_at(sensors.legs[i].counts);
       if (sample_ages_us_.size() < kMostTimes) sample_ages_us_.push_back(4.0 * sensors.age_4us);
     } else if (decoder_.read_frame(motion)) {
       status_ = motion.status;

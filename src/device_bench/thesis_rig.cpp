@@ -183,10 +183,16 @@ class MotorThesisRig final : public ThesisRig {
     wished_ = torques_of(state, force);
   }
 
+  /// What the law wishes stands for its 20 ms; the windings are served as by our firmware.
   void move(double seconds) override {
     JointValues torques{};
     for (std::size_t i = 0; i < 3; ++i) {
-      torques[i] = motors_[i].step(seconds, wished_[i], plant_.angles()[i]);
+      const double angle = plant_.angles()[i];
+      const double rate = plant_.rates()[i];
+      const firmware::WindingVolts volts =
+          firmware::commutate({}, motors_[i].windings(), motors_[i].counts(angle),
+                              static_cast<float>(wished_[i]), static_cast<float>(rate));
+      torques[i] = motors_[i].step(seconds, volts, is_on_, angle, rate);
     }
     plant_.step(seconds, torques);
     book(seconds, torques, {});

@@ -21,6 +21,7 @@ using nlohmann::ordered_json;
 constexpr int kVersion = 1;
 constexpr double kMostCounts = 4 * 1023;
 constexpr std::array<std::string_view, 2> kDrives{"A", "B"};
+constexpr std::array<std::string_view, 3> kWindings{"unknown", "along", "against"};
 constexpr std::size_t kMostPoints = 64;
 constexpr double kMostCoggingNMm = 100;
 
@@ -71,6 +72,14 @@ ServoFit servo_of(JsonFields& fields) {
   return servo;
 }
 
+firmware::WindingsOf windings_of(JsonFields& fields) {
+  firmware::WindingsOf read;
+  read.windings = static_cast<firmware::Windings>(fields.choice("turn", kWindings));
+  if (read.windings == firmware::Windings::Unknown) fields.refuse("turn is not known");
+  read.electrical_zero = static_cast<std::uint16_t>(fields.number("electrical_zero", 0, 65535));
+  return read;
+}
+
 }  // namespace
 
 double cradle_angle_rad() noexcept {
@@ -114,6 +123,12 @@ void store(const ArmCalibration& calibration, const fs::path& folder) {
     json["legs"] = std::move(legs);
   } else {
     json["zero_in_turn_counts"] = calibration.zero_in_turn;
+    auto windings = ordered_json::array();
+    for (const firmware::WindingsOf& one : calibration.windings) {
+      windings.push_back({{"turn", kWindings[static_cast<std::size_t>(one.windings)]},
+                          {"electrical_zero", one.electrical_zero}});
+    }
+    json["windings"] = std::move(windings);
     json["cogging_n_mm"] = calibration.cogging.amplitude_n_mm;
     json["cogging_phase_rad"] = calibration.cogging.phase_rad;
   }
@@ -149,6 +164,15 @@ ArmCalibration parse_calibration(std::string_view text, std::string_view file) {
         fields.numbers("zero_in_turn_counts", kLegs, 0, kCountsOfTurn - 1);
     for (std::size_t i = 0; i < kLegs; ++i) {
       read.zero_in_turn[i] = static_cast<std::int32_t>(zeros[i]);
+    }
+    if (!fields.has("windings")) {
+      fields.refuse("says nothing of its motors' windings; calibrate the device again");
+    }
+    std::vector<JsonFields> windings = fields.objects("windings");
+    if (windings.size() != kLegs) fields.refuse("an arm has three motors");
+    for (std::size_t i = 0; i < kLegs; ++i) {
+      read.windings[i] = windings_of(windings[i]);
+      windings[i].refuse_unknown_fields();
     }
     if (fields.has("cogging_n_mm")) {  // files of before have none
       const std::vector<double> sizes = fields.numbers("cogging_n_mm", kLegs, 0, kMostCoggingNMm);

@@ -13,6 +13,7 @@
 
 #include "arm/cogging.hpp"
 #include "arm/leg_calibration.hpp"
+#include "firmware/core/gimbal_commutation.hpp"
 #include "firmware/core/wire.hpp"
 
 namespace carpus::devices {
@@ -37,6 +38,7 @@ struct ArmCalibration {
   std::array<ServoFit, kLegs> servos;
   /// Drive B: the encoders' counts of one turn of the motor where the leg is at angle 0.
   std::array<std::int32_t, kLegs> zero_in_turn{};
+  std::array<firmware::WindingsOf, kLegs> windings;  ///< how they stand to the encoders
   arm::Cogging cogging;       ///< of its motors; none where that was not measured
   std::string made_at = "-";  ///< UTC
 };

@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::size_t kNotches = kGaugeDeg.size();
 constexpr std::size_t kHeld = kLegs * kNotches;
+/// Drive B's steps behind its cradle.
+constexpr std::size_t kAlign = 1;
+constexpr std::size_t kLead = 2;
+constexpr int kAnyPulse = 1500;
 constexpr std::size_t kSweep = kSweepUs.size();
 constexpr std::size_t kSwept = kSweep + kSweepBackUs.size();
 /// A servo comes from one row's end to the other's, or one pulse further.
@@ -65,11 +69,11 @@ ArmCalibrator::ArmCalibrator(firmware::Drive drive,
 }
 
 std::size_t ArmCalibrator::step_count() const noexcept {
-  return made_.drive == firmware::Drive::Stop ? kHeld + kSwept : 2;
+  return made_.drive == firmware::Drive::Stop ? kHeld + kSwept : kLead + 1;
 }
 
 bool ArmCalibrator::is_whole() const noexcept {
-  return is_complete() || (made_.drive == firmware::Drive::Motor && step_ == 1);
+  return is_complete() || (made_.drive == firmware::Drive::Motor && step_ == kLead);
 }
 
 bool ArmCalibrator::is_by_itself() const noexcept {
@@ -79,23 +83,37 @@ bool ArmCalibrator::is_by_itself() const noexcept {
 }
 
 int ArmCalibrator::pulse_us() const noexcept {
+  if (made_.drive == firmware::Drive::Motor) return step_ == kAlign ? kAnyPulse : 0;
   if (made_.drive != firmware::Drive::Stop || step_ < kHeld || is_complete()) return 0;
   const std::size_t at = step_ - kHeld;
   return at < kSweep ? kSweepUs[at] : kSweepBackUs[at - kSweep];
 }
 
 int ArmCalibrator::settle_ms() const noexcept {
-  if (pulse_us() == 0) return 0;
+  if (pulse_us() == 0 || made_.drive == firmware::Drive::Motor) return 0;
   return (step_ - kHeld) % kSweep == 0 ? kFarMs : kNearMs;
 }
 
 std::size_t ArmCalibrator::sample_count() const noexcept {
-  return made_.drive == firmware::Drive::Motor && step_ == 1 ? kSamplesOfLead : kSamplesOfStep;
+  if (made_.drive == firmware::Drive::Stop) return kSamplesOfStep;
+  return step_ == kLead ? kSamplesOfLead : step_ == kAlign ? kSamplesOfAlignment : kSamplesOfStep;
+}
+
+bool ArmCalibrator::is_enough(std::size_t samples, const MotorWindings& windings) const noexcept {
+  const bool is_aligned = made_.drive == firmware::Drive::Motor && step_ == kAlign &&
+                          windings.progress >= static_cast<std::uint8_t>(firmware::Progress::Found);
+  return is_aligned || samples >= sample_count();
 }
 
 std::string ArmCalibrator::instruction() const {
   if (is_complete()) return "All is measured.";
-  if (made_.drive == firmware::Drive::Motor && step_ == 1) {
+  if (made_.drive == firmware::Drive::Motor && step_ == kAlign) {
+    return "Take the cradle out, give the motors their supply and carry the tool in two fingers in "
+           "the "
+           "middle of its way: its motors turn now by themselves, one after another, a centimetre "
+           "to and fro. Go along, for eight seconds.";
+  }
+  if (made_.drive == firmware::Drive::Motor && step_ == kLead) {
     return "Take the tool and lead its tip about in level circles, as wide as a coin, one a "
            "second, "
            "for eight seconds.";
@@ -115,13 +133,15 @@ std::string ArmCalibrator::instruction() const {
 }
 
 std::optional<std::string> ArmCalibrator::take(
-    const std::vector<std::array<std::int32_t, kLegs>>& samples) {
+    const std::vector<std::array<std::int32_t, kLegs>>& samples,
+    const MotorWindings& windings) {
   if (is_complete()) return "Nothing is left to measure.";
+  const bool is_motor = made_.drive == firmware::Drive::Motor;
+  if (is_motor && step_ == kAlign) return take_windings(windings);
   if (samples.size() < sample_count() / 2) {
     return "The arm said too little: look whether it is on, and do this step again.";
   }
-  const bool is_motor = made_.drive == firmware::Drive::Motor;
-  if (is_motor && step_ == 1) return take_lead(samples);
+  if (is_motor && step_ == kLead) return take_lead(samples);
   const bool is_swept = pulse_us() != 0;
   const bool is_on_the_way = is_swept && (step_ - kHeld) % kSweep == 0;
   std::array<double, kLegs> means{};
@@ -170,6 +190,23 @@ std::optional<std::string> ArmCalibrator::fit_leg(std::size_t leg) {
            ". The steps of this leg begin anew.";
   }
   made_.legs[leg] = *one;
+  return std::nullopt;
+}
+
+std::optional<std::string> ArmCalibrator::take_windings(const MotorWindings& windings) {
+  const auto progress = static_cast<firmware::Progress>(windings.progress);
+  if (progress == firmware::Progress::Refused) {
+    return "A motor did not follow: look at the mushroom switch, its supply and its plug, let the "
+           "tool go along, and do this step again.";
+  }
+  if (progress != firmware::Progress::Found) {
+    return "Its motors are not done: look whether they have their supply, and do this step again.";
+  }
+  for (std::size_t leg = 0; leg < kLegs; ++leg) {
+    made_.windings[leg].electrical_zero = windings.electrical_zero[leg];
+    made_.windings[leg].windings = static_cast<firmware::Windings>(windings.windings[leg]);
+  }
+  ++step_;
   return std::nullopt;
 }
 

@@ -19,6 +19,8 @@ namespace carpus::devices {
 inline constexpr std::array<double, 6> kGaugeDeg{-40, -20, 0, 20, 40, 60};
 /// Samples of one step, a quarter of a second.
 inline constexpr std::size_t kSamplesOfStep = 250;
+/// Of the step in which drive B's motors turn by themselves, one after another.
+inline constexpr std::size_t kSamplesOfAlignment = 7500;
 /// Of the step in which a hand leads drive B about: eight seconds.
 inline constexpr std::size_t kSamplesOfLead = 8000;
 /// Drive A's servos turn by themselves to these pulses, first while a finger lifts the legs to the
@@ -46,19 +48,24 @@ class ArmCalibrator {
   /// taken off, and if it is not, what was known of that stays.
   [[nodiscard]] bool is_whole() const noexcept;
   /// The arm does this step by itself: its servos turn to pulse_us(), and after settle_ms() there
-  /// is something to measure. 0: they do not.
+  /// is something to measure; of drive B, at any pulse, its motors look for their windings. 0: they
+  /// do not.
   [[nodiscard]] int pulse_us() const noexcept;
   [[nodiscard]] bool is_by_itself() const noexcept;
   [[nodiscard]] int settle_ms() const noexcept;
   /// How many samples this step takes, one a millisecond.
   [[nodiscard]] std::size_t sample_count() const noexcept;
+  /// Whether this step's samples are together, or what it waits for has come.
+  [[nodiscard]] bool is_enough(std::size_t samples, const MotorWindings& windings) const noexcept;
   /// What the person is to do now.
   [[nodiscard]] std::string instruction() const;
-  /// @param samples  of the three sensors while the person keeps still.
+  /// @param samples  of the three sensors while the person keeps still. @param windings  what drive
+  /// B said last of them.
   /// @return what was wrong with them, and step() is to be done again: the same, or where a leg's
   /// points do not fit each other its first; none: on to the next.
   [[nodiscard]] std::optional<std::string> take(
-      const std::vector<std::array<std::int32_t, kLegs>>& samples);
+      const std::vector<std::array<std::int32_t, kLegs>>& samples,
+      const MotorWindings& windings = {});
   /// Once it is whole. A refusal says which leg's servo sits wrong, and the servos' steps begin
   /// anew.
   [[nodiscard]] Result<ArmCalibration> finish(std::string made_at);
@@ -66,6 +73,7 @@ class ArmCalibrator {
  private:
   [[nodiscard]] std::optional<std::string> take_lead(
       const std::vector<std::array<std::int32_t, kLegs>>& samples);
+  [[nodiscard]] std::optional<std::string> take_windings(const MotorWindings& windings);
   [[nodiscard]] std::optional<std::string> fit_leg(std::size_t leg);
   [[nodiscard]] std::optional<std::string> fit_servo(std::size_t leg);
 

@@ -168,6 +168,17 @@ TEST(ArmCalibrator, DriveBIsLaidInItsCradleOnce) {
       static_cast<std::int32_t>(std::lround(cradle_angle_rad() / kRadPerMotorCount));
   Samples samples(kSamplesOfStep, {at_rest + 100, at_rest - 5, at_rest + 3 * kCountsOfTurn + 9});
   ASSERT_EQ(calibrator.take(samples), std::nullopt);
+  EXPECT_FALSE(calibrator.is_whole()) << "how its windings stand is not known";
+  EXPECT_GT(calibrator.pulse_us(), 0);
+  MotorWindings windings;
+  EXPECT_NE(calibrator.take({}, windings)->find("not done"), std::string::npos);
+  windings.progress = static_cast<std::uint8_t>(firmware::Progress::Refused);
+  EXPECT_NE(calibrator.take({}, windings)->find("did not follow"), std::string::npos);
+  windings = {static_cast<std::uint8_t>(firmware::Progress::Found), {7, 8, 9}, {1, 2, 1}};
+  EXPECT_FALSE(calibrator.is_enough(0, {}));
+  EXPECT_TRUE(calibrator.is_enough(0, windings));
+  ASSERT_EQ(calibrator.take({}, windings), std::nullopt);
+  EXPECT_EQ(calibrator.pulse_us(), 0);
   EXPECT_TRUE(calibrator.is_whole());
   EXPECT_FALSE(calibrator.is_complete());
   EXPECT_TRUE(calibrator.finish("now").has_value());
@@ -187,6 +198,8 @@ TEST(ArmCalibrator, DriveBIsLaidInItsCradleOnce) {
   ASSERT_EQ(calibrator.take(samples), std::nullopt);
   const auto made = calibrator.finish("now");
   ASSERT_TRUE(made.has_value());
+  EXPECT_EQ(made->windings[1].electrical_zero, 8);
+  EXPECT_EQ(made->windings[1].windings, firmware::Windings::Against);
   EXPECT_EQ(made->zero_in_turn, (std::array<std::int32_t, 3>{100, kCountsOfTurn - 5, 9}));
 }
 

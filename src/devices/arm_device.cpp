@@ -8,6 +8,7 @@
 
 #include "arm/cogging.hpp"
 #include "core/units.hpp"
+#include "firmware/core/tool_roll.hpp"
 
 namespace carpus::devices {
 namespace {
@@ -108,6 +109,7 @@ Capabilities ArmDevice::capabilities() const {
   Capabilities able;
   able.position = true;
   able.absolute = true;
+  able.roll = true;
   able.rate_hz = 1000;
   able.workspace = {{-50, -50, -40}, {50, 50, 40}};
   const bool is_motor = identity_ && identity_->drive == static_cast<std::uint8_t>(Drive::Motor);
@@ -186,12 +188,15 @@ void ArmDevice::take_frame(Nanoseconds now) noexcept {
   firmware::Identity identity;
   firmware::Sensors sensors;
   firmware::Motion motion;
+  firmware::Alignment alignment;
   if (decoder_.read_frame(identity)) {
     take(now, identity);
   } else if (decoder_.read_frame(sensors)) {
     take(now, sensors);
   } else if (decoder_.read_frame(motion)) {
     take(now, motion);
+  } else if (decoder_.read_frame(alignment)) {
+    take(now, alignment);
   } else {
     ++state_.refused;
   }
@@ -247,12 +252,13 @@ void ArmDevice::take(Nanoseconds now, const firmware::Sensors& sensors) noexcept
     ++state_.refused;
     return;
   }
-  for (std::size_t i = 0; i < kLegs; ++i) state_.raw_counts[i] = sensors.counts[i];
+  for (std::size_t i = 0; i < kLegs; ++i) state_.raw_counts[i] = sensors.legs[i].counts;
+  take_roll(firmware::roll_of(sensors.legs));
   heard(now, sensors.echo, sensors.status);
   if (phase_ != Phase::Working || (sensors.status & firmware::kStatusSensorFault) != 0) return;
   arm::LegAngles angles{};
   for (std::size_t i = 0; i < kLegs; ++i) {
-    angles[i] = calibration_->legs[i].angle_at(sensors.counts[i]);
+    angles[i] = calibration_->legs[i].angle_at(sensors.legs[i].counts);
     if (has_place_) angles[i] = angles_[i] + kAngleFilter * (angles[i] - angles_[i]);
   }
   place(now, angles);
@@ -264,6 +270,7 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
     return;
   }
   for (std::size_t i = 0; i < kLegs; ++i) state_.raw_counts[i] = motion.counts[i];
+  take_roll(motion.roll);
   heard(now, motion.echo, motion.status);
   const Vec3 given =
       Vec3{static_cast<double>(motion.force_mn[0]), static_cast<double>(motion.force_mn[1]),
@@ -279,6 +286,23 @@ void ArmDevice::take(Nanoseconds now, const firmware::Motion& motion) noexcept {
     angles[i] = (motion.counts[i] - home_[i]) * kRadPerMotorCount;
   }
   place(now, angles);
+}
+
+void ArmDevice::take(Nanoseconds now, const firmware::Alignment& alignment) noexcept {
+  if (!identity_ || identity_->drive != static_cast<std::uint8_t>(Drive::Motor)) {
+    ++state_.refused;
+    return;
+  }
+  state_.windings.progress = alignment.progress;
+  for (std::size_t i = 0; i < kLegs; ++i) {
+    state_.windings.electrical_zero[i] = alignment.electrical_zero[i];
+    state_.windings.windings[i] = alignment.windings_found[i];
+  }
+  heard(now, alignment.echo, alignment.status);
+}
+
+void ArmDevice::take_roll(std::uint16_t roll) noexcept {
+  state_.roll_rad = roll * (2 * kPi / firmware::kRollsOfTurn);
 }
 
 /// What a device of drive B was told by another program is not known here.
@@ -338,6 +362,8 @@ void ArmDevice::configure(Nanoseconds now) noexcept {
     for (std::size_t i = 0; i < kLegs; ++i) {
       home_[i] = home_of(calibration_->zero_in_turn[i], state_.raw_counts[i]);
       home.zero_counts[i] = std::clamp(home_[i], -1000000, 1000000);
+      home.electrical_zero[i] = calibration_->windings[i].electrical_zero;
+      home.windings[i] = static_cast<std::uint8_t>(calibration_->windings[i].windings);
     }
     (void)send(now, home);
   }
@@ -392,6 +418,8 @@ void ArmDevice::command(Nanoseconds now, const DeviceCommand& command) noexcept 
   if (phase_ == Phase::Greeting) return greet(now);
   const bool is_stop = identity_->drive == static_cast<std::uint8_t>(Drive::Stop);
   if (pulse_us_ != 0 && is_stop) return turn_servos_now(now);
+  if (pulse_us_ != 0) return (void)send(now, firmware::Align{});
+  state_.windings.progress = 0;
   if (turn_configs_ != 0) {  // as usual again: from the beginning
     turn_configs_ = 0;
     phase_ = Phase::Greeting;

@@ -58,6 +58,8 @@ class ArmDevice final : public Device {
   void take(Nanoseconds now, const firmware::Identity& identity) noexcept;
   void take(Nanoseconds now, const firmware::Sensors& sensors) noexcept;
   void take(Nanoseconds now, const firmware::Motion& motion) noexcept;
+  void take(Nanoseconds now, const firmware::Alignment& alignment) noexcept;
+  void take_roll(std::uint16_t roll) noexcept;
   void heard(Nanoseconds now, std::uint8_t echo, std::uint8_t status) noexcept;
   void place(Nanoseconds now, const arm::LegAngles& angles) noexcept;
   void configure(Nanoseconds now) noexcept;

@@ -59,9 +59,10 @@ class Desk {
     for (std::size_t ms = 0; ms < calibrator.sample_count(); ++ms) {
       if (move) move(static_cast<int>(ms));
       run_ms(1);
+      if (calibrator.is_enough(raw.size(), state.windings)) break;
     }
     keeps_raw = false;
-    return calibrator.take(raw);
+    return calibrator.take(raw, state.windings);
   }
   /// Stored, and read by a device that is opened anew.
   ArmCalibration finish(ArmCalibrator& calibrator) {
@@ -201,12 +202,18 @@ TEST(ArmOnVirtualArm, DriveAIsCalibratedByAHandThatVisitsTheNotchesAndByItself) 
   EXPECT_LT(desk.truly().z, wall.planes[0].offset_mm + 2);
 }
 
-TEST(ArmOnVirtualArm, DriveBsMotorsAreEvenedOnceAHandHasLedItAbout) {
+TEST(ArmOnVirtualArm, DriveBFindsItsWindingsAndIsEvenedOnceAHandHasLedItAbout) {
   Desk desk(firmware::Drive::Motor, false);
   const Vec3 centre = desk.unit.arm().size().centre;
   desk.run_ms(300);
   ArmCalibrator calibrator(firmware::Drive::Motor, 3);
   ASSERT_EQ(desk.measure(calibrator), std::nullopt);
+  // In two fingers.
+  desk.unit.arm().plant().set_hand(virtual_arm::kHandModels[0]);
+  ASSERT_EQ(desk.measure(calibrator), std::nullopt);
+  desk.pulse_us = 0;
+  desk.unit.arm().plant().set_hand(virtual_arm::kHandModels[1]);
+  desk.run_ms(200);
   const auto led = desk.measure(calibrator, [&](int ms) {
     const double turn = 2 * kPi * 1e-3 * ms;
     const double soft = std::min(1.0, 2e-3 * ms);

@@ -56,12 +56,12 @@ void CalibrationDesk::take() {
   samples_.clear();
   is_measuring_ = true;
   began_ = std::chrono::steady_clock::now();
-  note_ = calibrator_.pulse_us() != 0                   ? "Its servos turn: follow it."
+  note_ = calibrator_.pulse_us() != 0                   ? "It turns by itself: follow it."
           : calibrator_.sample_count() > kSamplesOfStep ? "Measuring, go on."
                                                         : "Measuring, keep still.";
 }
 
-bool CalibrationDesk::look(const std::string& now_utc) {
+bool CalibrationDesk::look(const std::string& now_utc, const LoopState& state) {
   if (!is_measuring_) return false;
   const auto measured = std::chrono::steady_clock::now() - began_ - settles_;
   while (const auto sample = loop_.next_raw()) {
@@ -69,10 +69,12 @@ bool CalibrationDesk::look(const std::string& now_utc) {
   }
   const std::size_t wanted = calibrator_.sample_count();
   const bool is_late = measured > kMostTime + std::chrono::milliseconds(2 * wanted);
-  if (samples_.size() < wanted && !is_late) return false;
+  if (!calibrator_.is_enough(samples_.size(), state.device.windings) && !is_late) return false;
   is_measuring_ = false;
-  if (const auto problem = calibrator_.take(samples_)) {
+  const bool was_turning = calibrator_.pulse_us() != 0;
+  if (const auto problem = calibrator_.take(samples_, state.device.windings)) {
     note_ = *problem;
+    if (was_turning && !calibrator_.is_by_itself()) loop_.turn_servos(0);
     return false;
   }
   note_ = "Measured.";

@@ -29,7 +29,7 @@ class CalibrationDesk {
   void take();
   /// To be called several times a second. @return true once all is stored: the desk is of no use
   /// any more.
-  [[nodiscard]] bool look(const std::string& now_utc);
+  [[nodiscard]] bool look(const std::string& now_utc, const LoopState& state);
   [[nodiscard]] std::string instruction() const;
   /// What must be measured is stored; what is left may be left out.
   [[nodiscard]] bool is_stored() const noexcept { return is_stored_; }

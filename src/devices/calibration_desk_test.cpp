@@ -37,12 +37,17 @@ class ArmAtRest final : public Device {
     state.unit = 12;
     state.raw_counts = {100, 200, 300};
     state.raw_samples = ++samples_;
+    state.windings.progress = static_cast<std::uint8_t>(is_turning_ ? firmware::Progress::Found
+                                                                    : firmware::Progress::Waiting);
+    state.windings.windings = {1, 2, 1};
   }
+  void turn_servos(int pulse_us) noexcept override { is_turning_ = pulse_us != 0; }
   void command(Nanoseconds, const DeviceCommand&) noexcept override {}
 
  private:
   std::atomic<int>& opened_;
   std::uint64_t samples_ = 0;
+  bool is_turning_ = false;
 };
 
 class CalibrationDeskTest : public ::testing::Test {
@@ -74,16 +79,23 @@ class CalibrationDeskTest : public ::testing::Test {
 TEST_F(CalibrationDeskTest, WhatMustBeMeasuredIsStoredThoughTheMotorsAreNotEvened) {
   const fs::path file = folder_ / calibration_file_name(firmware::Drive::Motor, 12);
   auto desk = std::make_unique<CalibrationDesk>(*loop_, state_, folder_);
-  EXPECT_NE(desk->instruction().find("1 of 2"), std::string::npos);
+  EXPECT_NE(desk->instruction().find("1 of 3"), std::string::npos);
+  const auto look = [&] {
+    (void)loop_->look(state_);
+    return desk->look("now", state_);
+  };
   desk->take();
-  ASSERT_TRUE(comes([&] { return desk->look("now") || desk->is_stored(); })) << desk->note();
+  ASSERT_TRUE(comes([&] { return look() || desk->note() == "Measured."; })) << desk->note();
+  EXPECT_NE(desk->instruction().find("motors turn now"), std::string::npos);
+  desk->take();
+  ASSERT_TRUE(comes([&] { return look() || desk->is_stored(); })) << desk->note();
   EXPECT_TRUE(fs::exists(file));
   EXPECT_NE(desk->instruction().find("circles"), std::string::npos);
   EXPECT_NE(desk->note().find("may be left out"), std::string::npos);
   // An arm at rest shows no cogging: it is told, and what is stored stays.
   desk->take();
   ASSERT_TRUE(comes([&] {
-    EXPECT_FALSE(desk->look("now"));
+    EXPECT_FALSE(look());
     return desk->note().find("moved too little") != std::string::npos;
   }));
   EXPECT_EQ(opened_, 1);

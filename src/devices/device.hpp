@@ -43,10 +43,18 @@ inline constexpr int kHealths = 8;
 /// A device that answers each millisecond and has not for so long is silent.
 inline constexpr Nanoseconds kSilentNs = 50 * kNsPerMs;
 
+/// What drive B says of how its motors' windings stand to their encoders, while it looks for that.
+struct MotorWindings {
+  std::uint8_t progress = 0;  ///< firmware::Progress
+  std::array<std::uint16_t, 3> electrical_zero{};
+  std::array<std::uint8_t, 3> windings{};  ///< firmware::Windings
+};
+
 /// What a device is able to do.
 struct Capabilities {
   bool position = false;
   bool rotation = false;
+  bool roll = false;         ///< says how what is held is turned about its shaft
   bool absolute = false;     ///< says where it is; else how fast it is to move
   bool force = false;        ///< a force that the host computes
   bool stop = false;         ///< a wall that stands still, and no force
@@ -66,8 +74,9 @@ struct DeviceState {
   Nanoseconds heard_ns = 0;   ///< when it last said where it is
   std::uint64_t samples = 0;  ///< so often it has
   Vec3 position_mm;
-  Mat3 rotation;       ///< of what is held, device from handle; its shaft is column 2
-  Vec3 velocity_mm_s;  ///< of a device that is not absolute what it asks for
+  Mat3 rotation;        ///< of what is held, device from handle; its shaft is column 2
+  double roll_rad = 0;  ///< about the shaft, towards the hand; from where its sensor begins
+  Vec3 velocity_mm_s;   ///< of a device that is not absolute what it asks for
   Vec3 spin_rad_s;
   std::uint32_t buttons = 0;
   Vec3 force_n;               ///< that it says to give; zero where it does not say
@@ -77,6 +86,7 @@ struct DeviceState {
   /// What its sensors say as they say it, for whoever calibrates.
   std::array<std::int32_t, 3> raw_counts{};
   std::uint64_t raw_samples = 0;
+  MotorWindings windings;  ///< likewise
   std::uint32_t unit = 0;  ///< of a device that tells its number
   bool has_unit = false;
   std::uint64_t unsent = 0;  ///< commands for which there was no room on the line
@@ -125,7 +135,8 @@ class Device {
   /// driver does the nearest that is weaker.
   virtual void command(Nanoseconds now, const DeviceCommand& command) noexcept = 0;
   /// While it is calibrated, nobody's hand on it: drive A's servos are to turn to this pulse,
-  /// whatever is commanded; 0: as usual. To be called each turn.
+  /// whatever is commanded; of drive B, at any pulse, its motors are to find how their windings
+  /// stand; 0: as usual. To be called each turn.
   virtual void turn_servos(int /*pulse_us*/) noexcept {}
 };
 

@@ -27,6 +27,7 @@ inline ArmCalibration fake_calibration(firmware::Drive drive, std::uint32_t unit
   for (std::size_t i = 0; i < kLegs; ++i) {
     calibration.legs[i].zero_counts = 2046;
     calibration.legs[i].rad_per_count = kFakeRadPerCount;
+    calibration.windings[i].windings = firmware::Windings::Along;
     calibration.zero_in_turn[i] = static_cast<std::int32_t>(1000 * (i + 1));
   }
   calibration.made_at = "2026-01-01T00:00:00Z";

@@ -42,6 +42,8 @@ ArmCalibration VirtualUnit::calibration() const {
     } else {
       const std::int32_t zero = home.zero_counts[i] % kCountsOfTurn;
       calibration.zero_in_turn[i] = zero < 0 ? zero + kCountsOfTurn : zero;
+      calibration.windings[i].electrical_zero = home.electrical_zero[i];
+      calibration.windings[i].windings = static_cast<firmware::Windings>(home.windings[i]);
     }
   }
   return calibration;

@@ -153,7 +153,7 @@ std::optional<std::string> DeviceDesk::look() {
       lost = "The " + held.name + " in the " + kHandNames[i] + " hand is " +
              devices::in_words(held.state.device.health);
     }
-    if (held.calibration && held.calibration->look(records::utc_now())) {
+    if (held.calibration && held.calibration->look(records::utc_now(), held.state)) {
       held.calibration.reset();
       held.note = "Calibrated; it is stored for this device.";
       told_at_ = {};

@@ -9,7 +9,7 @@
 
 namespace carpus::virtual_arm {
 namespace {
-constexpr double kConversionUs = 104;
+constexpr double kConversionUs = 96;
 constexpr int kConversionsOfASample = 4;
 constexpr double kSlotUs = 13333 * 0.5;
 /// From a frame's last byte to the answer's first, about as the ATmega needs.
@@ -35,6 +35,12 @@ void CoreStopBoard::brown_out() {
 }
 
 void CoreStopBoard::convert() {
+  if (leg_ == 3) {  // behind the legs, once a round
+    arm_.sample_roll(static_cast<std::uint16_t>(arm::counts_of(roll_, 10) << 2));
+    leg_ = 0;
+    next_conversion_us_ += kConversionUs;
+    return;
+  }
   sum_ = static_cast<std::uint16_t>(sum_ + arm::counts_of(wipers_[leg_], 10));
   next_conversion_us_ += kConversionUs;
   if (++conversions_ < kConversionsOfASample) return;
@@ -43,7 +49,7 @@ void CoreStopBoard::convert() {
   arm_.step(static_cast<std::uint8_t>(leg_), now);
   sum_ = 0;
   conversions_ = 0;
-  leg_ = (leg_ + 1) % 3;
+  ++leg_;
 }
 
 void CoreStopBoard::do_slot() {

@@ -30,6 +30,8 @@ class StopBoard {
   virtual void receive(std::uint8_t byte) = 0;
   /// @param share  of the supply, at the wiper.
   virtual void set_wiper(int leg, double share) = 0;
+  /// @param share  of a turn, of the tool in its gimbal.
+  virtual void set_roll(double share) = 0;
   virtual void brown_out() = 0;
   [[nodiscard]] virtual bool is_supply_on() const = 0;
 
@@ -39,7 +41,7 @@ class StopBoard {
   std::function<void(int leg, double begun_us, double length_us)> on_pulse;
 };
 
-/// The firmware's core with a board's schedule (firmware/avr/main.cpp): a conversion each 104 us,
+/// The firmware's core with a board's schedule (firmware/avr/main.cpp): a conversion each 96 us,
 /// pulses in slots of a third of 20 ms.
 class CoreStopBoard final : public StopBoard {
  public:
@@ -47,6 +49,7 @@ class CoreStopBoard final : public StopBoard {
   void run_to_us(double us) override;
   void receive(std::uint8_t byte) override;
   void set_wiper(int leg, double share) override;
+  void set_roll(double share) override { roll_ = share; }
   void brown_out() override;
   [[nodiscard]] bool is_supply_on() const override;
 
@@ -68,6 +71,7 @@ class CoreStopBoard final : public StopBoard {
   double pulse_begun_us_ = 0;
   double line_free_us_ = 0;
   double wipers_[3] = {0.5, 0.5, 0.5};
+  double roll_ = 0;
   std::deque<Coming> coming_;
   std::deque<Coming> going_;
   int leg_ = 0;

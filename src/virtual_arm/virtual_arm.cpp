@@ -3,6 +3,9 @@
 #include "virtual_arm/virtual_arm.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
 
 namespace carpus::virtual_arm {
 
@@ -20,6 +23,12 @@ void VirtualArm::take_line(double us, const std::function<void(std::uint8_t)>& b
     begin(line_.front().byte);
     line_.pop_front();
   }
+}
+
+double share_of_turn(double rad) noexcept {
+  const double turns = rad / (2 * kPi);
+  const double share = turns - std::floor(turns);
+  return share < 1 ? share : 0;
 }
 
 }  // namespace carpus::virtual_arm

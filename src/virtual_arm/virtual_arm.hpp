@@ -60,6 +60,8 @@ class VirtualArm {
   [[nodiscard]] virtual arm::Cogging cogging() const { return {}; }
 
   ArmFaults faults;
+  /// How the tool is turned in its gimbal, against what its sensor calls 0.
+  double tool_roll_rad = 0;
   /// The supply fails, and comes back.
   virtual void brown_out() = 0;
 
@@ -76,6 +78,9 @@ class VirtualArm {
   std::deque<Waiting> line_;
   double line_free_us_ = 0;
 };
+
+/// Of a turn, from 0 to below 1, as a magnet's sensor tells it.
+[[nodiscard]] double share_of_turn(double rad) noexcept;
 
 /// Step of the plant [us]; drive B's control of 4 kHz takes ten of them.
 inline constexpr double kPlantStepUs = 25;

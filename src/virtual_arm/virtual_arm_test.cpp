@@ -9,6 +9,7 @@
 
 #include "firmware/core/frame_decoder.hpp"
 #include "firmware/core/frame_encoder.hpp"
+#include "firmware/core/tool_roll.hpp"
 
 namespace carpus::virtual_arm {
 namespace {
@@ -22,6 +23,7 @@ struct Host {
         ++answers;
         (void)decoder.read_frame(sensors);
         (void)decoder.read_frame(motion);
+        (void)decoder.read_frame(alignment);
       }
     };
   }
@@ -49,6 +51,7 @@ struct Host {
   firmware::HostDecoder decoder;
   firmware::Sensors sensors;
   firmware::Motion motion;
+  firmware::Alignment alignment;
   int answers = 0;
   std::uint8_t sequence = 0;
 };
@@ -69,7 +72,7 @@ TEST(VirtualArm, DriveASaysWhereItIsAndFollowsTheHandWithItsSlots) {
     if (ms < 300) continue;
     for (int leg = 0; leg < 3; ++leg) {
       const auto i = static_cast<std::size_t>(leg);
-      const double angle = host.arm->leg_calibration(leg).angle_at(host.sensors.counts[i]);
+      const double angle = host.arm->leg_calibration(leg).angle_at(host.sensors.legs[i].counts);
       worst = std::max(worst, std::abs(angle - host.arm->plant().angles()[i]));
       EXPECT_EQ(host.arm->torques()[i], 0) << "no slot's edge is met in free space, " << ms;
     }
@@ -99,6 +102,62 @@ TEST(VirtualArm, DriveBRendersAPlaneOnItsOwn) {
       << "but for the weight";
   EXPECT_GT(host.motion.force_mn[2], 1000);
   EXPECT_TRUE(host.arm->plant().is_sound());
+}
+
+TEST(VirtualArm, DriveBFindsHowItsWindingsStandInAHandThatGoesAlong) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    VirtualArmOptions options;
+    options.seed = seed;
+    options.hand = kHandModels[0];
+    Host host(make_virtual_motor_arm(options));
+    host.run_ms(60);
+    host.send(firmware::Hello{firmware::kProtocolVersion});
+    const Vec3 start = host.arm->plant().tip();
+    host.arm->plant().set_intent({start, {}});
+    double farthest = 0;
+    double most_n = 0;
+    int ms = 0;
+    for (; ms < 10'000; ++ms) {
+      host.send(firmware::Align{});
+      host.run_ms(1);
+      farthest = std::max(farthest, distance(host.arm->plant().tip(), start));
+      most_n = std::max(most_n, length(host.arm->plant().felt_n()));
+      if (host.alignment.progress == static_cast<std::uint8_t>(firmware::Progress::Found)) break;
+    }
+    ASSERT_LT(ms, 8000) << "found, seed " << seed;
+    EXPECT_LT(farthest, 12) << "a light hand also yields to its weight";
+    EXPECT_LT(most_n, 5);
+    const firmware::Home home = host.arm->home();
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(host.alignment.windings_found[i], home.windings[i]);
+      const auto beside = static_cast<std::int16_t>(
+          static_cast<std::uint16_t>(host.alignment.electrical_zero[i] - home.electrical_zero[i]));
+      EXPECT_LT(std::abs(beside) * 360.0 / 65536, 15) << "electrical degrees, seed " << seed;
+    }
+    // Nobody asks on: its motors are off.
+    host.run_ms(27);
+    EXPECT_FALSE(host.arm->is_driven());
+  }
+}
+
+TEST(VirtualArm, BothDrivesTellTheToolsRoll) {
+  for (const bool is_motor : {false, true}) {
+    Host host(is_motor ? make_virtual_motor_arm({}) : make_virtual_stop_arm({}));
+    host.greet();
+    for (const double deg : {0.0, 90.0, 200.0, 359.0}) {
+      host.arm->tool_roll_rad = deg * 3.14159265358979 / 180;
+      for (int ms = 0; ms < 10; ++ms) {
+        if (is_motor) {
+          host.send(firmware::Contact{});
+        } else {
+          host.send(firmware::Stop{});
+        }
+        host.run_ms(1);
+      }
+      const int roll = is_motor ? host.motion.roll : firmware::roll_of(host.sensors.legs);
+      EXPECT_NEAR(roll * 360.0 / firmware::kRollsOfTurn, deg, 0.4) << is_motor;
+    }
+  }
 }
 
 TEST(VirtualArm, IsTheSameInEveryRun) {

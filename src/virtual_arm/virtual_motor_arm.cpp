@@ -40,14 +40,16 @@ class VirtualMotorArm final : public VirtualArm {
   [[nodiscard]] ArmPlant& plant() override { return plant_; }
   [[nodiscard]] const arm::DeltaArm& size() const override { return size_; }
   [[nodiscard]] JointValues torques() const override { return torques_; }
-  [[nodiscard]] bool is_driven() const override {
-    return wished_[0] != 0 || wished_[1] != 0 || wished_[2] != 0;
-  }
+  [[nodiscard]] bool is_driven() const override { return arm_.is_driving(); }
   [[nodiscard]] const arm::LegCalibration& leg_calibration(int) const override { return none_; }
   [[nodiscard]] firmware::LegConfig leg_config(int) const override { return {}; }
   [[nodiscard]] firmware::Home home() const override {
     firmware::Home home;
-    for (std::size_t i = 0; i < 3; ++i) home.zero_counts[i] = motors_[i].zero_counts();
+    for (std::size_t i = 0; i < 3; ++i) {
+      home.zero_counts[i] = motors_[i].zero_counts();
+      home.electrical_zero[i] = motors_[i].windings().electrical_zero;
+      home.windings[i] = static_cast<std::uint8_t>(motors_[i].windings().windings);
+    }
     return home;
   }
   [[nodiscard]] arm::Cogging cogging() const override {
@@ -60,7 +62,7 @@ class VirtualMotorArm final : public VirtualArm {
   }
   void brown_out() override {
     arm_ = firmware::MotorArm(unit_);
-    for (float& torque : wished_) torque = 0;
+    volts_ = {};
     coming_.clear();
     going_.clear();
   }
@@ -77,8 +79,8 @@ class VirtualMotorArm final : public VirtualArm {
         next_control_us_ += kControlUs;
       }
       for (std::size_t i = 0; i < 3; ++i) {
-        torques_[i] = motors_[i].step(kPlantStepUs * 1e-6, static_cast<double>(wished_[i]),
-                                      plant_.angles()[i]);
+        torques_[i] = motors_[i].step(kPlantStepUs * 1e-6, volts_[i], arm_.is_driving(),
+                                      plant_.angles()[i], plant_.rates()[i]);
       }
       plant_.step(kPlantStepUs * 1e-6, torques_);
       if (on_step) on_step(kPlantStepUs * 1e-6);
@@ -98,7 +100,11 @@ class VirtualMotorArm final : public VirtualArm {
       // A magnet that has come loose.
       if (faults.broken_sensor == static_cast<int>(i) && (jumps_ = !jumps_)) counts[i] += 5000;
     }
-    arm_.step(counts, static_cast<std::uint32_t>(now_us_), wished_);
+    float wished[3];
+    arm_.sample_roll(
+        static_cast<std::uint16_t>(firmware::kRollsOfTurn * share_of_turn(tool_roll_rad)));
+    arm_.step(counts, static_cast<std::uint32_t>(now_us_), wished);
+    for (std::uint8_t i = 0; i < 3; ++i) volts_[i] = arm_.volts(i);
   }
 
   void serve_line() {
@@ -125,7 +131,7 @@ class VirtualMotorArm final : public VirtualArm {
   std::array<GimbalMotor, 3> motors_;
   arm::LegCalibration none_;
   JointValues torques_{};
-  float wished_[3] = {0, 0, 0};
+  std::array<firmware::WindingVolts, 3> volts_{};
   std::deque<OnLine> coming_;
   std::deque<OnLine> going_;
   double next_control_us_ = 0;

@@ -93,6 +93,7 @@ class VirtualStopArm final : public VirtualArm {
                                    ? 1.0
                                    : pots_[i].read(plant_.angles()[i] - kMiddleRad));
       }
+      board_->set_roll(share_of_turn(tool_roll_rad));
       now_us_ += kPlantStepUs;
       board_->run_to_us(now_us_);
       move(kPlantStepUs * 1e-6);

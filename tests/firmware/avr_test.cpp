@@ -329,7 +329,7 @@ TEST(AvrFirmware, IsTheSameInEveryRun) {
     bench.avr.set_wiper_mv(0, 2600);
     bench.drive_ms(100, Stop{});
     double sum = 0;
-    for (const Answer& answer : bench.answers) sum += answer.us + answer.sensors.counts[0];
+    for (const Answer& answer : bench.answers) sum += answer.us + answer.sensors.legs[0].counts;
     for (const Pulse& pulse : bench.pulses) sum += pulse.begun_us + pulse.length_us;
     return sum;
   };
