@@ -14,7 +14,7 @@ import { placementPictures } from "./placement_pictures";
 import { TurningPlacement } from "./turning_placement";
 import { viewsSection } from "./views_section";
 import { GRADE_SIGNS, GRADE_WORDS, longestLineText, valueText } from "./score_model";
-import { answerText, isDeclined, mustHaveWords, verdictText } from "./verdict_model";
+import { answerText, isDeclined, isFixation, mustHaveWords, verdictText } from "./verdict_model";
 import "./score.css";
 
 export function mountScore(app: HTMLElement, attemptId: number): () => void {
@@ -117,7 +117,9 @@ function show(
     make("section.verdict-row", {}, verdict(report), pictures),
     turning,
     table(report),
-    ...(attempt.case_is_open && report.is_void !== true ? [viewsSection(attempt)] : []),
+    ...(attempt.case_is_open && report.is_void !== true && isFixation(report)
+      ? [viewsSection(attempt)]
+      : []),
     eventList(attempt.events),
     make(
       "p.secondary.score-foot",
@@ -125,7 +127,7 @@ function show(
       "Measured on the case's own geometry; simulated training, not a medical device.",
     ),
   );
-  if (report.is_void === true || isDeclined(report)) {
+  if (report.is_void === true || isDeclined(report) || !isFixation(report)) {
     pictures.remove();
     return;
   }

@@ -8,12 +8,28 @@ describe("verdictText", () => {
     good: boolean,
     isVoid: boolean | null,
     declined: readonly string[] | null,
-  ): string => verdictText({ fixation_acceptable: good, is_void: isVoid, declined_for: declined });
+    axisMm = 26,
+  ): string =>
+    verdictText({
+      fixation_acceptable: good,
+      is_void: isVoid,
+      declined_for: declined,
+      central_axis_length_mm: axisMm,
+    });
 
   it("tells a fixation", () => {
     expect(text(true, null, null)).toContain("fixation is acceptable");
     expect(text(false, null, null)).toContain("not acceptable");
     expect(text(false, true, null)).toContain("before a screw was in");
+  });
+
+  it("speaks of no fixation where nothing was to be fixed", () => {
+    for (const said of [text(true, null, null, 0), text(false, null, null, 0)]) {
+      expect(said).toContain("looked into");
+      expect(said).not.toContain("fixation");
+    }
+    expect(text(false, true, null, 0)).toContain("Void");
+    expect(text(false, true, null, 0)).not.toContain("screw");
   });
 
   it("tells a decline, right, wrong, and made without a look", () => {

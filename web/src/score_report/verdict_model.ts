@@ -4,7 +4,15 @@
 // What was achieved, in one sentence, and what the case was about.
 import type { CaseAnswer, MustHave, RightAnswer, ScoreReport } from "../protocol";
 
-type Told = Pick<ScoreReport, "fixation_acceptable" | "is_void" | "declined_for">;
+type Told = Pick<
+  ScoreReport,
+  "fixation_acceptable" | "is_void" | "declined_for" | "central_axis_length_mm"
+>;
+
+/** Whether a screw was to go along an axis; else a joint was looked into, and nothing was fixed. */
+export function isFixation(report: Pick<ScoreReport, "central_axis_length_mm">): boolean {
+  return report.central_axis_length_mm > 0;
+}
 
 export function isDeclined(report: Pick<ScoreReport, "declined_for">): boolean {
   return (report.declined_for ?? []).length > 0;
@@ -12,6 +20,14 @@ export function isDeclined(report: Pick<ScoreReport, "declined_for">): boolean {
 
 export function verdictText(report: Told): string {
   const good = report.fixation_acceptable;
+  if (!isFixation(report)) {
+    if (report.is_void === true) {
+      return "✕ Void: it ended before the joint was looked into. What is true of this case stays closed.";
+    }
+    return good
+      ? "✓ The joint was looked into."
+      : "✕ The joint was not looked into: nothing earns points without it.";
+  }
   if (report.is_void === true) {
     return isDeclined(report)
       ? "✕ Void: it was declined before it was looked at. What is true of this case stays closed."
