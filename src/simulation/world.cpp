@@ -211,7 +211,9 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
       hand.has_wish = true;
     }
     if (hand.wish.driver != Driver::Reverse) hand.reverse_is_held = false;
-    advance(hand.plan, hand.wish, item == nullptr || !item->is_fixed());
+    // Nothing is lifted over what it lies in.
+    const bool is_in_portal = scope_state.portal[h] != kNoBody;
+    advance(hand.plan, hand.wish, item == nullptr || !(item->is_fixed() || is_in_portal));
   }
   obey(model, input.command);
   look_through(model, input.c_arm);

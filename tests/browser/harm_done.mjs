@@ -31,10 +31,12 @@ async function letGoAndTakeWireOut(operator) {
 async function capitateDrilledThenAGoodScrew(page, station) {
   const operator = new Operator(page);
   const axis = readAxis(station.caseFolder);
-  const { dorsal } = readWrist(station.caseFolder);
+  const { dorsal, distal } = readWrist(station.caseFolder);
+  // Its back, away from the radius.
+  const back = dorsal.map((v, i) => v + 0.8 * distal[i]);
   const went = await check(page, "a capitate is drilled by mistake, and taken back", async () => {
     await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
-    const scanned = farthest(readVertices(station.caseFolder, "capitate"), dorsal);
+    const scanned = farthest(readVertices(station.caseFolder, "capitate"), back);
     const pose = await page.evaluate(() => window.carpus.bodyPoses().capitate);
     await operator.placeOn({ entry: Operator.moved(pose, scanned), toHand: dorsal });
     await operator.until((s) => s.hands[0].touched_body === "capitate", "the tip on the capitate");

@@ -223,7 +223,7 @@ export class ScopeDesk {
       shaft: wish.shaft,
       thrust_n: 0,
       driver: "off",
-      guidance: "direct",
+      guidance: "planned",
     });
   }
 
