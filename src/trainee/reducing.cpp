@@ -285,6 +285,8 @@ bool Reducing::next(const Snapshot& now, Input& input) {
   const bool is_fixed = item.body != simulation::kNoBody;
   hand.driver = Driver::Off;
   hand.thrust_n = 0.0;
+  // Drawn out, the hand is where its wire came out, not where it went in before the piece was led.
+  if (is_fixed) hand_ = {item.tip_in_patient, item.shaft_in_patient};
   hand.tip_in_patient = is_fixed ? item.tip_in_patient : hand_.tip;
   hand.shaft_in_patient = is_fixed ? item.shaft_in_patient : hand_.shaft;
   switch (stage_) {

@@ -34,7 +34,8 @@ double World::State::close_gap(const Model& model, Item& screw, double closing_m
   const Vec3 along = (poses[screw.body] * Direction<frame::Bone>{screw.direction_in_bone}).v;
   const Vec3 in_base = (bases[far].inverse() * Direction<frame::Patient>{along}).v;
   const Displacement before = now.moved[far];
-  displace_fragment(model, far, InBone{Mat3::identity(), in_base * -closing_mm});
+  displace_fragment(model, far, InBone{Mat3::identity(), in_base * -closing_mm},
+                    model.kinds.fragments);
   if (now.moved[far] == before) return closing_mm;
   pose_bodies(model);
   for (Item& item : now.items) {

@@ -74,18 +74,18 @@ double World::State::way_in_target_mm(const Model& model, const Item& item) cons
   return last_inside;
 }
 
-/// Where the fragment, so displaced, would lie deeper in another bone than it may, told at the
-/// corners of its hull: the way out of that bone, in
-/// Patient; nothing where it lies free.
+/// Where the fragment, so displaced, would lie deeper in one of those bones than it may, told at
+/// the corners of its hull: the way out of that bone, in Patient; nothing where it lies free.
 std::optional<Vec3> World::State::way_out_of_another(const Model& model,
                                                      std::uint8_t body,
-                                                     const Displacement& moved) const noexcept {
+                                                     const Displacement& moved,
+                                                     detail::BodySet others) const noexcept {
   const detail::BodyPose pose = bases[body] * moved.pose();
   const Vec3 middle = (pose * Point<frame::Bone>{model.centres[body]}).v;
   double deepest = 0.0;
   std::optional<Vec3> way_out;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
-    if (b == body) continue;
+    if (b == body || (others & bit_of(b)) == 0) continue;
     const bool is_fragment = (model.kinds.fragments & bit_of(b)) != 0;
     const Vec3 centre = (poses[b] * Point<frame::Bone>{model.centres[b]}).v;
     const double reach = model.reaches_mm[b];
@@ -137,17 +137,18 @@ bool World::State::is_within_ligaments(const Model& model,
          squared_length(moved.turn) <= detail::kGreatestTurn * detail::kGreatestTurn;
 }
 
-/// As far as it goes without entering another bone, along which it slides, and within what
+/// As far as it goes without entering one of those bones, along which it slides, and within what
 /// ligaments allow.
 void World::State::displace_fragment(const Model& model,
                                      std::uint8_t body,
-                                     const InBone& by) noexcept {
+                                     const InBone& by,
+                                     detail::BodySet others) noexcept {
   constexpr int kSlides = 3;  // along one bone, two, then in the corner between three
   InBone step = by;
   for (int slide = 0; slide <= kSlides; ++slide) {
     const Displacement wanted = Displacement::of(step * now.moved[body].pose());
     if (!is_within_ligaments(model, body, wanted)) return;
-    const std::optional<Vec3> way_out = way_out_of_another(model, body, wanted);
+    const std::optional<Vec3> way_out = way_out_of_another(model, body, wanted, others);
     if (!way_out) {
       now.moved[body] = wanted;
       return;
@@ -176,7 +177,8 @@ void World::State::push_fragment(const Model& model, const Item& item, double fo
     // A joystick may have led it farther: a push never takes it back.
     const double on = std::min(kPushedMm, force_n / kStiffnessNPerMm) - dot(gone, pushed);
     if (!(on > 0.0)) continue;
-    displace_fragment(model, b, {Mat3::identity(), pushed * std::min(on, kYieldMmPerTick)});
+    displace_fragment(model, b, {Mat3::identity(), pushed * std::min(on, kYieldMmPerTick)},
+                      model.kinds.fragments);
     has_moved = true;
   }
   if (has_moved) pose_bodies(model);
@@ -208,7 +210,8 @@ void World::State::lead_fragment(const Model& model, std::uint8_t hand) noexcept
     by.translation += way * (std::min(kYieldMmPerTick, far - kSlackMm) / far);
   }
   if (by == InBone{}) return;
-  displace_fragment(model, body, by);
+  constexpr detail::BodySet kAll = ~detail::BodySet{0};
+  displace_fragment(model, body, by, kAll);
   pose_bodies(model);
   carry_fixed_items();
 }

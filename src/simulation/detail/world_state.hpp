@@ -222,15 +222,18 @@ struct World::State {
   // fragments.cpp
   void push_fragment(const Model& model, const detail::Item& item, double force_n) noexcept;
   void lead_fragment(const Model& model, std::uint8_t hand) noexcept;
-  void displace_fragment(const Model& model, std::uint8_t body, const detail::InBone& by) noexcept;
+  void displace_fragment(const Model& model,
+                         std::uint8_t body,
+                         const detail::InBone& by,
+                         detail::BodySet others) noexcept;
   [[nodiscard]] procedure::FractureFacts fracture_now(const Model& model) const noexcept;
   [[nodiscard]] double way_in_target_mm(const Model& model,
                                         const detail::Item& item) const noexcept;
   [[nodiscard]] bool is_fragment_held(const Model& model, std::uint8_t body) const noexcept;
-  [[nodiscard]] std::optional<Vec3> way_out_of_another(
-      const Model& model,
-      std::uint8_t body,
-      const detail::Displacement& moved) const noexcept;
+  [[nodiscard]] std::optional<Vec3> way_out_of_another(const Model& model,
+                                                       std::uint8_t body,
+                                                       const detail::Displacement& moved,
+                                                       detail::BodySet others) const noexcept;
   [[nodiscard]] bool is_within_ligaments(const Model& model,
                                          std::uint8_t body,
                                          const detail::Displacement& moved) const noexcept;
