@@ -426,6 +426,7 @@ async function operateFromVolar(page, station) {
     await page.locator(".score-table tbody tr").first().waitFor();
     const overall = Number(await page.textContent(".overall strong"));
     expect(overall > 0 && overall <= 100, `overall '${overall}'`);
+    await page.locator(".placement canvas").first().waitFor();
     const pages = await printedPages(page);
     expect(pages === 2, `it prints on ${pages} pages`);
   });
