@@ -34,6 +34,8 @@ describe("verdictText", () => {
 
   it("tells a decline, right, wrong, and made without a look", () => {
     expect(text(true, null, ["It is flexed"])).toBe("✓ Declined, rightly.");
+    expect(text(true, null, ["It is flexed"], 0)).toBe("✓ Declined, rightly.");
+    expect(text(false, true, ["It is flexed"], 0)).toContain("declined before it was looked at");
     expect(text(false, null, ["There is no fracture"])).toContain("not as it should be");
     expect(text(false, true, ["There is no fracture"])).toContain("before it was looked at");
   });

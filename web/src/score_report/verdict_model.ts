@@ -20,9 +20,10 @@ export function isDeclined(report: Pick<ScoreReport, "declined_for">): boolean {
 
 export function verdictText(report: Told): string {
   const good = report.fixation_acceptable;
-  if (!isFixation(report)) {
+  // Of a declined operation, and of a void one, the axis is not told.
+  if (!isFixation(report) && !isDeclined(report)) {
     if (report.is_void === true) {
-      return "✕ Void: it ended before the joint was looked into. What is true of this case stays closed.";
+      return "✕ Void: it ended before there was anything to judge. What is true of this case stays closed.";
     }
     return good
       ? "✓ The joint was looked into."
