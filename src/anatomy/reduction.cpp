@@ -3,17 +3,23 @@
 #include "anatomy/reduction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include "anatomy/detail/outline.hpp"
+#include "anatomy/symmetric_eigen.hpp"
 
 namespace carpus::anatomy {
 namespace {
 
-constexpr double kTowards = 0.3;   // cosine between a facet's normal and the way to the other
-constexpr double kOpposed = -0.5;  // cosine between facets that were one surface
-constexpr double kNearMm = 5.0;    // from the other fragment's nearest: gap and step together
-constexpr double kAlong = 0.8;     // cosine between a facet and its face: relief of a fracture
-constexpr double kBesideMm = 2.0;  // of a facet from its face's plane: the same
+constexpr double kTowards = 0.3;    // cosine between a facet's normal and the way to the other
+constexpr double kOpposed = -0.5;   // cosine between facets that were one surface
+constexpr double kNearMm = 5.0;     // from the other fragment's nearest: gap and step together
+constexpr double kAlong = 0.8;      // cosine between a facet and its face: relief of a fracture
+constexpr double kBesideMm = 2.0;   // of a facet from its face's plane: the same; at first
+constexpr double kNarrower = 0.85;  // with each round
+constexpr double kLeastBandMm = 1.0;
 constexpr int kRounds = 8;
 constexpr double kLeastFaceMm2 = 20;  // a waist is 70 to 100 mm2 [clinical: S47]
 
@@ -71,8 +77,38 @@ Face mean_of(const std::vector<Facet>& facets) {
   return face;
 }
 
-/// Of these facets those that have one near that looks back at them; then, again and again, those
-/// that lie along their plane: a flank beside an oblique fracture looks back too.
+/// The plane along which facets lie, by least squares with Tukey's weights: what is far from it,
+/// such as a rim that is rounded off, weighs nothing. Its area is that of the facets that weigh.
+Face plane_along(const std::vector<Facet>& facets, const Face& before, double band_mm) {
+  std::vector<double> weights(facets.size(), 0.0);
+  Face face;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    const double height = dot(facets[i].middle - before.middle, before.normal) / band_mm;
+    if (!(std::abs(height) < 1.0) || dot(facets[i].normal, before.normal) < kAlong) continue;
+    const double share = 1.0 - height * height;
+    weights[i] = facets[i].area_mm2 * share * share;
+    sum += weights[i];
+    face.middle += facets[i].middle * weights[i];
+    face.area_mm2 += facets[i].area_mm2;
+  }
+  if (!(sum > 0.0)) return {};
+  face.middle *= 1.0 / sum;
+  SquareMatrix<3> spread{};
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    const Vec3 beside = facets[i].middle - face.middle;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) spread[r][c] += weights[i] * beside[r] * beside[c];
+    }
+  }
+  const std::array<double, 3> flattest = eigen_of_symmetric(spread).vectors[2];
+  const Vec3 normal{flattest[0], flattest[1], flattest[2]};
+  face.normal = dot(normal, before.normal) < 0 ? -normal : normal;
+  return face;
+}
+
+/// Of these facets those that have one near that looks back at them; then, again and again, the
+/// plane along which they lie: a flank beside an oblique fracture looks back too.
 std::optional<Face> face_of(const std::vector<Facet>& facets, const std::vector<Facet>& others) {
   std::vector<Facet> kept;
   for (const Facet& facet : facets) {
@@ -84,16 +120,43 @@ std::optional<Face> face_of(const std::vector<Facet>& facets, const std::vector<
   }
   Face face = mean_of(kept);
   for (int round = 0; round < kRounds && face.area_mm2 >= kLeastFaceMm2; ++round) {
-    std::vector<Facet> along;
-    for (const Facet& facet : kept) {
-      const double height = dot(facet.middle - face.middle, face.normal);
-      if (dot(facet.normal, face.normal) > kAlong && std::abs(height) < kBesideMm) {
-        along.push_back(facet);
-      }
-    }
-    face = mean_of(along);
+    face = plane_along(kept, face, std::max(kLeastBandMm, kBesideMm * std::pow(kNarrower, round)));
   }
   return face.area_mm2 >= kLeastFaceMm2 ? std::optional(face) : std::nullopt;
+}
+
+/// Where the bone's middle meets the face's plane, from its sections below the face by a parabola
+/// (least squares): the face's own rim is lost where bone runs out sharply under an oblique
+/// fracture, on one side of the first fragment and on the other of the second.
+Vec3 middle_by_sections(const TriangleMesh& mesh, const Face& face) {
+  constexpr double kLeastDepthMm = 0.8;  // below the face's relief
+  constexpr double kStepMm = 0.4;
+  constexpr int kSections = 5;
+  // Depths -2 .. 2 steps about the middle one: sums of odd powers vanish.
+  constexpr double kPower2 = 10.0;
+  constexpr double kPower4 = 34.0;
+  const double middle_depth = kLeastDepthMm + kStepMm * (kSections / 2);
+  Vec3 sum;
+  Vec3 first_moment;
+  Vec3 second_moment;
+  for (int i = 0; i < kSections; ++i) {
+    const double depth = kLeastDepthMm + kStepMm * i;
+    const Vec3 below = face.middle - face.normal * depth;
+    const BoneSection section = detail::outline_around(mesh, below, face.normal);
+    if (!(section.area_mm2 > 0.0)) return face.middle;
+    const Vec3 beside = section.centroid - below;
+    const double t = i - kSections / 2;
+    sum += beside;
+    first_moment += beside * t;
+    second_moment += beside * (t * t);
+  }
+  const Vec3 slope = first_moment / kPower2;
+  const Vec3 bend =
+      (second_moment - sum * (kPower2 / kSections)) / (kPower4 - kPower2 * kPower2 / kSections);
+  const Vec3 mean = (sum - bend * kPower2) / kSections;
+  const double t = -middle_depth / kStepMm;
+  const Vec3 beside = mean + slope * t + bend * (t * t);
+  return face.middle + beside - face.normal * dot(face.normal, beside);
 }
 
 }  // namespace
@@ -115,19 +178,8 @@ std::optional<Reduction> reduction_of(const MeshIn<frame::Bone>& first,
   const auto a = face_of(of_first, of_second);
   const auto b = face_of(of_second, of_first);
   if (!a || !b) return std::nullopt;
-  // Most fractures are oblique to their bone: faces that only stand apart, along the bone, do not
-  // lie opposite each other. That much of the way across is no step.
-  const Vec3 way = b->middle - a->middle;
-  const double gap = dot(way, a->normal);
-  Vec3 by_gap;
-  for (int round = 0; round < kRounds; ++round) {  // each ten times nearer
-    const Vec3 step = way - a->normal * gap - by_gap;
-    const Vec3 along = normalized_or(between - step, towards);
-    const double steep = dot(along, a->normal);
-    if (!(steep > kTowards)) break;
-    by_gap = (along - a->normal * steep) * (gap / steep);
-  }
-  return Reduction{a->middle, a->normal, b->middle - by_gap, b->normal};
+  return Reduction{middle_by_sections(first, *a), a->normal, middle_by_sections(second, *b),
+                   b->normal};
 }
 
 }  // namespace carpus::anatomy

@@ -33,8 +33,10 @@ struct Reduction {
 
 /// Finds the two faces: facets of each fragment that have one of the other within 5 mm that looks
 /// back at them. Reduced, their middles meet and their normals oppose each other. How they lie
-/// turned about that normal is not told: faces are nearly round.
-/// Nothing where a fragment has no face of at least 20 mm2.
+/// turned about that normal is not told: faces are nearly round. Where bone was lost (an old
+/// nonunion), a fracture oblique by an angle a keeps a step of the lost thickness times tan a,
+/// though the outsides continue each other: 0.5 mm for 1.7 mm and 17 degrees. Nothing where a
+/// fragment has no face of at least 20 mm2.
 [[nodiscard]] std::optional<Reduction> reduction_of(const MeshIn<frame::Bone>& first,
                                                     const MeshIn<frame::Bone>& second);
 

@@ -209,7 +209,7 @@ double BoneShapes::long_bone_value(BoneId bone, const Vec3& p) const noexcept {
 }
 
 double BoneShapes::fragment_value(BonePart part, const Vec3& p) const noexcept {
-  const double half = 0.5 * fracture_->gap_mm;
+  const double half = 0.5 * fracture_->lost_mm;
   if (part == BonePart::Proximal) {
     return std::max(model_->uncut_value(BoneId::Scaphoid, p), fracture_->height(p) + half);
   }
@@ -250,14 +250,14 @@ double BoneShapes::shaft_fraction(BoneId bone, const Vec3& p) const noexcept {
 bool BoneShapes::is_gap_tissue(const Vec3& p) const noexcept {
   if (!is_apart()) return false;
   const Vec3 q = fracture_->undisplaced(p);
-  const double half = 0.5 * fracture_->gap_mm;
+  const double half = 0.5 * fracture_->lost_mm;
   if (!(fracture_->height(p) > -half && fracture_->height(q) < half)) return false;
   return model_->uncut_value(BoneId::Scaphoid, p) < 0 ||
          model_->uncut_value(BoneId::Scaphoid, q) < 0;
 }
 
 double BoneShapes::depth_from_fracture(BonePart part, const Vec3& p) const noexcept {
-  const double half = 0.5 * fracture_->gap_mm;
+  const double half = 0.5 * fracture_->lost_mm;
   return part == BonePart::Proximal ? -fracture_->height(p) - half
                                     : fracture_->height(fracture_->undisplaced(p)) - half;
 }

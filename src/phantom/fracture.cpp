@@ -51,7 +51,7 @@ constexpr std::array<Recipe, 7> kRecipes{{
     {FractureKind::Waist, kAtWaist, 0.8, 0, 0.12, 0.06, true, 0, 0, false, false, 0, 50},
     {FractureKind::ProximalPole, 0.27, 0.8, 0, 0.12, 0.06, true, 0, 0, false, false, 0, 50},
     {FractureKind::DistalThird, 0.74, 0.8, 0, 0.12, 0.06, true, 0, 0, false, false, 0, 50},
-    {FractureKind::Displaced, kAtWaist, 1.5, 0.8, 0.3, 0.15, true, 5, 1.8, true, false, 0, 60},
+    {FractureKind::Displaced, kAtWaist, 1.5, 0.8, 0.3, 0.15, false, 5, 1.8, true, false, 0, 60},
     {FractureKind::Humpback, kAtWaist, 2.0, 1.0, 0.65, 0.3, false, 24, 0, true, true, 2.2, 110},
     {FractureKind::Nonunion, kAtWaist, 1.7, 0, 0.65, 0.3, false, 8, 0, true, true, 1.2, 150},
     {FractureKind::ProximalNonunion, 0.27, 1.36, 0, 0.65, 0.3, false, 3, 0, true, true, 1.2, 150},
@@ -125,7 +125,7 @@ double Fracture::height(const Vec3& p) const noexcept {
 }
 
 double Fracture::lost_share(const Vec3& p) const noexcept {
-  const double half = 0.5 * gap_mm;
+  const double half = 0.5 * lost_mm;
   const double off = std::abs(height(p));
   if (off > half + kLineEdgeMm) return 0;
   const double lost = kLostShare - kTouchingShare * std::max(0.0, coherent_noise(p, 2.0, seed + 2));
@@ -171,6 +171,7 @@ Fracture make_fracture(const anatomy::WristModel& model, FractureKind kind, std:
   Fracture n;
   n.seed = rng.next();
   n.gap_mm = recipe.gap_mm;
+  n.lost_mm = recipe.is_apart && !recipe.is_old ? 0.0 : recipe.gap_mm;
   n.least_gap_mm = recipe.least_gap_mm;
   n.is_apart = recipe.is_apart;
   n.is_old = recipe.is_old;
@@ -188,7 +189,8 @@ Fracture make_fracture(const anatomy::WristModel& model, FractureKind kind, std:
   n.rotation = rotation_about({0, 1, 0}, radians_from_degrees(recipe.flexion_deg));
   n.pivot = n.point + axis.direction * kPivotBeyondFractureMm;
   const Vec3 radial{0, axis.direction.y < 0 ? -1.0 : 1.0, 0};
-  n.shift = normalized_or(radial - n.normal * dot(n.normal, radial), radial) * recipe.step_mm;
+  n.shift = normalized_or(radial - n.normal * dot(n.normal, radial), radial) * recipe.step_mm +
+            n.normal * (n.gap_mm - n.lost_mm);
   n.cyst = n.point - axis.direction * (n.gap_mm + 0.4 + recipe.cyst_radius_mm) +
            side * rng.uniform(-2.0, 2.0);
   return n;

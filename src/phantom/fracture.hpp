@@ -41,7 +41,8 @@ inline constexpr std::array<FractureKind, 8> kAllFractureKinds{
 struct Fracture {
   Vec3 point{};             ///< on the mean fracture plane, on the scaphoid's long axis
   Vec3 normal{};            ///< unit, towards the distal pole
-  double gap_mm = 0;        ///< thickness of bone that is lost
+  double gap_mm = 0;        ///< from face to face, along the normal
+  double lost_mm = 0;       ///< of it, thickness of bone that is lost; a fresh fragment moved away
   double least_gap_mm = 0;  ///< where the fragments would come closer they wore each other away
   bool is_apart = false;    ///< two bodies; otherwise one, with a lucent line through it
   bool is_old = false;      ///< sclerotic margins

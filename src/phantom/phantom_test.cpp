@@ -18,6 +18,8 @@
 #include "case_io/read_volume.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "phantom/bone_shapes.hpp"
+#include "phantom/fracture.hpp"
 #include "phantom/write_phantom.hpp"
 
 namespace carpus::phantom {
@@ -179,6 +181,34 @@ TEST(Phantom, DisplacedFragmentsAreWholeAndApart) {
       const auto all = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
       EXPECT_GT(static_cast<double>(sizes.front()), 0.98 * static_cast<double>(all))
           << name_of(kind) << " " << label;
+    }
+  }
+}
+
+TEST(Phantom, FreshFragmentsFitWherePutBackAndOldOnesHaveLostBone) {
+  const anatomy::WristModel& model = anatomy::WristModel::generic();
+  for (const FractureKind kind : {FractureKind::Displaced, FractureKind::Nonunion}) {
+    const Fracture fracture = make_fracture(model, kind, 5);
+    const BoneShapes shapes(model, fracture);
+    const auto piece = [&](BonePart part) {
+      return *std::find_if(shapes.shapes().begin(), shapes.shapes().end(),
+                           [&](const Shape& shape) { return shape.part == part; });
+    };
+    const auto displaced = [&](const Vec3& p) {
+      return fracture.rotation * (p - fracture.pivot) + fracture.pivot + fracture.shift;
+    };
+    const Vec3 across = any_perpendicular(fracture.normal);
+    for (const double beside : {-2.0, 0.0, 2.0}) {
+      const Vec3 p = fracture.point + across * beside;
+      const auto gap_at = [&](double height) {  // 0.2 to either side of the face
+        const Vec3 q = p + fracture.normal * (height - fracture.height(p));
+        return height < 0 ? shapes.value(piece(BonePart::Proximal), q)
+                          : shapes.value(piece(BonePart::Distal), displaced(q));
+      };
+      const bool is_fresh = kind == FractureKind::Displaced;
+      for (const double height : {-0.3, 0.3}) {
+        EXPECT_EQ(gap_at(height) < 0, is_fresh) << name_of(kind) << " " << beside << " " << height;
+      }
     }
   }
 }

@@ -80,8 +80,10 @@ Json truth_of(const Phantom& phantom) {
     truth["fracture_in_wrist"] = {{"point_mm", json_of(n.point * o.scale)},
                                   {"normal", json_of(n.normal)},
                                   {"gap_mm", n.gap_mm * o.scale},
+                                  {"lost_mm", n.lost_mm * o.scale},
                                   {"distal_fragment_rotation", json_of(n.rotation)},
-                                  {"pivot_mm", json_of(n.pivot * o.scale)}};
+                                  {"pivot_mm", json_of(n.pivot * o.scale)},
+                                  {"shift_mm", json_of(n.shift * o.scale)}};
   }
   truth["volumes_mm3"] = volumes_mm3(phantom);
   return truth;

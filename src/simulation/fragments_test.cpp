@@ -225,6 +225,35 @@ TEST(Fragments, AJoystickLeadsAlongOtherBonesAndNeverIntoThem) {
   EXPECT_TRUE(has_slid) << "in no direction was another bone in the way";
 }
 
+TEST(Fragments, FacesPressedOntoEachOtherHoldByFriction) {
+  const auto led_across = [](double pressed_mm) {
+    Joystick joystick;
+    const Vec3 across = any_perpendicular(joystick.inward());
+    joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 15.0;
+    joystick.hold(4000);
+    joystick.rest();
+    const Vec3 from = joystick.pose().translation;
+    joystick.hand().tip_in_patient =
+        joystick.item().tip_in_patient + joystick.inward() * pressed_mm + across * 3.0;
+    joystick.hold(2000);
+    return dot(joystick.pose().translation - from, across);
+  };
+  EXPECT_LT(led_across(8.0), 0.2) << "pressed on, 21 degrees beside its way";
+  EXPECT_GT(led_across(0.0), 1.5) << "lifted off, it goes across";
+}
+
+TEST(Fragments, APieceThatTouchesStillTurns) {
+  Joystick joystick;
+  joystick.hand().tip_in_patient = joystick.item().tip_in_patient + joystick.inward() * 15.0;
+  joystick.hold(4000);
+  joystick.rest();
+  const auto before = joystick.pose();
+  const Vec3 shaft = joystick.item().shaft_in_patient;
+  joystick.hand().shaft_in_patient = normalized_or(shaft + any_perpendicular(shaft) * 0.2, shaft);
+  joystick.hold(3000);
+  EXPECT_LT(turned_by(before, joystick.pose()), 0.995) << "5.7 degrees at least";
+}
+
 TEST(Fragments, APushNeverTakesBackALedFragment) {
   Joystick joystick;
   const auto before = joystick.as_scanned().translation;

@@ -56,7 +56,8 @@ std::optional<cases::FractureFacts> facts_of(const phantom::Phantom& wrist) {
   const double scale = wrist.options.scale;
   return cases::FractureFacts{(patient_from_wrist * Point<frame::Wrist>{f.point * scale}).v,
                               patient_from_wrist.rotation * f.normal, f.gap_mm * scale,
-                              length(f.shift) * scale, angle_deg(f.rotation)};
+                              length(f.shift - f.normal * dot(f.shift, f.normal)) * scale,
+                              angle_deg(f.rotation)};
 }
 
 /// A case whose bones are not those of its wrist would teach something else.

@@ -28,7 +28,7 @@ constexpr double kBesideBonesMm = 3.0;
 /// Of its axis from a tendon, artery or nerve: its own radius, and room to lead it.
 constexpr double kBesideStructuresMm = 2.5;
 constexpr double kOffFaceMm = 3.0;  // it goes in no nearer to the fracture
-constexpr double kApartMm = 1.5;    // led off that far before it is led across
+constexpr double kApartMm = 0.8;  // led off that far before it is led across: more than the relief
 constexpr double kTogetherMm = 0.2;
 constexpr double kSlackMm = 1.0;  // by which the wire lags behind the hand
 constexpr double kSlackRad = 0.03;
@@ -153,16 +153,37 @@ bool Reducing::is_beside_structures(const std::vector<LyingPoint>& structures, c
   return true;
 }
 
+/// Where a fragment lies once it meets the other.
+Pose<frame::Patient, frame::Bone> Reducing::led(const Snapshot& now, std::size_t body) const {
+  return body == second_ ? now.patient_from_bone[first_] * first_from_second_
+                         : now.patient_from_bone[second_] * first_from_second_.inverse();
+}
+
 /// Where the wire is once its fragment lies on the other.
 Reducing::Way Reducing::led(const Snapshot& now, const Way& way) const {
-  const auto& first = now.patient_from_bone[first_];
-  const auto& second = now.patient_from_bone[second_];
-  const auto from = now.patient_from_bone[way.body].inverse();
-  const auto to =
-      way.body == second_ ? first * first_from_second_ : second * first_from_second_.inverse();
-  const auto there = to * from;
+  const auto there = led(now, way.body) * now.patient_from_bone[way.body].inverse();
   return {way.body, (there * Point<frame::Patient>{way.entry}).v,
           (there * Direction<frame::Patient>{way.inward}).v};
+}
+
+/// From a fragment, led to the other, to the nearest other bone [mm]; less than 0 where it would
+/// lie in one.
+double Reducing::room_of(const Snapshot& now, std::size_t body) const {
+  constexpr std::size_t kTries = 400;
+  const auto& vertices = case_.bones[body].surface.vertices;
+  const std::size_t every = std::max<std::size_t>(1, vertices.size() / kTries);
+  const auto there = led(now, body);
+  double room = kFarMm;
+  for (std::size_t b = 0; b < case_.bones.size(); ++b) {
+    if (b == first_ || b == second_) continue;
+    const auto bone_from_fragment = now.patient_from_bone[b].inverse() * there;
+    for (std::size_t v = 0; v < vertices.size(); v += every) {
+      const Vec3 p = (bone_from_fragment * Point<frame::Bone>{vertices[v]}).v;
+      const auto seen = fields::sample_distance(case_.bones[b].distance_field, p);
+      if (seen.is_inside_grid) room = std::min(room, static_cast<double>(seen.distance_mm));
+    }
+  }
+  return room;
 }
 
 /// Whether no other bone lies about the wire's way in from outside.
@@ -184,14 +205,17 @@ bool Reducing::is_way_free(const Snapshot& now, const Way& way) const {
   return true;
 }
 
-/// Into either fragment, towards its middle or past it, off the fracture and beside the screw's
-/// way; of those that are free the one that meets the bone most squarely.
+/// Into the fragment that has more room where it is to be led, else into the other: towards its
+/// middle or past it, off the fracture and beside the screw's way; of those that are free the one
+/// that meets the bone most squarely.
 std::optional<Reducing::Way> Reducing::find_way(const Snapshot& now) const {
   constexpr std::size_t kTries = 400;
   const std::vector<LyingPoint> structures = structures_now(case_, now);
   std::optional<Way> best;
   double best_worth = 0.75;  // less square than that it skates
-  for (const bool of_first : {true, false}) {
+  const bool is_first_freer = room_of(now, first_) > room_of(now, second_);
+  for (const bool of_first : {is_first_freer, !is_first_freer}) {
+    if (best) break;
     const std::size_t body = of_first ? first_ : second_;
     const MeshIn<frame::Bone>& mesh = case_.bones[body].surface;
     const std::vector<Vec3> normals = vertex_normals(mesh);

@@ -78,7 +78,10 @@ class Reducing {
   [[nodiscard]] Face face_of(const simulation::Snapshot& now, bool of_first) const;
   [[nodiscard]] static bool is_beside_structures(const std::vector<LyingPoint>& structures,
                                                  const Way& way);
+  [[nodiscard]] Pose<frame::Patient, frame::Bone> led(const simulation::Snapshot& now,
+                                                      std::size_t body) const;
   [[nodiscard]] Way led(const simulation::Snapshot& now, const Way& way) const;
+  [[nodiscard]] double room_of(const simulation::Snapshot& now, std::size_t body) const;
   [[nodiscard]] bool is_way_free(const simulation::Snapshot& now, const Way& way) const;
   void enter(Stage stage);
   void drive(const simulation::Snapshot& now, simulation::Input& input);

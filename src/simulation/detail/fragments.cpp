@@ -22,10 +22,11 @@ constexpr double kStiffnessNPerMm = 5.0;   // of a nonunion's gap tissue [E]
 constexpr double kPushedMm = 2.0;          // by a push alone no farther [E]
 constexpr double kYieldMmPerTick = 0.005;  // a fragment moves at most 5 mm a second
 constexpr double kYieldRadPerTick = 0.0005;
-constexpr double kPressedMm = 0.1;  // a tip this near its surface presses a fragment
-constexpr double kSlackMm = 1.0;    // a hand's drift that a joystick does not pass on …
-constexpr double kSlackRad = 0.03;  // … nor its turning
-constexpr double kFirmMm = 1e-3;    // rounding of a corner that touched as scanned
+constexpr double kPressedMm = 0.1;        // a tip this near its surface presses a fragment
+constexpr double kSlackMm = 1.0;          // a hand's drift that a joystick does not pass on …
+constexpr double kSlackRad = 0.03;        // … nor its turning
+constexpr double kFirmMm = 1e-3;          // rounding of a corner that touched as scanned
+constexpr double kFrictionOfFaces = 0.8;  // rough bone on rough bone [E]
 
 /// A turn about `centre` that takes `from` to `to`, unit vectors, by at most `most_rad`.
 InBone turn_about(const Vec3& centre, const Vec3& from, const Vec3& to, double most_rad) noexcept {
@@ -75,15 +76,16 @@ double World::State::way_in_target_mm(const Model& model, const Item& item) cons
 }
 
 /// Where the fragment, so displaced, would lie deeper in one of those bones than it may, told at
-/// the corners of its hull: the way out of that bone, in Patient; nothing where it lies free.
-std::optional<Vec3> World::State::way_out_of_another(const Model& model,
-                                                     std::uint8_t body,
-                                                     const Displacement& moved,
-                                                     detail::BodySet others) const noexcept {
+/// the corners of its hull, of which the deepest counts; nothing where it lies free.
+std::optional<World::State::Blocked> World::State::blocked_by_another(
+    const Model& model,
+    std::uint8_t body,
+    const Displacement& moved,
+    detail::BodySet others) const noexcept {
   const detail::BodyPose pose = bases[body] * moved.pose();
   const Vec3 middle = (pose * Point<frame::Bone>{model.centres[body]}).v;
   double deepest = 0.0;
-  std::optional<Vec3> way_out;
+  std::optional<Blocked> blocked;
   for (std::uint8_t b = 0; b < snapshot.body_count; ++b) {
     if (b == body || (others & bit_of(b)) == 0) continue;
     const bool is_fragment = (model.kinds.fragments & bit_of(b)) != 0;
@@ -105,12 +107,14 @@ std::optional<Vec3> World::State::way_out_of_another(const Model& model,
       // Pieces fit as scanned; other bones have moved since, and are entered no deeper than now.
       const Vec3 before =
           is_fragment ? corner : (inverses[b] * (poses[body] * Point<frame::Bone>{corner})).v;
-      if (!(depth > std::max(0.0, depth_at(before)) + kFirmMm)) continue;
+      const double allowed = std::max(0.0, depth_at(before));
+      if (!(depth > allowed + kFirmMm)) continue;
       deepest = depth;
-      way_out = (poses[b] * Direction<frame::Bone>{tissue.untouched_normal(b, local)}).v;
+      const Vec3 out = (poses[b] * Direction<frame::Bone>{tissue.untouched_normal(b, local)}).v;
+      blocked = Blocked{out, depth - allowed, is_fragment};
     }
   }
-  return way_out;
+  return blocked;
 }
 
 /// Whether an instrument lies in this fragment and in another: it holds them together.
@@ -138,25 +142,30 @@ bool World::State::is_within_ligaments(const Model& model,
 }
 
 /// As far as it goes without entering one of those bones, along which it slides, and within what
-/// ligaments allow.
+/// ligaments allow. Fracture faces that are pressed onto each other hold by friction. It turns
+/// where it has room for that, else it shifts alone.
 void World::State::displace_fragment(const Model& model,
                                      std::uint8_t body,
                                      const InBone& by,
                                      detail::BodySet others) noexcept {
   constexpr int kSlides = 3;  // along one bone, two, then in the corner between three
-  InBone step = by;
-  for (int slide = 0; slide <= kSlides; ++slide) {
-    const Displacement wanted = Displacement::of(step * now.moved[body].pose());
-    if (!is_within_ligaments(model, body, wanted)) return;
-    const std::optional<Vec3> way_out = way_out_of_another(model, body, wanted, others);
-    if (!way_out) {
-      now.moved[body] = wanted;
-      return;
+  for (const bool is_turned : {true, false}) {
+    if (!is_turned && by.rotation == Mat3::identity()) return;
+    InBone step = is_turned ? by : InBone{Mat3::identity(), by.translation};
+    for (int slide = 0; slide <= kSlides; ++slide) {
+      const Displacement wanted = Displacement::of(step * now.moved[body].pose());
+      if (!is_within_ligaments(model, body, wanted)) break;
+      const std::optional<Blocked> blocked = blocked_by_another(model, body, wanted, others);
+      if (!blocked) {
+        now.moved[body] = wanted;
+        return;
+      }
+      const Vec3 out = (bases[body].inverse() * Direction<frame::Patient>{blocked->out}).v;
+      const double into = -dot(by.translation, out);
+      const double along = length(by.translation + out * into);
+      if (blocked->is_fragment && along <= kFrictionOfFaces * into) return;
+      step.translation += out * blocked->excess_mm;
     }
-    const Vec3 out = (bases[body].inverse() * Direction<frame::Patient>{*way_out}).v;
-    const double into = -dot(step.translation, out);
-    step = {Mat3::identity(), step.translation + out * std::max(0.0, into)};
-    if (!(squared_length(step.translation) > 0.0)) return;
   }
 }
 

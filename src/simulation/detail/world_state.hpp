@@ -230,10 +230,16 @@ struct World::State {
   [[nodiscard]] double way_in_target_mm(const Model& model,
                                         const detail::Item& item) const noexcept;
   [[nodiscard]] bool is_fragment_held(const Model& model, std::uint8_t body) const noexcept;
-  [[nodiscard]] std::optional<Vec3> way_out_of_another(const Model& model,
-                                                       std::uint8_t body,
-                                                       const detail::Displacement& moved,
-                                                       detail::BodySet others) const noexcept;
+  /// By what a fragment is stopped.
+  struct Blocked {
+    Vec3 out;                ///< of that bone, Patient, unit
+    double excess_mm = 0.0;  ///< deeper in it than it may be
+    bool is_fragment = false;
+  };
+  [[nodiscard]] std::optional<Blocked> blocked_by_another(const Model& model,
+                                                          std::uint8_t body,
+                                                          const detail::Displacement& moved,
+                                                          detail::BodySet others) const noexcept;
   [[nodiscard]] bool is_within_ligaments(const Model& model,
                                          std::uint8_t body,
                                          const detail::Displacement& moved) const noexcept;
