@@ -24,6 +24,11 @@ export class StepPanel {
     tabindex: "0",
     "aria-label": "Steps of the procedure",
   });
+  /** On a narrow screen, where else the current step alone is shown. */
+  private readonly unfold = make("button.steps-unfold.quiet", {
+    type: "button",
+    "aria-expanded": "false",
+  });
   private items: readonly ShownStep[] = [];
   private readonly announcer = make("p.visually-hidden", { "aria-live": "polite" });
   private readonly log = make("ol.log", { "aria-label": "What happened", tabindex: "0" });
@@ -42,12 +47,23 @@ export class StepPanel {
       { "aria-label": "Steps" },
       firstTouch,
       make("header.panel-title", {}, make("h2", {}, "Steps")),
+      this.unfold,
       this.list,
       this.announcer,
       wrist,
       make("h3.log-title", {}, "Log"),
       this.log,
     );
+    this.unfold.addEventListener("click", () => {
+      this.showAll(!this.element.classList.contains("unfolded"));
+    });
+    this.showAll(false);
+  }
+
+  private showAll(on: boolean): void {
+    this.element.classList.toggle("unfolded", on);
+    this.unfold.setAttribute("aria-expanded", String(on));
+    setText(this.unfold, on ? "Current step" : "All steps");
   }
 
   /** The steps of the procedure that is done, with the name of what each is done with. */
@@ -66,6 +82,7 @@ export class StepPanel {
       again.textContent = "↺";
       again.hidden = true;
       again.addEventListener("click", () => {
+        this.showAll(false);
         this.onReturn(index);
       });
       const item = make(
