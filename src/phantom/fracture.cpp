@@ -51,7 +51,7 @@ constexpr std::array<Recipe, 7> kRecipes{{
     {FractureKind::Waist, kAtWaist, 0.8, 0, 0.12, 0.06, true, 0, 0, false, false, 0, 50},
     {FractureKind::ProximalPole, 0.27, 0.8, 0, 0.12, 0.06, true, 0, 0, false, false, 0, 50},
     {FractureKind::DistalThird, 0.74, 0.8, 0, 0.12, 0.06, true, 0, 0, false, false, 0, 50},
-    {FractureKind::Displaced, kAtWaist, 1.5, 0.8, 0.3, 0.15, false, 5, 1.8, true, false, 0, 60},
+    {FractureKind::Displaced, kAtWaist, 1.5, 0.8, 0.3, 0.15, false, 5, 3.0, true, false, 0, 60},
     {FractureKind::Humpback, kAtWaist, 2.0, 1.0, 0.65, 0.3, false, 24, 0, true, true, 2.2, 110},
     {FractureKind::Nonunion, kAtWaist, 1.7, 0, 0.65, 0.3, false, 8, 0, true, true, 1.2, 150},
     {FractureKind::ProximalNonunion, 0.27, 1.36, 0, 0.65, 0.3, false, 3, 0, true, true, 1.2, 150},

@@ -209,7 +209,7 @@ bool Reducing::is_way_free(const Snapshot& now, const Way& way) const {
 /// middle or past it, off the fracture and beside the screw's way; of those that are free the one
 /// that meets the bone most squarely.
 std::optional<Reducing::Way> Reducing::find_way(const Snapshot& now) const {
-  constexpr std::size_t kTries = 400;
+  constexpr std::size_t kTries = 1600;
   const std::vector<LyingPoint> structures = structures_now(case_, now);
   std::optional<Way> best;
   double best_worth = 0.75;  // less square than that it skates
@@ -230,7 +230,9 @@ std::optional<Reducing::Way> Reducing::find_way(const Snapshot& now) const {
     for (std::size_t v = 0; v < mesh.vertices.size(); v += every) {
       const Vec3& p = mesh.vertices[v];
       const Vec3 beside = normalized_or(cross(along, p - centre), {}) * kPastMiddleMm;
-      for (const Vec3& aim : {centre, centre + beside, centre - beside}) {
+      const Vec3 aside = along * kPastMiddleMm;
+      for (const Vec3& aim :
+           {centre, centre + beside, centre - beside, centre + aside, centre - aside}) {
         const Vec3 inward = normalized_or(aim - p, normals[v]);
         const double square = -dot(inward, normals[v]);
         const Vec3 tip = p + inward * kInMm;

@@ -15,9 +15,13 @@ export function readVertices(caseFolder, bone) {
     throw new Error(`${bone}.ply is of another format`);
   const count = Number(/element vertex (\d+)/.exec(head)[1]);
   const [vertex] = head.split("element face");
-  const stride = (vertex.match(/property float/g) ?? []).length * 4;
+  const sizes = [...vertex.matchAll(/property (\w+) \w+/g)].map(([, type]) => ({ double: 8, float: 4 })[type]);
+  const stride = sizes.reduce((sum, size) => sum + size, 0);
+  const [size] = sizes;
+  if (!(stride > 0)) throw new Error(`${bone}.ply has vertices of another kind`);
+  const number = (at) => (size === 8 ? bytes.readDoubleLE(at) : bytes.readFloatLE(at));
   return Array.from({ length: count }, (_, i) =>
-    [0, 4, 8].map((at) => bytes.readFloatLE(begin + i * stride + at)),
+    [0, 1, 2].map((axis) => number(begin + i * stride + axis * size)),
   );
 }
 

@@ -106,7 +106,7 @@ export async function drawnThrough(browser, station) {
     await page.keyboard.press("Enter");
     await operator.until((s) => s.undos === 1 && !s.completed_steps.includes(ream), "back before reaming");
     await operator.settle();
-    await page.locator(".log", { hasText: `Back to step: ${steps[ream].title}` }).waitFor();
+    await operator.logged(`Back to step: ${steps[ream].title}`);
     if (Operator.held(await operator.snapshot())?.instrument !== "cannulated_drill")
       await operator.take("cannulated_drill");
     await operator.driveOn((drill) => drill.depth_mm >= axis.lengthMm - 3, "the drill's depth");

@@ -41,7 +41,7 @@ async function capitateDrilledThenAGoodScrew(page, station) {
     await operator.placeOn({ entry: Operator.moved(pose, scanned), toHand: dorsal });
     await operator.until((s) => s.hands[0].touched_body === "capitate", "the tip on the capitate");
     await operator.driveWireTo(3);
-    await page.locator(".log", { hasText: "not to be entered" }).waitFor();
+    await operator.logged("not to be entered");
     await page.keyboard.press("z");
     await operator.until((s) => s.undos === 1 && Operator.held(s).body === "", "the wire taken back");
   });
@@ -100,7 +100,7 @@ async function tendonStruckBesideTheCorridor(page, station) {
     await operator.placeOn({ entry: way.entry, toHand: way.toHand });
     await operator.until((s) => s.hands[0].touched_body.startsWith("scaphoid"), "the tip on the scaphoid");
     await operator.driveWireTo(6);
-    await page.locator(".log", { hasText: way.name }).waitFor();
+    await operator.logged(way.name);
   });
   if (!went) return;
   await check(page, "the report names the tendon, and the line that leaves too little bone", async () => {
@@ -122,9 +122,8 @@ async function strippedInTooShortAHole(page, station) {
     await operator.placeWire(axis);
     await operator.driveWireTo(axis.lengthMm - 2);
     await fixOverWire(operator, axis, 6);
-    const strips = page.locator(".log", { hasText: "gave way" });
     await page.keyboard.down("Space");
-    await strips.waitFor();
+    await operator.logged("gave way");
     await page.keyboard.up("Space");
     await letGoAndTakeWireOut(operator);
   });

@@ -115,6 +115,11 @@ export class Operator {
   }
 
   /** Lets the page draw and send what was done. */
+  /** The log says it; a small screen hides the log. */
+  async logged(text) {
+    await this.page.locator(".log", { hasText: text }).waitFor({ state: "attached" });
+  }
+
   async settle(frames = 2) {
     await this.page.evaluate(
       (n) =>

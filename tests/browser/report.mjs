@@ -55,7 +55,7 @@ export function expectUnmet({ unmet, overall, verdict }, words) {
       `'${text}' is not among what is missing: ${unmet.join("; ")}`,
     );
   expect(overall === 0, `${overall} points`);
-  expect(/not acceptable/i.test(verdict), `the verdict: '${verdict}'`);
+  expect(/not acceptable|not as it should be/i.test(verdict), `the verdict: '${verdict}'`);
 }
 
 /** How many sheets of A4 the shown report takes. */

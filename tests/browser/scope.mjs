@@ -36,6 +36,21 @@ async function holdUntil(page, key, words, what) {
   }
 }
 
+/** Pulls at the fingers and goes in by 3-4. */
+export async function bringInScope(page, operator) {
+  await atRest(operator);
+  for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
+  await operator.until((s) => s.wrist.traction_n >= 34, "traction");
+  await holdUntil(page, "a", "Scope in the joint by 3-4", "the scope");
+}
+
+/** The probe in the other hand, by 4-5; the keys stay with it. */
+export async function bringInProbe(page, operator) {
+  await page.keyboard.press("h");
+  await operator.until((s) => Operator.held(s, 1) !== undefined, "the probe");
+  await holdUntil(page, "a", "probe in the joint by 4-5", "the probe");
+}
+
 export async function arthroscopy(browser, station) {
   const page = await newPage(browser);
   const operator = new Operator(page);
@@ -49,16 +64,11 @@ export async function arthroscopy(browser, station) {
   };
   await check(page, "a scope goes in by 3-4, a probe by 4-5", async () => {
     await operator.start(station.url, TRAINEE, "diagnostic_arthroscopy");
-    await atRest(operator);
-    for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
-    await operator.until((s) => s.wrist.traction_n >= 34, "traction");
     await picture("before");
-    await holdUntil(page, "a", "Scope in the joint by 3-4", "the scope");
+    await bringInScope(page, operator);
     await hold(page, "a", 300);
     await picture("inside");
-    await page.keyboard.press("h");
-    await operator.until((s) => Operator.held(s, 1) !== undefined, "the probe");
-    await holdUntil(page, "a", "probe in the joint by 4-5", "the probe");
+    await bringInProbe(page, operator);
     await picture("probe");
   });
   await check(page, "turning it shows places of the tour", async () => {
@@ -111,10 +121,7 @@ export async function examination(browser, station) {
   };
   await check(page, "the scope goes from one joint to the other", async () => {
     await operator.start(station.url, TRAINEE, "arthroscopic_examination");
-    await atRest(operator);
-    for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
-    await operator.until((s) => s.wrist.traction_n >= 34, "traction");
-    await holdUntil(page, "a", "Scope in the joint by 3-4", "the scope");
+    await bringInScope(page, operator);
     await picture("radiocarpal");
     await holdUntil(page, "d", "Scope outside", "the scope, out again");
     for (let i = 0; i < 4; ++i) {

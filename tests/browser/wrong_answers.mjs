@@ -89,7 +89,7 @@ async function displacedAndFixedAsItLies(page, station) {
     const led = await leadWithJoystick(operator, "scaphoid_distal", wayIntoTheDistalPiece(station.caseFolder), { x: 0, y: -60 });
     expect(led > 0.5, `it was led by ${led.toFixed(2)} mm`);
     await page.keyboard.press("F8");
-    await page.locator(".log", { hasText: /Lead the distal piece/ }).waitFor();
+    await operator.logged(/Lead the distal piece/);
     await page.keyboard.press("z");
     await operator.until((s) => s.undos === 1, "the joystick taken back");
     await operator.settle(4);
