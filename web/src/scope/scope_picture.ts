@@ -4,6 +4,7 @@
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
 import type { BodyPose, Vec3 } from "../protocol";
+import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { ScopeBackdrop } from "./scope_backdrop";
 import { lesionUniforms, LooseBodies, setLesions, type Lesion } from "./scope_lesions";
@@ -25,6 +26,9 @@ const LAMP_UP_MM = 0.9;
 const LAMP_RIGHT_MM = 0.35;
 const ROD_LENGTH_MM = 40;
 const ROD_RADIUS_MM = 0.5;
+/** How often the camera looks at its own picture [pictures], and how small [px]. */
+const EXPOSED_EVERY = 12;
+const EXPOSED_PX = 16;
 /** Drawn at most so large across, and less where the machine is slow [device px]. */
 const LARGEST_PX = 900;
 
@@ -40,6 +44,8 @@ export class ScopePicture {
   private wrong: readonly Lesion[] = [];
   private readonly loose: LooseBodies;
   private readonly backdrop = new ScopeBackdrop(this.lens);
+  private readonly small = smallContext();
+  private drawn = 0;
 
   constructor(walls: readonly JointWall[]) {
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
@@ -115,6 +121,16 @@ export class ScopePicture {
       this.rod.updateMatrixWorld();
     }
     this.renderer.render(this.scene, this.camera);
+    this.drawn += 1;
+    if (this.drawn % EXPOSED_EVERY === 0) this.expose();
+  }
+
+  private expose(): void {
+    if (this.small === null) return;
+    this.small.drawImage(this.canvas, 0, 0, EXPOSED_PX, EXPOSED_PX);
+    const { data } = this.small.getImageData(0, 0, EXPOSED_PX, EXPOSED_PX);
+    const { exposure } = this.lens;
+    exposure.value = nextExposure(exposure.value, meanGrey(data));
   }
 
   /** What the last picture took. */
@@ -132,6 +148,12 @@ export class ScopePicture {
     }
     this.renderer.dispose();
   }
+}
+
+function smallContext(): CanvasRenderingContext2D | null {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = EXPOSED_PX;
+  return canvas.getContext("2d", { willReadFrequently: true });
 }
 
 /** A hooked probe: its tip at the origin, its shaft along +z, many short rings for the wide lens. */

@@ -14,12 +14,21 @@ export interface LensUniforms {
   readonly right: THREE.IUniform<THREE.Vector3>;
   readonly lamp: THREE.IUniform<THREE.Vector3>;
   readonly halfField: THREE.IUniform<number>;
+  readonly exposure: THREE.IUniform<number>;
   readonly [name: string]: THREE.IUniform;
 }
 
 export function lensUniforms(): LensUniforms {
   const v = (): THREE.IUniform<THREE.Vector3> => ({ value: new THREE.Vector3() });
-  return { eye: v(), axis: v(), up: v(), right: v(), lamp: v(), halfField: { value: 0.7 } };
+  return {
+    eye: v(),
+    axis: v(),
+    up: v(),
+    right: v(),
+    lamp: v(),
+    halfField: { value: 0.7 },
+    exposure: { value: 1 },
+  };
 }
 
 const VERTEX = /* glsl */ `
@@ -54,7 +63,7 @@ void main() {
 const FRAGMENT = /* glsl */ `
 precision highp float;
 uniform vec3 eye, axis, lamp;
-uniform float isMetal;
+uniform float isMetal, exposure;
 uniform vec3 middle;
 varying vec3 vAt;
 varying vec3 vNormal;
@@ -167,12 +176,15 @@ void main() {
   // A film of fluid over all of it, uneven: a small hard glare.
   vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
   float coat = pow(max(dot(film, h), 0.0), 420.0);
-  colour += (1.0 - isMetal) * e * step(0.0, nl) * 1.5 * coat * wet;
-  colour += 0.10 * e * fresnel * vec3(0.93, 0.98, 1.05);
+  // The fibres end in two crescents beside the lens: each has its glint.
+  vec3 h2 = normalize(normalize(2.0 * eye - lamp - vAt) + view);
+  coat += 0.7 * pow(max(dot(film, h2), 0.0), 420.0);
+  colour += (1.0 - isMetal) * e * step(0.0, nl) * 2.4 * coat * wet;
+  colour += 0.16 * e * fresnel * vec3(0.93, 0.98, 1.05);
   // Water between.
   colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));
-  // The camera: darker at the rim, filmic, a little noise in the dark.
-  colour *= 1.0 - 0.45 * pow(r, 3.5);
+  // The camera: its exposure, darker at the rim, filmic, a little noise in the dark.
+  colour *= exposure * (1.0 - 0.45 * pow(r, 3.5));
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
   float grey = dot(colour, vec3(0.3, 0.59, 0.11));
   colour = mix(vec3(grey), colour, 1.22);
