@@ -53,6 +53,8 @@ export function readWrist(caseFolder) {
 export class Operator {
   constructor(page) {
     this.page = page;
+    /** That the keys and the mouse move. */
+    this.hand = 0;
   }
 
   snapshot() {
@@ -114,12 +116,12 @@ export class Operator {
     }, code);
   }
 
-  /** Lets the page draw and send what was done. */
   /** The log says it; a small screen hides the log. */
   async logged(text) {
     await this.page.locator(".log", { hasText: text }).waitFor({ state: "attached" });
   }
 
+  /** Lets the page draw and send what was done. */
   async settle(frames = 2) {
     await this.page.evaluate(
       (n) =>
@@ -176,7 +178,7 @@ export class Operator {
     const from = { x: box.x + box.width * 0.5, y: box.y + box.height * 0.5 };
     let angle = 180;
     for (let round = 0; round < 12 && angle > withinDeg; ++round) {
-      const { shaft } = Operator.held(await this.snapshot());
+      const { shaft } = Operator.held(await this.snapshot(), this.hand);
       angle =
         (180 / Math.PI) * Math.acos(Math.min(1, dot(unit(shaft), toHand)));
       if (angle <= withinDeg) break;
@@ -327,7 +329,7 @@ export class Operator {
     await this.page.check(`dialog.tray input[value=${id}]`);
     await this.page.keyboard.press("Enter");
     await this.until(
-      (s) => Operator.held(s)?.instrument === id,
+      (s) => Operator.held(s, this.hand)?.instrument === id,
       `${id} in the hand`,
     );
   }
@@ -394,6 +396,28 @@ export class Operator {
     return this.placeOn(await this.axisNow(axis));
   }
 
+  async otherHand() {
+    await this.page.keyboard.press("h");
+    this.hand = 1 - this.hand;
+    await this.settle();
+  }
+
+  /** The needle sleeve in the other hand, on the bone where the wire is to go in: it spreads what lies over it. */
+  async placeSleeve(axis) {
+    if (axis.from === "proximal") await this.flex();
+    await this.otherHand();
+    await this.take("needle_sleeve_14g");
+    await this.placeOn(await this.axisNow(axis));
+    await this.otherHand();
+  }
+
+  async putDownSleeve() {
+    await this.otherHand();
+    await this.page.keyboard.press("q");
+    await this.until((s) => s.hands[this.hand].item < 0, "the sleeve put down");
+    await this.otherHand();
+  }
+
   /** The tip on the bone that is shown at `entry`, the shaft along `toHand`. @return degrees that it is off */
   async placeOn({ entry, toHand }) {
     // A turn towards the viewer is none on the screen: from two sides, which two is all the same.
@@ -409,7 +433,7 @@ export class Operator {
     await this.page.getByRole("button", { name: "Along shaft" }).click();
     await this.settle();
     await this.dragTipTo(entry);
-    await this.until((s) => s.hands[0].touching, "the tip touches");
+    await this.until((s) => s.hands[this.hand].touching, "the tip touches");
     return angle;
   }
 }

@@ -8,7 +8,7 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
-import { farthest, readVertices } from "./case_geometry.mjs";
+import { farthest, nearestPair, readVertices } from "./case_geometry.mjs";
 import { check, expect } from "./checks.mjs";
 import { Operator, readAxis, readWrist } from "./operator.mjs";
 import { expectUnmet, finishedReport, shownReport } from "./report.mjs";
@@ -35,13 +35,14 @@ async function declinedForNothing(page, station) {
 }
 
 /** Taken into the second hand, driven into a piece from dorsal, and led with the driver off. */
-async function leadWithJoystick(operator, piece, from, by) {
+async function leadWithJoystick(operator, piece, wayInto, by) {
   const { page } = operator;
   await operator.take("joystick_wire");
-  const pose = await page.evaluate((name) => window.carpus.bodyPoses()[name], piece);
-  await operator.placeOn({ entry: Operator.moved(pose, from.entry), toHand: from.toHand });
+  await operator.placeOn(wayInto(await page.evaluate(() => window.carpus.bodyPoses())));
   await operator.until((s) => s.hands[0].touched_body === piece, `the joystick on the ${piece}`);
-  await operator.driveWireTo(5);
+  await page.locator("#push").fill("45"); // a wire of 1.6 mm takes more than a guide wire
+  await page.locator("#push").blur();
+  await operator.driveOn((wire) => wire.depth_mm >= 5, "the joystick in the piece");
   const before = (await page.evaluate(() => window.carpus.bodyPoses()))[piece].translation_mm;
   const at = await page.evaluate((mm) => window.carpus.pagePoint(mm), Operator.held(await operator.snapshot()).tip_mm);
   await page.mouse.move(at.x, at.y);
@@ -53,10 +54,24 @@ async function leadWithJoystick(operator, piece, from, by) {
   return Math.hypot(...after.map((v, i) => v - before[i]));
 }
 
-/** The dorsal top of the distal piece, straight from dorsal. */
-function wayIntoTheDistalPiece(caseFolder) {
-  const { dorsal } = readWrist(caseFolder);
-  return { entry: farthest(readVertices(caseFolder, "scaphoid_distal"), dorsal), toHand: dorsal };
+/** Into the distal piece as it lies now, from where most room is about the wire: from dorsal or radial. */
+function wayIntoTheDistalPiece(caseFolder, poses) {
+  const { dorsal, distal, radial } = readWrist(caseFolder);
+  const lying = (bone) => readVertices(caseFolder, bone).map((p) => Operator.moved(poses[bone], p));
+  const piece = lying("scaphoid_distal");
+  const others = Object.keys(poses)
+    .filter((bone) => bone !== "scaphoid_distal")
+    .flatMap(lying);
+  const ways = [];
+  for (const r of [0, 0.5, 1, 2])
+    for (const d of [-0.5, 0, 0.5]) {
+      const way = dorsal.map((v, i) => v + r * radial[i] + d * distal[i]);
+      const toHand = way.map((v) => v / Math.hypot(...way));
+      const entry = farthest(piece, toHand);
+      const shaft = Array.from({ length: 20 }, (_, i) => entry.map((v, axis) => v + 2 * i * toHand[axis]));
+      ways.push({ entry, toHand, room: nearestPair(shaft, others).mm });
+    }
+  return ways.reduce((best, way) => (way.room > best.room ? way : best));
 }
 
 async function displacedAndFixedAsItLies(page, station) {
@@ -86,7 +101,12 @@ async function displacedAndFixedAsItLies(page, station) {
     await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
     const where = async () => (await page.evaluate(() => window.carpus.bodyPoses())).scaphoid_distal.translation_mm;
     const begun = await where();
-    const led = await leadWithJoystick(operator, "scaphoid_distal", wayIntoTheDistalPiece(station.caseFolder), { x: 0, y: -60 });
+    const led = await leadWithJoystick(
+      operator,
+      "scaphoid_distal",
+      (poses) => wayIntoTheDistalPiece(station.caseFolder, poses),
+      { x: 0, y: -60 },
+    );
     expect(led > 0.5, `it was led by ${led.toFixed(2)} mm`);
     await page.keyboard.press("F8");
     await operator.logged(/Lead the distal piece/);
