@@ -23,6 +23,11 @@ constexpr Nanoseconds kEngageAnewNs = 100 * devices::kNsPerMs;
 constexpr Nanoseconds kOldNs = 100 * devices::kNsPerMs;
 /// No hand moves farther in a tick: what does is a device that lost its place.
 constexpr double kMostMoveMm = 2.0;
+/// The scope follows its handle by steps of this, several counts of the roll's twelve bits: what
+/// flickers turns nothing.
+constexpr double kTurnStepDeg = 0.5;
+/// Recordings hold angles to 1/16384: what differs by more was turned by somebody else.
+constexpr double kSameTurnDeg = 0.01;
 /// As the world takes it.
 constexpr double kMostThrustN = 60;
 /// What the tool is held back by is more than this, or it is rounding [mm].
@@ -48,6 +53,8 @@ Axes axes_of(const DeviceView& view) noexcept {
 Vec3 to_patient(const Axes& axes, const Vec3& v) noexcept {
   return axes.right * v.x + axes.away * v.y + axes.up * v.z;
 }
+/// The same angle in -180 to 180 degrees.
+double half_turn(double degrees) noexcept { return std::remainder(degrees, 360.0); }
 Vec3 to_device(const Axes& axes, const Vec3& v) noexcept {
   return {dot(axes.right, v), dot(axes.away, v), dot(axes.up, v)};
 }
@@ -74,8 +81,10 @@ void DeviceHands::before_at(Nanoseconds now,
     hand.ticked_ns = now;
     if (hand.view.is_used) {
       guide(hand, now, input.hands[i], last, i);
+      turn_scope(hand, input.command, last, i);
     } else {
       hand.is_engaged = false;
+      hand.turns_scope = false;
     }
   }
 }
@@ -140,6 +149,35 @@ void DeviceHands::guide(Hand& hand,
   input.shaft_in_patient = hand.aim.shaft(hand.view.aim, hand.state.able, aim);
   hand.driver = input.driver;
   press(hand, input, last);
+}
+
+void DeviceHands::turn_scope(Hand& hand,
+                             simulation::Command& command,
+                             const Snapshot& last,
+                             std::size_t index) noexcept {
+  const bool is_told =
+      hand.is_engaged && devices::is_usable(hand.state.device.health) && hand.state.able.roll;
+  if (!is_told || last.finished || last.scope.hand != index) {
+    hand.turns_scope = false;
+    return;
+  }
+  const double roll_deg = degrees_from_radians(hand.state.device.roll_rad);
+  const double now_deg = last.scope.shaft_turn_deg;
+  // Taken just now, or turned by the page: it goes on from there.
+  if (!hand.turns_scope || !(std::abs(half_turn(now_deg - hand.turned_deg)) < kSameTurnDeg)) {
+    hand.turns_scope = true;
+    hand.roll_anchor_deg = roll_deg;
+    hand.turn_anchor_deg = hand.turned_deg = now_deg;
+    return;
+  }
+  const double wish_deg = half_turn(hand.turn_anchor_deg + roll_deg - hand.roll_anchor_deg);
+  if (!(std::abs(half_turn(wish_deg - now_deg)) >= kTurnStepDeg)) return;
+  if (command.kind != simulation::CommandKind::None) return;
+  command.kind = simulation::CommandKind::TurnScope;
+  command.hand = static_cast<std::uint8_t>(index);
+  command.rotation_deg = wish_deg;
+  command.tilt_deg = last.scope.camera_turn_deg;
+  hand.turned_deg = wish_deg;
 }
 
 /// What a hand presses along the shaft, where the device can answer it.

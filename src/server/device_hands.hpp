@@ -4,7 +4,8 @@
 // Devices as hands: where a device moves, the instrument's tip is wished, on the same input that a
 // page's hand has; what the tip meets, or is about to, goes back as planes in the device's frame,
 // with what the tool does (haptics/operation_feel). A device that gives forces is pushed with:
-// thrust is what its hand presses. The driver is the page's. In the simulation's thread.
+// thrust is what its hand presses. One that says how its tool rolls turns the scope that it holds.
+// The driver is the page's. In the simulation's thread.
 #pragma once
 
 #include <array>
@@ -58,6 +59,10 @@ class DeviceHands final : public TickGuest {
     Vec3 tip_anchor_mm;
     Vec3 tip_in_patient;  ///< wished in the last tick
     DeviceAim aim;
+    bool turns_scope = false;  ///< the roll counts from the anchors
+    double roll_anchor_deg = 0;
+    double turn_anchor_deg = 0;
+    double turned_deg = 0;  ///< the scope's shaft, as it was last seen or asked for
     simulation::Driver driver = simulation::Driver::Off;
     double depth_mm = 0;  ///< of what it holds, at the last tick
     haptics::OperationFeel feel{haptics::feel_table()};
@@ -72,6 +77,11 @@ class DeviceHands final : public TickGuest {
   static void engage(Hand& hand,
                      const simulation::HandInput& input,
                      const simulation::Snapshot& last) noexcept;
+  /// At most one command a tick, and only where nobody else has one.
+  static void turn_scope(Hand& hand,
+                         simulation::Command& command,
+                         const simulation::Snapshot& last,
+                         std::size_t index) noexcept;
   static void press(const Hand& hand,
                     simulation::HandInput& input,
                     const simulation::Snapshot& last) noexcept;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/units.hpp"
 #include "devices/trusted_command.hpp"
 #include "instruments/instrument.hpp"
 
@@ -167,6 +168,68 @@ TEST(DeviceHands, ADeviceThatGivesForcesIsPushedWithAndAnyOtherIsNot) {
   input.hands[0].thrust_n = 20;
   desk.hands.before_at(desk.now, input, desk.now_state);
   EXPECT_EQ(input.hands[0].thrust_n, 20);
+}
+
+TEST(DeviceHands, AToolThatRollsTurnsTheScopeInItsHand) {
+  Desk desk;
+  desk.device.able.roll = true;
+  desk.now_state.scope.hand = 0;
+  desk.now_state.scope.shaft_turn_deg = 100;
+  desk.now_state.scope.camera_turn_deg = -20;
+  desk.device.device.roll_rad = 5.0;  // wherever its sensor begins
+  const auto turn_by = [&](double deg) {
+    desk.device.device.roll_rad += radians_from_degrees(deg);
+    desk.tick();
+    const simulation::Command& asked = desk.input.command;
+    if (asked.kind != simulation::CommandKind::TurnScope) return false;
+    EXPECT_EQ(asked.tilt_deg, -20) << "the camera head is the page's";
+    desk.now_state.scope.shaft_turn_deg = asked.rotation_deg;
+    return true;
+  };
+  EXPECT_FALSE(turn_by(0)) << "taken: it stays as it is";
+  EXPECT_FALSE(turn_by(0.2)) << "a flicker";
+  ASSERT_TRUE(turn_by(29.8));
+  EXPECT_NEAR(desk.now_state.scope.shaft_turn_deg, 130, 1e-9);
+  EXPECT_FALSE(turn_by(0));
+  desk.device.device.roll_rad -= 2 * kPi;  // the sensor's turn is over
+  EXPECT_FALSE(turn_by(0));
+  ASSERT_TRUE(turn_by(80));
+  EXPECT_NEAR(desk.now_state.scope.shaft_turn_deg, -150, 1e-9);
+  desk.now_state.scope.shaft_turn_deg = 10;  // by the page: from there on
+  EXPECT_FALSE(turn_by(0));
+  ASSERT_TRUE(turn_by(-15));
+  EXPECT_NEAR(desk.now_state.scope.shaft_turn_deg, -5, 1e-9);
+  // Put down, silent, without a sensor or over: nothing turns it.
+  desk.now_state.scope.hand = simulation::kNoHand;
+  EXPECT_FALSE(turn_by(40));
+  desk.now_state.scope.hand = 0;
+  EXPECT_FALSE(turn_by(0)) << "taken again: not by what the handle did meanwhile";
+  desk.device.device.health = Health::Silent;
+  EXPECT_FALSE(turn_by(40));
+  desk.device.device.health = Health::Good;
+  EXPECT_FALSE(turn_by(0));
+  desk.device.able.roll = false;
+  EXPECT_FALSE(turn_by(40));
+  desk.device.able.roll = true;
+  EXPECT_FALSE(turn_by(0));
+  desk.now_state.finished = true;
+  EXPECT_FALSE(turn_by(40));
+}
+
+TEST(DeviceHands, AScopeIsTurnedOnlyWhereNobodyElseHasACommandInTheTick) {
+  Desk desk;
+  desk.device.able.roll = true;
+  desk.now_state.scope.hand = 0;
+  desk.tick();
+  desk.device.device.roll_rad = radians_from_degrees(30);
+  desk.hands.exchange(0).states.publish(desk.device);
+  Input input;
+  input.command.kind = simulation::CommandKind::Finish;
+  desk.hands.before_at(desk.now, input, desk.now_state);
+  EXPECT_EQ(input.command.kind, simulation::CommandKind::Finish);
+  desk.tick();
+  EXPECT_EQ(desk.input.command.kind, simulation::CommandKind::TurnScope);
+  EXPECT_NEAR(desk.input.command.rotation_deg, 30, 1e-9);
 }
 
 TEST(DeviceHands, AHandOfThePageIsLeftAlone) {
