@@ -5,7 +5,7 @@
 // the dark, as on a tower. It follows slowly, so that coming near to something is still seen as light.
 
 /** Grey of the round field that it goes for, 0 to 1, as shown. */
-const WANTED_GREY = 0.42;
+const WANTED_GREY = 0.52;
 const LEAST = 0.22;
 const MOST = 1.6;
 /** Share of the way, in the logarithm, with each look. */
