@@ -90,17 +90,17 @@ void print(const ProcedureValidity& validity, const std::vector<std::string>& na
     std::printf("%-34s%s%s\n", item.id.c_str(), in_columns(item.separation).c_str(),
                 item.counted ? "" : "  not counted");
   }
-  std::printf("%-32s %8s %8s %8s   safe fixations\n", "mean total on", "novice", "middle",
-              "expert");
+  std::printf("%-32s %8s %8s %8s %6s   safe fixations\n", "mean total on", "novice", "middle",
+              "expert", "AUC");
   for (std::size_t c = 0; c < validity.cases.size(); ++c) {
     const trainee::CaseMeans& means = validity.cases[c];
     const auto of = [](const auto& by, Skill skill) { return by[static_cast<std::size_t>(skill)]; };
-    std::printf("%-32.32s %8.1f %8.1f %8.1f   %3.0f %% %3.0f %% %3.0f %%%s\n", names[c].c_str(),
-                of(means.total, Skill::Novice), of(means.total, Skill::Middle),
-                of(means.total, Skill::Expert), 100 * of(means.safe_share, Skill::Novice),
-                100 * of(means.safe_share, Skill::Middle),
-                100 * of(means.safe_share, Skill::Expert),
-                means.is_in_order() ? "" : "   NOT IN ORDER");
+    std::printf(
+        "%-32.32s %8.1f %8.1f %8.1f %6.2f   %3.0f %% %3.0f %% %3.0f %%%s\n", names[c].c_str(),
+        of(means.total, Skill::Novice), of(means.total, Skill::Middle),
+        of(means.total, Skill::Expert), means.separation.auc,
+        100 * of(means.safe_share, Skill::Novice), 100 * of(means.safe_share, Skill::Middle),
+        100 * of(means.safe_share, Skill::Expert), means.is_in_order() ? "" : "   NOT IN ORDER");
     for (const trainee::MissedShare& missed : means.missed) {
       const auto percent = [&](Skill skill) { return 100 * of(missed.share, skill); };
       std::printf("  missed: %-22.22s %6.0f %% %6.0f %% %6.0f %%\n", missed.id.c_str(),
@@ -125,7 +125,9 @@ nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std:
                              {"counted", item.counted}});
   }
   for (std::size_t c = 0; c < validity.cases.size(); ++c) {
-    nlohmann::json means = {{"case", names[c]}, {"in_order", validity.cases[c].is_in_order()}};
+    nlohmann::json means = {{"case", names[c]},
+                            {"in_order", validity.cases[c].is_in_order()},
+                            {"auc", validity.cases[c].separation.auc}};
     for (const Skill skill : kSkills) {
       means["total"][trainee::name_of(skill)] =
           validity.cases[c].total[static_cast<std::size_t>(skill)];
@@ -139,6 +141,24 @@ nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std:
     json["cases"].push_back(std::move(means));
   }
   return json;
+}
+
+/// Of the cases so far, where a file is wanted.
+void write_json(const StudyValidityArguments& arguments,
+                const std::vector<std::string>& names,
+                bool is_simulated,
+                const std::vector<ProcedureValidity>& found) {
+  if (arguments.json.empty()) return;
+  nlohmann::json json = {{"in_silico", true},
+                         {"seeds", arguments.seeds},
+                         {"cases", names},
+                         {"cases_planned", arguments.cases.size()},
+                         {"cases_simulated", is_simulated},
+                         {"procedures", nlohmann::json::array()}};
+  for (const ProcedureValidity& validity : found) {
+    json["procedures"].push_back(json_of(validity, names));
+  }
+  records::write_file_atomically(arguments.json, json.dump(2) + "\n");
 }
 
 /// @throws InvalidInput where one is not offered.
@@ -165,33 +185,25 @@ void run(const StudyValidityArguments& arguments) {
   bool is_simulated = true;
   Progress progress{arguments,
                     arguments.seeds * kSkills.size() * arguments.cases.size() * offered.size()};
+  std::vector<ProcedureValidity> found;
   for (std::size_t c = 0; c < arguments.cases.size(); ++c) {
     const cases::CaseData data = load_case(arguments.cases[c]);
     names.push_back(data.pseudonym);
     is_simulated = is_simulated && data.provenance.simulated;
+    found.clear();
     for (std::size_t p = 0; p < offered.size(); ++p) {
       operate_on(data, c, *offered[p], progress, operations[p]);
+      found.push_back(trainee::validity_of(*offered[p], operations[p], names.size()));
     }
+    // An hour's study that is stopped leaves what it had found.
+    write_json(arguments, names, is_simulated, found);
   }
   std::fprintf(stderr, "\n");
   std::printf(
       "Scripted trainees, %zu of each skill on each of %zu case%s%s: in silico, no people.\n",
       arguments.seeds, names.size(), names.size() == 1 ? "" : "s",
       is_simulated ? " (simulated)" : "");
-  nlohmann::json json = {{"in_silico", true},
-                         {"seeds", arguments.seeds},
-                         {"cases", names},
-                         {"cases_simulated", is_simulated},
-                         {"procedures", nlohmann::json::array()}};
-  for (std::size_t p = 0; p < offered.size(); ++p) {
-    const ProcedureValidity validity =
-        trainee::validity_of(*offered[p], operations[p], names.size());
-    print(validity, names);
-    json["procedures"].push_back(json_of(validity, names));
-  }
-  if (!arguments.json.empty()) {
-    records::write_file_atomically(arguments.json, json.dump(2) + "\n");
-  }
+  for (const ProcedureValidity& validity : found) print(validity, names);
 }
 
 }  // namespace

@@ -109,16 +109,21 @@ ProcedureValidity validity_of(const procedure::Procedure& procedure,
   validity.cases.resize(cases);
   for (std::size_t c = 0; c < cases; ++c) {
     std::array<double, kSkillCount> count{};
+    std::vector<double> experts;
+    std::vector<double> novices;
     CaseMeans& means = validity.cases[c];
     for (const ScoredOperation& one : operations) {
       if (one.case_index != c) continue;
       const auto skill = static_cast<std::size_t>(one.skill);
+      if (one.skill == Skill::Expert) experts.push_back(one.score.overall);
+      if (one.skill == Skill::Novice) novices.push_back(one.score.overall);
       count[skill] += 1.0;
       means.total[skill] += one.score.overall;
       means.safe_share[skill] += one.score.is_fixation_acceptable ? 1.0 : 0.0;
       note_missed(means, one);
     }
     put_in_order(means, procedure);
+    if (!experts.empty() && !novices.empty()) means.separation = separation_of(experts, novices);
     for (std::size_t skill = 0; skill < kSkillCount; ++skill) {
       if (!(count[skill] > 0.0)) continue;
       means.total[skill] /= count[skill];

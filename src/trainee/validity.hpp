@@ -45,9 +45,10 @@ struct MissedShare {
   std::array<double, kSkillCount> share{};
 };
 
-/// Mean total of each skill on one case, the share of safe fixations, and what made the others
-/// unsafe.
+/// Mean total of each skill on one case, how well it separates there, the share of safe fixations,
+/// and what made the others unsafe.
 struct CaseMeans {
+  Separation separation;  ///< of the total, of experts from novices
   std::array<double, kSkillCount> total{};
   std::array<double, kSkillCount> safe_share{};
   std::vector<MissedShare> missed;  ///< in the procedure's order; what nobody missed is left out

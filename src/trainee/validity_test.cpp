@@ -64,6 +64,16 @@ TEST(Validity, ItemsCountByWhatTheirValueEarns) {
   EXPECT_DOUBLE_EQ(validity.cases[0].total[static_cast<std::size_t>(Skill::Expert)], 85.0);
 }
 
+TEST(Validity, SeparatesOnEachCaseByItself) {
+  std::array operations{operation(Skill::Expert, 0.5, 90), operation(Skill::Novice, 2.5, 10),
+                        operation(Skill::Expert, 0.5, 30), operation(Skill::Novice, 2.5, 60)};
+  operations[2].case_index = operations[3].case_index = 1;
+  const ProcedureValidity validity = validity_of(one_rule(), operations, 2);
+  EXPECT_DOUBLE_EQ(validity.total.auc, 0.75);
+  EXPECT_DOUBLE_EQ(validity.cases[0].separation.auc, 1.0);
+  EXPECT_DOUBLE_EQ(validity.cases[1].separation.auc, 0.0);
+}
+
 TEST(Validity, TellsWhatMadeAFixationUnsafeInTheProceduresOrder) {
   procedure::Procedure procedure = one_rule();
   procedure.rules.safety.resize(3);
