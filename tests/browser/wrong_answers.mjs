@@ -109,7 +109,7 @@ async function displacedAndFixedAsItLies(page, station) {
     );
     expect(led > 0.5, `it was led by ${led.toFixed(2)} mm`);
     await page.keyboard.press("F8");
-    await operator.logged(/Lead the distal piece/);
+    await operator.logged(/Lead the distal part of the scaphoid/);
     await page.keyboard.press("z");
     await operator.until((s) => s.undos === 1, "the joystick taken back");
     await operator.settle(4);
