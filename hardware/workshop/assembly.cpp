@@ -107,8 +107,22 @@ class Builder {
     } else {
       drive_b(frame, swung, leg);
     }
+    cord(leg, frame, swung);
     stud(leg, swung * at({n_["upper_arm"], 0, 0}));
     rods(i, swung);
+  }
+
+  /// What carries the leg: from its pin to its bearing block's mast.
+  void cord(Group leg, const Place& frame, const Place& swung) {
+    const double mast_x = n_["mast_x"];
+    const double mast_z = n_["mast_z"];
+    add("mast_screw", Group::Base, Material::Steel, cylinder(1.5, 5.5, 34),
+        frame * at({mast_x, 0, mast_z}) * along_axis(0));
+    add("pin_screw", leg, Material::Steel, cylinder(1.5, -8, 8.4),
+        swung * at({n_["spring_on_leg"], 0, 0}) * along_axis(0));
+    const Vec3 low = swung * Vec3{n_["spring_on_leg"], 7.5, 0};
+    const Vec3 high = frame * Vec3{mast_x, 7.5, mast_z};
+    add("cord", leg, Material::Rubber, cylinder(0.8, 0, distance(low, high), 12), along(low, high));
   }
 
   void drive_a(int i, const Place& frame, const Place& swung, double degrees) {
@@ -129,15 +143,6 @@ class Builder {
     TriangleMesh pot = cylinder(11.1, 56, 70);
     append(pot, cylinder(4.7, 46.5, 56));
     add("potentiometer", Group::Base, Material::Brass, pot, frame * along_axis(0));
-    const double mast_x = n_["mast_x"];
-    const double mast_z = n_["mast_z"];
-    add("mast_screw", Group::Base, Material::Steel, cylinder(1.5, 5.5, 34),
-        frame * at({mast_x, 0, mast_z}) * along_axis(0));
-    add("pin_screw", leg, Material::Steel, cylinder(1.5, -8, 8.4),
-        swung * at({n_["spring_on_leg"], 0, 0}) * along_axis(0));
-    const Vec3 low = swung * Vec3{n_["spring_on_leg"], 7.5, 0};
-    const Vec3 high = frame * Vec3{mast_x, 7.5, mast_z};
-    add("cord", leg, Material::Rubber, cylinder(0.8, 0, distance(low, high), 12), along(low, high));
     add("potentiometer_shaft", leg, Material::Steel, cylinder(3.1, 40.5, 46.4),
         swung * along_axis(0));
   }
@@ -214,7 +219,7 @@ class Builder {
     part("carrier", Group::Carrier, Material::Moving, held * at({0, 0, 25}) * kUpsideDown);
     add("roll_sensor", Group::Carrier, Material::Board, box({-11.5, -11.5, 32}, {11.5, 11.5, 33.6}),
         held);
-    add("tool_shaft", Group::Tool, Material::Steel,
+    add("tool_shaft", Group::Tool, Material::Carbon,
         cylinder(n_["tool_shaft"] / 2, -tool.length_mm + 6, 29.5), held);
     // Or the tool would be pulled down out of the carrier.
     add("retaining_ring", Group::Tool, Material::Steel, ring(3, 6.5, 25.2, 27), held);

@@ -101,20 +101,4 @@ std::optional<Strength> strength_at(const DeltaArm& arm, const Vec3& tip) noexce
   return Strength{1000 / longest, std::sqrt(squares[2] / squares[0])};
 }
 
-LegAngles gravity_torques(const DeltaArm& arm,
-                          const LegAngles& angles,
-                          double tip_grams,
-                          double leg_grams,
-                          double leg_mm) noexcept {
-  const auto state = firmware::delta_forward(arm.size, angles.data());
-  LegAngles torques{};
-  if (!state.is_valid) return torques;
-  firmware::delta_torques(state, {0, 0, tip_grams * kGravityNPerGram}, torques.data());
-  // Angles are counted downwards: holding a leg up is a negative torque.
-  for (std::size_t i = 0; i < 3; ++i) {
-    torques[i] -= leg_grams * kGravityNPerGram * leg_mm * std::cos(angles[i]);
-  }
-  return torques;
-}
-
 }  // namespace carpus::arm

@@ -43,13 +43,4 @@ struct Strength {
 /// @return none outside the workspace.
 [[nodiscard]] std::optional<Strength> strength_at(const DeltaArm& arm, const Vec3& tip) noexcept;
 
-/// Torques [N mm] that hold the arm's own weight up. @param tip_grams  of platform, tool and half
-/// of the rods, at the tip. @param leg_grams  of each upper arm with the other half of its rods, at
-/// `leg_mm` from its axis.
-[[nodiscard]] LegAngles gravity_torques(const DeltaArm& arm,
-                                        const LegAngles& angles,
-                                        double tip_grams,
-                                        double leg_grams,
-                                        double leg_mm) noexcept;
-
 }  // namespace carpus::arm

@@ -73,33 +73,5 @@ TEST(DeltaArm, WhatIsOutOfReachIsSaidToBe) {
   EXPECT_FALSE(inverse(arm, {std::nan(""), 0, -130}));
 }
 
-TEST(DeltaArm, HoldsItsWeightWhereEnergyDoesNotChange) {
-  // The torques are the change of the potential energy with each angle.
-  const DeltaArm arm;
-  constexpr double kTip = 60;
-  constexpr double kLeg = 25;
-  constexpr double kAt = 45;
-  const auto energy = [&](const LegAngles& angles) {
-    double sum = kTip * forward(arm, angles)->z;
-    for (const double angle : angles) sum -= kLeg * kAt * std::sin(angle);
-    return sum * 9.80665e-3;
-  };
-  Rng rng(8);
-  for (int i = 0; i < 200; ++i) {
-    const Vec3 tip =
-        arm.centre + Vec3{rng.uniform(-45, 45), rng.uniform(-45, 45), rng.uniform(-35, 35)};
-    const LegAngles angles = *inverse(arm, tip);
-    const LegAngles torques = gravity_torques(arm, angles, kTip, kLeg, kAt);
-    for (std::size_t leg = 0; leg < 3; ++leg) {
-      LegAngles more = angles;
-      LegAngles less = angles;
-      more[leg] += 1e-5;
-      less[leg] -= 1e-5;
-      EXPECT_NEAR(torques[leg], (energy(more) - energy(less)) / 2e-5,
-                  1e-5 * (1 + std::abs(torques[leg])));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace carpus::arm

@@ -30,19 +30,25 @@ void settle(Rig& rig) {
 
 bool is_released(const HandModel& hand) { return hand.stiffness_n_per_mm == 0; }
 
-/// The mean of the last half second, and its extent.
+/// The mean of the last half second, and how far it goes both to and fro: an arm that nobody holds
+/// slides one way.
 struct Watch {
   double sum_force = 0;
   double sum_depth = 0;
   double least = 1e9;
   double most = -1e9;
+  double rise = 0;
+  double fall = 0;
   int count = 0;
+  [[nodiscard]] double to_and_fro() const { return std::min(rise, fall); }
   void see(Rig& rig) {
     const double depth = rig.depth_mm();
     sum_force += rig.felt_along_n();
     sum_depth += depth;
     least = std::min(least, depth);
     most = std::max(most, depth);
+    rise = std::max(rise, depth - least);
+    fall = std::max(fall, most - depth);
     ++count;
   }
 };
@@ -86,7 +92,7 @@ Press press(Rig& rig) {
   }
   out.force_n = watch.sum_force / watch.count;
   out.depth_mm = watch.sum_depth / watch.count;
-  out.to_and_fro_mm = watch.most - watch.least;
+  out.to_and_fro_mm = watch.to_and_fro();
   out.most_depth_mm = watch.most;
   out.has_let_go = lets_go;
   return out;

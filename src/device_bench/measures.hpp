@@ -18,7 +18,7 @@ inline constexpr double kStillMm = 0.06;
 struct Press {
   double force_n = 0;        ///< that was reached, mean of the last half second
   double depth_mm = 0;       ///< at the sensors, then
-  double to_and_fro_mm = 0;  ///< peak to peak, then
+  double to_and_fro_mm = 0;  ///< both ways, then: a slide one way is none
   double half_depth_mm = 0;  ///< when a quarter of the force was reached
   double most_depth_mm = 0;  ///< then
   bool has_let_go = false;   ///< a released hand

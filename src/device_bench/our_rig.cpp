@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arm/arm_weight.hpp"
 #include "arm/cogging.hpp"
 #include "core/units.hpp"
 #include "firmware/core/frame_encoder.hpp"
@@ -26,10 +27,6 @@ constexpr double kAngleFilter = 0.2;
 constexpr double kVelocityFilter = 0.05;
 /// Of the encoders' rates: 5 ms.
 constexpr double kRateFilter = 0.2;
-/// As the arm's parts list says (virtual_arm/linkage.hpp, arm_plant.hpp).
-constexpr double kTipGrams = 50;
-constexpr double kLegGrams = 25;
-constexpr double kLegMm = 45;
 /// From a report of drive B until the middle of the tick for which the answer to it acts: both
 /// frames' way, the host's wait, half a tick, the current's delay.
 constexpr double kAheadS = 0.0031;
@@ -53,13 +50,7 @@ OurRig::OurRig(const RigOptions& options)
   round_trips_us_.reserve(kMostTimes);
   sample_ages_us_.reserve(kMostTimes);
   arm_->on_byte = [this](std::uint8_t byte, double us) { hear(byte, us); };
-  arm_->on_step = [this](double seconds) {
-    virtual_arm::JointValues held{};
-    if (arm_->drive() == firmware::Drive::Motor && arm_->is_driven()) {
-      held = arm_->plant().weight_to_hold();
-    }
-    book(seconds, arm_->torques(), held);
-  };
+  arm_->on_step = [this](double seconds) { book(seconds, arm_->torques(), arm_->carrying()); };
   arm_->run_to_us(kStartMs * kTickUs);
 }
 
@@ -69,9 +60,8 @@ double OurRig::quantum_mm() const {
 }
 
 Vec3 OurRig::weight_n() const {
-  const auto torques = arm::gravity_torques(arm_->size(), angles_, kTipGrams, kLegGrams, kLegMm);
-  const virtual_arm::DeltaLinkage linkage(arm_->size());
-  return force_of(linkage.at(angles_), torques);
+  const auto torques = arm::weight_left(arm_->size(), angles_, arm::kMotorArmWeight);
+  return arm::force_at_tip(arm_->size(), angles_, torques);
 }
 
 void OurRig::hear(std::uint8_t byte, double us) {

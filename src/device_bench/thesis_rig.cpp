@@ -69,6 +69,7 @@ constexpr Vec3 kSerialCentre{140, 0, 0};
 ArmBody serial_body() {
   ArmBody body;
   body.joint_inertia_kg_mm2 = 600;  // a servo of 44 g at 120 mm [E]
+  body.tip_kg = 0.05;               // its tool, of which the thesis says nothing [E]
   body.balanced_share = 0.9;        // in its favour: of balancing the thesis says nothing
   return body;
 }
@@ -146,19 +147,14 @@ class SerialThesisRig final : public ThesisRig {
   Slot rigid_;
 };
 
-ArmBody motor_body() {
-  ArmBody body;
-  body.joint_inertia_kg_mm2 = 660;
-  body.balanced_share = 0.9;  // off in free space, its motors cannot carry the arm
-  return body;
-}
-
 class MotorThesisRig final : public ThesisRig {
  public:
   explicit MotorThesisRig(const RigOptions& options)
       : ThesisRig(options),
-        linkage_(size_),
-        plant_(linkage_, motor_body(), *arm::inverse(size_, size_.centre)),
+        linkage_(size_, arm::kMotorArmWeight),
+        plant_(linkage_,
+               virtual_arm::body_of(arm::kMotorArmWeight, virtual_arm::kRotorKgMm2),
+               *arm::inverse(size_, size_.centre)),
         motors_{GimbalMotor{{}, 10 * options.seed + 1}, GimbalMotor{{}, 10 * options.seed + 2},
                 GimbalMotor{{}, 10 * options.seed + 3}} {
     plant_.set_hand(options.hand);

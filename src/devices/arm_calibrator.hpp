@@ -25,9 +25,11 @@ inline constexpr std::size_t kSamplesOfAlignment = 7500;
 inline constexpr std::size_t kSamplesOfLead = 8000;
 /// Drive A's servos turn by themselves to these pulses, first while a finger lifts the legs to the
 /// upper edges of their slots, then while it presses them to the lower ones: left alone they would
-/// slide through. The first of each row only comes from afar.
-inline constexpr std::array<int, 6> kSweepUs{1150, 1350, 1425, 1500, 1575, 1650};
-inline constexpr std::array<int, 6> kSweepBackUs{1850, 1650, 1575, 1500, 1425, 1350};
+/// slide through. The first of each row only comes from
+/// afar, but no farther than that a lifted leg keeps from its dead centre, 50 degrees above the
+/// horizontal, where leg and rod lie in line.
+inline constexpr std::array<int, 6> kSweepUs{1250, 1350, 1425, 1500, 1575, 1650};
+inline constexpr std::array<int, 6> kSweepBackUs{1750, 1650, 1575, 1500, 1425, 1350};
 /// What the legs turn, and the slot to both sides: a servo must do so much in 0.9 to 2.1 ms.
 inline constexpr double kServoTravelDeg = 154;
 /// Counts between least and most of them: more is a hand that moves, or a loose wiper.

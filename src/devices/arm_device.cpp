@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "arm/arm_weight.hpp"
 #include "arm/cogging.hpp"
 #include "core/units.hpp"
 #include "firmware/core/tool_roll.hpp"
@@ -65,24 +66,6 @@ firmware::Stop turning_stop(int pulse_us) noexcept {
 
 std::uint16_t roundedu16(double value, double most) noexcept {
   return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, most)));
-}
-
-/// Of the printed parts: platform with tool and half of the rods; an upper arm with the other half.
-constexpr double kTipGrams = 50;
-constexpr double kLegGrams = 25;
-constexpr double kLegMm = 45;
-
-/// The force at the tip that carries drive B's arm, by F = sum s_i t_i / (s_i . u_i).
-Vec3 weight_at(const arm::DeltaArm& arm, const arm::LegAngles& angles) noexcept {
-  const arm::LegAngles torques = arm::gravity_torques(arm, angles, kTipGrams, kLegGrams, kLegMm);
-  const auto state = firmware::delta_forward(arm.size, angles.data());
-  Vec3 force;
-  if (!state.is_valid) return force;
-  for (std::size_t i = 0; i < kLegs; ++i) {
-    const firmware::Vector<double>& rod = state.rods[i];
-    force += Vec3{rod.x, rod.y, rod.z} * (torques[i] / state.levers[i]);
-  }
-  return is_finite(force) ? force : Vec3{};
 }
 
 firmware::LegConfig config_of(const ArmCalibration& calibration, std::uint8_t leg) noexcept {
@@ -325,7 +308,7 @@ void ArmDevice::place(Nanoseconds now, const arm::LegAngles& angles) noexcept {
     return;
   }
   const Vec3 position = *tip - arm_.centre;
-  weight_n_ = weight_at(arm_, angles);
+  weight_n_ = arm::force_at_tip(arm_, angles, arm::weight_left(arm_, angles, arm::kMotorArmWeight));
   const arm::LegAngles before = angles_;
   angles_ = angles;
   if (!has_place_) rates_ = {};

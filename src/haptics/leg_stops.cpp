@@ -16,20 +16,35 @@ constexpr double kMostUnits = 8191;
 
 using firmware::LegStopSide;
 
+namespace {
+
+/// How far a leg yields that bears `torque` [N mm], beside the servo's dead band; a stop bears it
+/// one way only.
+double yielded_rad(double torque, const LegYield& yield) noexcept {
+  if (!(torque > 0)) return 0;
+  const double turned = std::max(0.0, torque - yield.friction_n_mm) / yield.servo_n_mm_per_rad;
+  return torque / yield.pad_n_mm_per_rad + turned;
+}
+
+}  // namespace
+
 /// The way along the normal is the legs' work over the press.
 double early_mm(const firmware::DeltaState<double>& state,
                 const Vec3& normal,
+                const arm::LegAngles& weight_n_mm,
                 const LegYield& yield) noexcept {
   const Vec3 press = normal * kEarlyForPressN;
   double torques[3];
   firmware::delta_torques(state, firmware::Vector<double>{press.x, press.y, press.z}, torques);
   double work_n_mm = 0;
-  for (double torque : torques) {
-    torque = std::abs(torque);
-    const double turned = std::max(0.0, torque - yield.friction_n_mm) / yield.servo_n_mm_per_rad;
-    work_n_mm += torque * (torque / yield.pad_n_mm_per_rad + yield.dead_band_rad + turned);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double torque = std::abs(torques[i]);
+    const double weight = torques[i] < 0 ? -weight_n_mm[i] : weight_n_mm[i];
+    work_n_mm +=
+        torque * 0.5 *
+        (yielded_rad(torque + weight, yield) + yield.dead_band_rad + yielded_rad(weight, yield));
   }
-  return std::min(0.5 * work_n_mm / kEarlyForPressN, kMostEarlyMm);
+  return std::min(work_n_mm / kEarlyForPressN, kMostEarlyMm);
 }
 
 firmware::Stop LegStops::free() noexcept {
@@ -47,7 +62,8 @@ firmware::Stop LegStops::at(const arm::DeltaArm& arm,
   const Vec3 slide = velocity - plane.normal * dot(plane.normal, velocity);
   const auto here = firmware::delta_forward(arm.size, angles.data());
   if (!here.is_valid) return free();
-  const double early = early_mm(here, plane.normal);
+  const double early =
+      early_mm(here, plane.normal, arm::weight_left(arm, angles, arm::kStopArmWeight));
   const Vec3 place = tip - plane.normal * (height - early) + slide * kSlideLeadS;
   const auto on_surface = arm::inverse(arm, place);
   if (!on_surface) return free();

@@ -13,7 +13,7 @@
 
 #include <array>
 
-#include "arm/delta_arm.hpp"
+#include "arm/arm_weight.hpp"
 #include "firmware/core/delta.hpp"
 #include "firmware/core/wire.hpp"
 #include "haptics/local_planes.hpp"
@@ -35,12 +35,15 @@ struct LegYield {
 };
 
 /// Stops stand outside the surface by half of what the legs yield together under this press along
-/// its normal: 0.4 mm above the tip, where three legs bear it, 0.9 mm beside it, where one does; in
-/// the corners of the workspace more, but a wall is not met farther before it than it is deep.
+/// its normal, and by what the weight makes them yield that no cord carries: 0.4 mm above the tip,
+/// where three legs bear it, 0.9 mm beside it, where one does; in the corners of the workspace
+/// more, but a wall is not met farther before it than it is deep.
 inline constexpr double kEarlyForPressN = 2;
 inline constexpr double kMostEarlyMm = 1.1;
+/// @param weight_n_mm  torques that hold the rest of the arm's weight up.
 [[nodiscard]] double early_mm(const firmware::DeltaState<double>& state,
                               const Vec3& normal,
+                              const arm::LegAngles& weight_n_mm = {},
                               const LegYield& yield = {}) noexcept;
 
 /// A surface farther than this is no matter yet [mm].

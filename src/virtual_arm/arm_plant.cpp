@@ -13,6 +13,17 @@
 namespace carpus::virtual_arm {
 namespace {
 constexpr double kGravityNPerKg = 9.80665;
+constexpr double kBeyondRad = 0.07;
+}  // namespace
+
+ArmBody body_of(const arm::ArmWeight& weight, double drive_kg_mm2) noexcept {
+  ArmBody body;
+  body.joint_inertia_kg_mm2 = weight.leg_inertia_kg_mm2 + drive_kg_mm2;
+  body.tip_kg = weight.tip_g / 1000;
+  const arm::DeltaArm arm;
+  body.least_rad = arm.least_angle - kBeyondRad;
+  body.most_rad = arm.most_angle + kBeyondRad;
+  return body;
 }
 
 ArmPlant::ArmPlant(const Linkage& linkage, const ArmBody& body, const JointValues& angles)
@@ -53,7 +64,9 @@ void ArmPlant::step(double seconds, const JointValues& torques) noexcept {
     const double rate = rates_[i] + torque * to_rate;
     const double most = body_.joint_friction_n_mm * to_rate;
     rates_[i] = rate - std::clamp(rate, -most, most);
-    angles_[i] += rates_[i] * seconds;
+    const double angle = angles_[i] + rates_[i] * seconds;
+    angles_[i] = std::clamp(angle, body_.least_rad, body_.most_rad);
+    if (angles_[i] != angle) rates_[i] = 0;
   }
   state_ = linkage_.at(angles_);
   is_sound_ = state_.is_valid && is_finite(tip_) && is_finite(felt_);

@@ -13,17 +13,25 @@ namespace carpus::virtual_arm {
 
 /// Estimates for printed parts, but for what is said.
 struct ArmBody {
-  double joint_inertia_kg_mm2 = 160;  ///< an upper arm of 40 g and half of its rods
+  double joint_inertia_kg_mm2 = 0;  ///< of a leg, with its drive's where that turns with it
+  double tip_kg = 0;
   /// Potentiometer (3.68 N mm by its data sheet [yaacoub2008] appendix B.2) or bearing and motor:
   /// 0.1 N at the tip.
   double joint_friction_n_mm = 3.7;
   double joint_viscosity_n_mm_s = 0.3;
-  double tip_kg = 0.05;
   double structure_n_per_mm = 5;  ///< printed arms and rods: 1.5 to 10
   double structure_n_s_per_mm = 0.0015;
-  /// Share of the arm's weight that counterweights or springs carry.
+  /// Where a joint's way ends, and it stays: the drawn legs are held 4 degrees beyond theirs, by
+  /// the servo's end (drive A) or the sector's (drive B).
+  double least_rad = -1e3;
+  double most_rad = 1e3;
+  /// Share of the arm's weight, less what the linkage's cords carry, that counterweights do.
   double balanced_share = 0;
 };
+
+/// Of the arm that is drawn (arm/arm_weight.hpp). @param drive_kg_mm2  what a drive's rotor adds to
+/// each leg.
+[[nodiscard]] ArmBody body_of(const arm::ArmWeight& weight, double drive_kg_mm2 = 0) noexcept;
 
 class ArmPlant {
  public:

@@ -26,6 +26,10 @@ GimbalMotor::GimbalMotor(const GimbalMotorKind& kind, std::uint64_t seed)
       assembly.below(2) == 0 ? firmware::Windings::Along : firmware::Windings::Against;
 }
 
+double GimbalMotor::warm_ohm() const noexcept {
+  return ohm_ * (1 + kind_.copper_per_kelvin * (celsius_ - kRoomC));
+}
+
 double GimbalMotor::step(double seconds,
                          const firmware::WindingVolts& volts,
                          bool is_on,
@@ -43,7 +47,7 @@ double GimbalMotor::step(double seconds,
   const double beta = (v - w) / std::sqrt(3.0);
   const double along = alpha * std::cos(rotor) + beta * std::sin(rotor);
   const double across = sign * (beta * std::cos(rotor) - alpha * std::sin(rotor));
-  const double ohm = ohm_ * (1 + kind_.copper_per_kelvin * (celsius_ - kRoomC));
+  const double ohm = warm_ohm();
   const double constant = constant_ * kind_.n_mm_per_amp;
   const double induced = 1e-3 * constant * kind_.ratio * joint_rad_per_s;
   const double goal = is_on ? (across - induced) / ohm : 0;

@@ -14,6 +14,9 @@
 
 namespace carpus::virtual_arm {
 
+/// The rotor's 5 kg mm2 times the square of the capstan's ratio, on each leg.
+inline constexpr double kRotorKgMm2 = 500;
+
 struct GimbalMotorKind {
   double ratio = 10;
   double ohm = 2.8;
@@ -55,8 +58,12 @@ class GimbalMotor {
   }
   [[nodiscard]] double measured_phase_rad() const noexcept { return phase_ + 0.1; }
   [[nodiscard]] double celsius() const noexcept { return celsius_; }
+  /// What it gives of a torque that is asked, where its windings are held for their data sheet's.
+  [[nodiscard]] double share_given() const noexcept { return constant_ * kind_.ohm / warm_ohm(); }
 
  private:
+  [[nodiscard]] double warm_ohm() const noexcept;
+
   GimbalMotorKind kind_;
   Rng rng_;
   double constant_;

@@ -44,11 +44,10 @@ LinkageState DeltaLinkage::at(const JointValues& angles) const noexcept {
 }
 
 JointValues DeltaLinkage::weight_torques(const JointValues& angles) const noexcept {
-  JointValues torques{};
-  // Angles are counted downwards: weight turns a leg towards larger ones.
-  for (std::size_t i = 0; i < 3; ++i) {
-    torques[i] = leg_grams_ * kGravityNPerGram * leg_mm_ * std::cos(angles[i]);
-  }
+  arm::ArmWeight legs = weight_;
+  legs.tip_g = 0;
+  JointValues torques = arm::weight_left(arm_, angles, legs);
+  for (double& torque : torques) torque = -torque;
   return torques;
 }
 

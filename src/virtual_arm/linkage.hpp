@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "arm/delta_arm.hpp"
+#include "arm/arm_weight.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::virtual_arm {
@@ -35,22 +35,21 @@ class Linkage {
   Linkage& operator=(const Linkage&) = delete;
   virtual ~Linkage() = default;
   [[nodiscard]] virtual LinkageState at(const JointValues& angles) const noexcept = 0;
-  /// What the links' weight, without the tip's, does to the joints [N mm].
+  /// What the links' weight, without the tip's, does to the joints, with cords that carry it
+  /// [N mm].
   [[nodiscard]] virtual JointValues weight_torques(const JointValues& angles) const noexcept = 0;
 };
 
 class DeltaLinkage final : public Linkage {
  public:
-  /// @param leg_grams  of an upper arm with half of its rods, at `leg_mm` from the axis.
-  explicit DeltaLinkage(const arm::DeltaArm& arm, double leg_grams = 25, double leg_mm = 45)
-      : arm_(arm), leg_grams_(leg_grams), leg_mm_(leg_mm) {}
+  DeltaLinkage(const arm::DeltaArm& arm, const arm::ArmWeight& weight)
+      : arm_(arm), weight_(weight) {}
   [[nodiscard]] LinkageState at(const JointValues& angles) const noexcept override;
   [[nodiscard]] JointValues weight_torques(const JointValues& angles) const noexcept override;
 
  private:
   arm::DeltaArm arm_;
-  double leg_grams_;
-  double leg_mm_;
+  arm::ArmWeight weight_;
 };
 
 /// The thesis's arm [yaacoub2008] figures 6.1 to 6.4: a motor at the base that turns all of it

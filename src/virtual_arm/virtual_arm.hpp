@@ -49,6 +49,8 @@ class VirtualArm {
   [[nodiscard]] virtual const arm::DeltaArm& size() const = 0;
   /// What the drives do to the joints now [N mm].
   [[nodiscard]] virtual JointValues torques() const = 0;
+  /// Of those, what carries the arm's weight while its host runs: drive B's, each by its share.
+  [[nodiscard]] virtual JointValues carrying() { return {}; }
   /// Power that the drives can still spend: false once the firmware has taken it away.
   [[nodiscard]] virtual bool is_driven() const = 0;
   /// The host's own frames that make it ready, as a guided calibration would find them: the legs'

@@ -15,22 +15,14 @@ namespace carpus::virtual_arm {
 namespace {
 
 constexpr double kControlUs = 1e6 / firmware::kMotorStepHz;
-/// The rotor's 5 kg mm2 times the square of the capstan's ratio, beside the leg's own.
-constexpr double kJointInertiaKgMm2 = 160 + 500;
-
-ArmBody motor_body() {
-  ArmBody body;
-  body.joint_inertia_kg_mm2 = kJointInertiaKgMm2;
-  return body;
-}
 
 class VirtualMotorArm final : public VirtualArm {
  public:
   VirtualMotorArm(const VirtualArmOptions& options, const JointValues& angles)
       : unit_(static_cast<std::uint32_t>(options.seed)),
         arm_(unit_),
-        linkage_(size_),
-        plant_(linkage_, motor_body(), angles),
+        linkage_(size_, arm::kMotorArmWeight),
+        plant_(linkage_, body_of(arm::kMotorArmWeight, kRotorKgMm2), angles),
         motors_{GimbalMotor{{}, 10 * options.seed + 1}, GimbalMotor{{}, 10 * options.seed + 2},
                 GimbalMotor{{}, 10 * options.seed + 3}} {
     plant_.set_hand(options.hand);
@@ -40,6 +32,12 @@ class VirtualMotorArm final : public VirtualArm {
   [[nodiscard]] ArmPlant& plant() override { return plant_; }
   [[nodiscard]] const arm::DeltaArm& size() const override { return size_; }
   [[nodiscard]] JointValues torques() const override { return torques_; }
+  [[nodiscard]] JointValues carrying() override {
+    if (!is_driven()) return {};
+    JointValues held = plant_.weight_to_hold();
+    for (std::size_t i = 0; i < 3; ++i) held[i] *= motors_[i].share_given();
+    return held;
+  }
   [[nodiscard]] bool is_driven() const override { return arm_.is_driving(); }
   [[nodiscard]] const arm::LegCalibration& leg_calibration(int) const override { return none_; }
   [[nodiscard]] firmware::LegConfig leg_config(int) const override { return {}; }

@@ -23,20 +23,13 @@ constexpr double kMiddleRad = 0.1775;
 /// Between the motor and its horn: 0.6 degrees, which the calibration by touch finds with the gap.
 constexpr double kBacklashRad = 0.0052;
 
-/// Counterweights on the upper arms carry it: servos that are off cannot.
-ArmBody stop_body() {
-  ArmBody body;
-  body.balanced_share = 0.9;
-  return body;
-}
-
 class VirtualStopArm final : public VirtualArm {
  public:
   VirtualStopArm(const VirtualArmOptions& options,
                  std::unique_ptr<StopBoard> board,
                  const JointValues& angles)
-      : linkage_(size_),
-        plant_(linkage_, stop_body(), angles),
+      : linkage_(size_, arm::kStopArmWeight),
+        plant_(linkage_, body_of(arm::kStopArmWeight), angles),
         board_(std::move(board)),
         pots_{arm::Potentiometer{{}, 10 * options.seed + 1},
               arm::Potentiometer{{}, 10 * options.seed + 2},
