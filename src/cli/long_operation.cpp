@@ -11,7 +11,7 @@ namespace carpus::cli {
 namespace {
 
 /// Kept for the expert at the end, who needs longer.
-constexpr Tick kExpertTicks = 60'000;
+constexpr Tick kExpertTicks = 40'000;
 constexpr std::uint64_t kSeed = 1;
 
 /// To and fro about where the instrument waits, within some millimetres, another wish each tick.

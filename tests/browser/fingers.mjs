@@ -16,13 +16,17 @@ export class Fingers {
     });
   }
 
-  /** @param ways  of each finger, from and to */
+  /** @param ways  of each finger, from and to, over what lies between where `over` is given */
   async slide(ways, steps = 8) {
+    const between = (a, b, share) => ({
+      x: a.x + share * (b.x - a.x),
+      y: a.y + share * (b.y - a.y),
+    });
     const at = (share) =>
-      ways.map(({ from, to }) => ({
-        x: from.x + share * (to.x - from.x),
-        y: from.y + share * (to.y - from.y),
-      }));
+      ways.map(({ from, to, over }) => {
+        if (over === undefined) return between(from, to, share);
+        return share < 0.5 ? between(from, over, 2 * share) : between(over, to, 2 * share - 1);
+      });
     await this.send("touchStart", at(0));
     for (let i = 1; i <= steps; ++i) {
       await this.send("touchMove", at(i / steps));

@@ -14,8 +14,10 @@ const TRAINEE = "Browser test, touch";
 /** Degrees that one pixel of a finger turns the shaft (web/README.md). */
 const DEG_PER_PX = 0.25;
 const MOST_PX = 160;
-/** A finger that goes less far does not mean it [CSS px]. */
+/** A finger that goes less far does not mean it [CSS px]; one that does may come back nearer. */
 const MEANT_PX = 10;
+const WITHIN_DEG = 1;
+const WITHIN_PX = 1.5;
 
 class Toucher {
   constructor(page) {
@@ -42,10 +44,12 @@ class Toucher {
     return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   }
 
-  /** One finger from the middle by so much. */
+  /** One finger from the middle by so much; farther, and back, where that is too little to be meant. */
   async slide(dx, dy) {
     const from = await this.middle();
-    await this.fingers.slide([{ from, to: { x: from.x + dx, y: from.y + dy } }]);
+    const way = { from, to: { x: from.x + dx, y: from.y + dy } };
+    if (Math.hypot(dx, dy) < MEANT_PX) way.over = { x: from.x + dx + 2 * MEANT_PX, y: from.y + dy };
+    await this.fingers.slide([way], way.over === undefined ? 8 : 12);
     await this.operator.settle();
     await this.page.waitForTimeout(500);
   }
@@ -82,11 +86,11 @@ class Toucher {
         const across = [dot(wanted, right), dot(wanted, up)];
         const size = Math.hypot(...across);
         const px = ((180 / Math.PI) * Math.asin(Math.min(1, size))) / DEG_PER_PX;
-        if (angle < 2 || px < MEANT_PX) break;
+        if (angle < WITHIN_DEG || px < WITHIN_PX) break;
         const way = Math.min(MOST_PX, px) / size;
         await this.slide(way * across[0], -way * across[1]);
       }
-      if (angle < 2) break;
+      if (angle < WITHIN_DEG) break;
     }
     return angle;
   }
@@ -101,10 +105,9 @@ class Toucher {
         [tip, pointMm],
       );
       const [dx, dy] = [b.x - a.x, b.y - a.y];
-      const isThere = Math.hypot(dx, dy) < MEANT_PX;
+      const isThere = Math.hypot(dx, dy) < WITHIN_PX;
       if (isThere && (await this.operator.snapshot()).hands[0].touching) return;
-      // Less than a finger means: there and beyond, and half of it back the next time.
-      await this.slide(isThere ? MEANT_PX : dx, isThere ? 0 : dy);
+      await this.slide(dx, dy);
     }
   }
 
@@ -157,7 +160,7 @@ export async function operateByTouch(browser, station) {
     for (const view of ["PA", "LAT"]) await touch.shot(view);
     const { entry, toHand } = await operator.axisNow(axis);
     const angle = await touch.turnShaft(toHand);
-    expect(angle < 5, `the shaft is ${angle.toFixed(1)} degrees off`);
+    expect(angle < 2, `the shaft is ${angle.toFixed(1)} degrees off`);
     await touch.tap("Along shaft");
     await touch.pushTip(entry);
     await operator.until((s) => s.hands[0].touching, "the tip touches");
