@@ -95,7 +95,7 @@ async function bringAndMend(page, station, zip) {
   await check(page, "what is painted or marked is shown as a surface at once", async () => {
     const said = page.locator(".scan-said");
     const anew = async (what) => {
-      await said.filter({ hasText: /Hamate: surface made anew in [\d.]+ s/ }).waitFor({ timeout: 60_000 });
+      await said.filter({ hasText: /Hamate.*: surface made anew in [\d.]+ s/ }).waitFor({ timeout: 60_000 });
       const seconds = Number(/in ([\d.]+) s/.exec(await said.textContent())[1]);
       console.log(`     ${what}: ${seconds} s`);
       await page.waitForTimeout(300);
