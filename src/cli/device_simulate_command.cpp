@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/device_simulate_command.hpp"
 
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 
@@ -23,6 +27,38 @@ struct SimulateArguments {
   double seconds = 0;
 };
 
+/// The hand of a calibration goes on by Enter, until one of the signals or the time ends it.
+void guide(devices::SimulatedPort& port, const sigset_t& ends, double seconds, bool is_guided) {
+  const int signals = ::signalfd(-1, &ends, SFD_CLOEXEC);
+  if (signals < 0) throw IoError("signals cannot be waited for");
+  std::size_t step = is_guided ? 0 : devices::GuidedHand::kSteps;
+  const auto tell = [&] {
+    port.guide(step);
+    std::printf("  its hand %s%s\n", devices::GuidedHand::in_words(step).c_str(),
+                step < devices::GuidedHand::kSteps ? ". Enter: next" : "");
+    std::fflush(stdout);
+  };
+  if (is_guided) tell();
+  pollfd waits[2] = {{signals, POLLIN, 0}, {is_guided ? STDIN_FILENO : -1, POLLIN, 0}};
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  for (;;) {
+    const std::chrono::duration<double, std::milli> left = until - std::chrono::steady_clock::now();
+    if (seconds > 0 && left.count() <= 0) break;
+    const int changed = ::poll(waits, 2, seconds > 0 ? static_cast<int>(left.count()) + 1 : -1);
+    if (changed > 0 && waits[0].revents != 0) break;
+    if (changed <= 0 || waits[1].revents == 0) continue;
+    char typed[256];
+    const ssize_t count = ::read(STDIN_FILENO, typed, sizeof typed);
+    if (count <= 0) waits[1].fd = -1;  // nobody types: the step stays
+    for (ssize_t i = 0; i < count; ++i) {
+      if (typed[i] != '\n' || step >= devices::GuidedHand::kSteps) continue;
+      ++step;
+      tell();
+    }
+  }
+  ::close(signals);
+}
+
 void run(const SimulateArguments& arguments) {
   const bool is_motor = arguments.drive == "B" || arguments.drive == "b";
   if (!is_motor && arguments.drive != "A" && arguments.drive != "a") {
@@ -34,23 +70,17 @@ void run(const SimulateArguments& arguments) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&ends, signal);
   ::pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   const auto drive = is_motor ? firmware::Drive::Motor : firmware::Drive::Stop;
-  const devices::SimulatedPort port(drive, arguments.unit, devices::simulated_folder());
+  devices::SimulatedPort port(drive, arguments.unit, devices::simulated_folder());
   if (!arguments.uncalibrated) {
     devices::store(port.calibration(), devices::calibration_folder());
   }
-  std::printf("a simulated arm (drive %s, unit %u) is at %s; its hand moves by itself\n",
-              is_motor ? "B" : "A", arguments.unit, port.path().c_str());
-  std::printf("Ctrl+C unplugs it\n");
+  const bool is_guided = !is_motor && arguments.uncalibrated;
+  std::printf("a simulated arm (drive %s, unit %u) is at %s; %s\nCtrl+C unplugs it\n",
+              is_motor ? "B" : "A", arguments.unit, port.path().c_str(),
+              is_guided ? "its hand does what a calibration asks, here before there"
+                        : "its hand moves by itself");
   std::fflush(stdout);
-  if (arguments.seconds > 0) {
-    timespec most{};
-    most.tv_sec = static_cast<time_t>(arguments.seconds);
-    most.tv_nsec = static_cast<long>((arguments.seconds - static_cast<double>(most.tv_sec)) * 1e9);
-    (void)::sigtimedwait(&ends, nullptr, &most);
-  } else {
-    int signal = 0;
-    ::sigwait(&ends, &signal);
-  }
+  guide(port, ends, arguments.seconds, is_guided);
   std::printf("unplugged; %ld ms were lost to other programs\n", port.lost_ms());
 }
 

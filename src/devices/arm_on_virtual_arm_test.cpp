@@ -14,6 +14,7 @@
 #include "devices/arm_calibrator.hpp"
 #include "devices/arm_device.hpp"
 #include "devices/fake_link_test_support.hpp"
+#include "devices/guided_hand.hpp"
 #include "devices/virtual_unit.hpp"
 
 namespace carpus::devices {
@@ -139,9 +140,6 @@ TEST(ArmOnVirtualArm, DriveAIsCalibratedFoundAndFelt) {
   EXPECT_LT(desk.truly().z, wall.planes[0].offset_mm - 6);
 }
 
-/// The gauge: stiffer than any hand.
-constexpr virtual_arm::HandModel kGauge{"gauge", 0.05, 0.02, 20};
-
 TEST(ArmOnVirtualArm, DriveAIsCalibratedByAHandThatVisitsTheNotchesAndByItself) {
   Desk desk(firmware::Drive::Stop, false);
   virtual_arm::ArmPlant& plant = desk.unit.arm().plant();
@@ -149,30 +147,14 @@ TEST(ArmOnVirtualArm, DriveAIsCalibratedByAHandThatVisitsTheNotchesAndByItself) 
   desk.run_ms(100);
   ASSERT_EQ(desk.state.health, Health::Uncalibrated);
   ArmCalibrator calibrator(firmware::Drive::Stop, 3);
-  plant.set_hand(kGauge);
-  const double middle = cradle_angle_rad();
-  for (std::size_t step = 0; step < kLegs * kGaugeDeg.size(); ++step) {
-    arm::LegAngles held{middle, middle, middle};
-    held[step / kGaugeDeg.size()] = radians_from_degrees(kGaugeDeg[step % kGaugeDeg.size()]);
-    const auto tip = arm::forward(size, held);
-    ASSERT_TRUE(tip.has_value());
-    const Vec3 from = plant.tip();
-    for (int ms = 1; ms <= 300; ++ms) {
-      plant.set_intent({from + (*tip - from) * (ms / 300.0), {}});
-      desk.run_ms(1);
-    }
-    desk.run_ms(150);
-    ASSERT_NEAR(plant.angles()[step / kGaugeDeg.size()], held[step / kGaugeDeg.size()], 0.01);
+  GuidedHand hand;
+  desk.follows = [&] { hand.act(GuidedHand::step_for(calibrator.step()), desk.unit.arm()); };
+  for (std::size_t step = 0; step < GuidedHand::kLift; ++step) {
+    desk.run_ms(450);
+    const double held = radians_from_degrees(kGaugeDeg[step % kGaugeDeg.size()]);
+    ASSERT_NEAR(plant.angles()[step / kGaugeDeg.size()], held, 0.01);
     ASSERT_EQ(desk.measure(calibrator), std::nullopt) << step;
   }
-  plant.set_intent({size.centre, {}});
-  desk.run_ms(300);
-  plant.set_hand(virtual_arm::kHandModels[0]);
-  // A finger of 0.7 N that follows, up in the first row, down in the second.
-  desk.follows = [&] {
-    const bool is_up = calibrator.step() < 18 + kSweepUs.size();
-    plant.set_intent({plant.tip() + Vec3{0, 0, is_up ? 12.0 : -12.0}, {}});
-  };
   while (!calibrator.is_complete()) ASSERT_EQ(desk.measure(calibrator), std::nullopt);
   desk.follows = nullptr;
   const ArmCalibration made = desk.finish(calibrator);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A virtual arm on a pseudo-terminal, at true speed: the serial driver opens it as if it were real.
-// A hand moves it slowly about and presses down. Gone, it is unplugged.
+// A hand moves it slowly about and presses down, or does what a calibration asks. Gone, it is
+// unplugged.
 #pragma once
 
 #include <atomic>
@@ -10,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "devices/guided_hand.hpp"
 #include "devices/virtual_unit.hpp"
 
 namespace carpus::devices {
@@ -29,6 +31,8 @@ class SimulatedPort {
   /// The link: .../arm_b_7
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   [[nodiscard]] ArmCalibration calibration() const { return calibration_; }
+  /// From now on the hand does this step of a calibration; GuidedHand::kSteps: it moves by itself.
+  void guide(std::size_t step) noexcept { guided_.store(step, std::memory_order_relaxed); }
   /// Wall clock that the simulation could not keep up with, and gave up [ms].
   [[nodiscard]] long lost_ms() const noexcept { return lost_ms_.load(std::memory_order_relaxed); }
 
@@ -40,6 +44,7 @@ class SimulatedPort {
   std::filesystem::path path_;
   int master_ = -1;
   std::atomic<long> lost_ms_{0};
+  std::atomic<std::size_t> guided_{GuidedHand::kSteps};
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
