@@ -218,6 +218,11 @@ int add_mesh(tinygltf::Model& model, const NamedMesh& named) {
 tinygltf::Node node_for(const NamedMesh& named, int mesh) {
   tinygltf::Node node;
   node.name = named.name;
+  if (named.is_generated) {
+    tinygltf::Value::Object extras;
+    extras["generated"] = tinygltf::Value(true);
+    node.extras = tinygltf::Value(extras);
+  }
   node.mesh = mesh;
   const auto& pose = named.patient_from_bone;
   if (pose == Pose<frame::Patient, frame::Bone>{}) return node;
@@ -390,7 +395,8 @@ std::string make_glb(std::span<const NamedMesh> meshes,
 }
 
 std::string make_case_glb(const cases::CaseData& data,
-                          std::span<const arthroscopy::JointWall> joints) {
+                          std::span<const arthroscopy::JointWall> joints,
+                          std::span<const NamedMesh> besides) {
   std::vector<NamedMesh> meshes;
   std::deque<BoneBitmap> bitmaps;
   for (const cases::Bone& bone : data.bones) {
@@ -403,6 +409,7 @@ std::string make_case_glb(const cases::CaseData& data,
     meshes.push_back(std::move(named));
   }
   meshes.push_back({"skin", &data.skin, {}, anatomy::Tissue::Skin});
+  meshes.insert(meshes.end(), besides.begin(), besides.end());
   std::vector<NamedTube> tubes;
   for (const cases::Structure& structure : data.structures) tubes.push_back({&structure});
   return make_glb(meshes, tubes, joints);

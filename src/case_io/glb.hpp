@@ -25,6 +25,7 @@ struct NamedMesh {
   anatomy::Tissue tissue = anatomy::Tissue::Bone;
   const BoneBitmap* bitmap = nullptr;  ///< null: its material alone
   std::vector<Vec3> normals{};         ///< of the vertices; empty: those of the facets
+  bool is_generated = false;           ///< seen in no CT: its node's `extras` say `generated`
 };
 
 /// A tube to show: drawn round its middle line, which stays where it was scanned. Its node carries
@@ -49,8 +50,10 @@ struct NamedTube {
 /// @param joints  for each a node `joint_wall_<its id>` more: `extras` {generated: true, joint: its
 ///     id}, and by vertex `_LINING` (soft_tissue::Lining), `_FIBRE`, `_PROXIMAL` and `_DISTAL`
 ///     (place of a bone in the case), `_DISTAL_SHARE`.
+/// @param besides  surfaces of the same patient, after the skin.
 [[nodiscard]] std::string make_case_glb(const cases::CaseData& data,
-                                        std::span<const arthroscopy::JointWall> joints = {});
+                                        std::span<const arthroscopy::JointWall> joints = {},
+                                        std::span<const NamedMesh> besides = {});
 
 /// Vertex normals: the mean of the facets' normals, weighted by their area.
 [[nodiscard]] std::vector<Vec3> smooth_normals(const TriangleMesh& mesh);

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -27,6 +28,7 @@
 #include "core/error.hpp"
 #include "devices/device_catalogue.hpp"
 #include "procedures/built_in.hpp"
+#include "reconstruct/limb_beyond_scan.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/access_links.hpp"
@@ -226,11 +228,16 @@ void offer_devices(server::Station& station, const server::Log& log_line) {
   }
 }
 
-/// With the inside of the joint where the case has soft tissue.
+/// With the limb beyond the scan, and the inside of the joint where the case has soft tissue.
 std::string scene_of(const cases::CaseData& data, const fs::path& folder) {
+  const reconstruct::LimbBeyondScan limb = reconstruct::limb_beyond_scan(data);
+  std::array<case_io::NamedMesh, 2> besides{
+      {{"limb_hand", &limb.hand, {}, anatomy::Tissue::Skin},
+       {"limb_forearm", &limb.forearm, {}, anatomy::Tissue::Skin}}};
+  for (case_io::NamedMesh& each : besides) each.is_generated = true;
   const auto tissue = case_io::read_soft_tissue(folder);
-  if (!tissue) return case_io::make_case_glb(data);
-  return case_io::make_case_glb(data, arthroscopy::make_joint_walls(data, *tissue));
+  if (!tissue) return case_io::make_case_glb(data, {}, besides);
+  return case_io::make_case_glb(data, arthroscopy::make_joint_walls(data, *tissue), besides);
 }
 
 /// Serves the open case until it is stopped, or another is chosen: returns that one's id, or "".

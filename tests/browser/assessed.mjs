@@ -42,6 +42,28 @@ export async function operateAssessed(browser, station) {
     },
   );
   if (!began) return page.close();
+  await check(page, "hand and forearm go on beyond the scan, and say that they are generated", async () => {
+    const bytes = Buffer.from(await (await fetch(`${station.url}/api/scene.glb`)).arrayBuffer());
+    const { nodes } = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString("utf8"));
+    for (const name of ["limb_hand", "limb_forearm"])
+      expect(nodes.find((node) => node.name === name)?.extras?.generated === true, `no ${name}`);
+    // Above the wrist there are fingers: skin where the background was.
+    for (let i = 0; i < 12; ++i) await page.keyboard.press("-");
+    await operator.settle(4);
+    const above = await page.locator(".stage canvas").first().boundingBox();
+    const clip = { x: above.x + above.width / 2 - 40, y: above.y + 0.25 * above.height, width: 80, height: 20 };
+    const hue = await page.evaluate(async (png) => {
+      const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
+      const canvas = new OffscreenCanvas(picture.width, picture.height);
+      const drawing = canvas.getContext("2d");
+      drawing.drawImage(picture, 0, 0);
+      const { data } = drawing.getImageData(0, 0, picture.width, picture.height);
+      let most = 0;
+      for (let i = 0; i < data.length; i += 4) most = Math.max(most, data[i] - data[i + 2]);
+      return most;
+    }, (await page.screenshot({ clip })).toString("base64"));
+    expect(hue > 40, `nothing of skin's colour where fingers are: ${hue}`);
+  });
   await check(page, "no scan is shown while it runs", async () => {
     const { open } = await (await fetch(`${station.url}/api/cases`)).json();
     for (const file of ["ct.nii.gz", "labels.nii.gz", "case.json", "bones.glb"]) {

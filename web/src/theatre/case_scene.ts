@@ -9,6 +9,7 @@ import { vertexOcclusion, type Surface } from "../bone_shading";
 import { makeHittable } from "./bone_rays";
 import { boneMaterial } from "./materials";
 import { Skin } from "./skin";
+import type { SkinSide } from "./skin_blend_model";
 import { structureFacts, Structures, type StructureSurface } from "./structures";
 
 export type BoneMesh = THREE.Mesh<THREE.BufferGeometry, THREE.Material>;
@@ -30,6 +31,9 @@ export interface CaseScene {
 /** Of their nodes; the joint's id follows. */
 const JOINT_WALL = "joint_wall_";
 
+/** Skin beyond the scan, by what carries it. */
+const LIMBS: Readonly<Record<string, SkinSide>> = { limb_hand: "hand", limb_forearm: "forearm" };
+
 /** Where no light reaches, bone is this part of its colour: warm, as fat and cartilage between. */
 const DARK: readonly [number, number, number] = [0.16, 0.1, 0.075];
 
@@ -40,6 +44,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   const bitmaps = new Map<string, THREE.Texture>();
   const structures: StructureSurface[] = [];
   let skinSurface: THREE.BufferGeometry | undefined;
+  const limbs = new Map<SkinSide, THREE.BufferGeometry>();
   const jointWalls = new Map<string, THREE.BufferGeometry>();
   loaded.scene.updateMatrixWorld(true);
   loaded.scene.traverse((node) => {
@@ -51,6 +56,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
     const facts = structureFacts(mesh.userData) ?? structureFacts(mesh.parent?.userData);
     if (facts !== undefined) structures.push({ facts, geometry });
     else if (name === "skin") skinSurface = geometry;
+    else if (LIMBS[name] !== undefined) limbs.set(LIMBS[name], geometry);
     else if (name.startsWith(JOINT_WALL)) jointWalls.set(name.slice(JOINT_WALL.length), geometry);
     else {
       bones.push(makeBone(name, geometry));
@@ -63,7 +69,7 @@ export async function loadCaseScene(url: string): Promise<CaseScene> {
   if (bones.length === 0) throw new Error("the scene holds no bones");
   shade(bones);
   root.add(...bones);
-  const skin = skinSurface === undefined ? undefined : new Skin(skinSurface, bones);
+  const skin = skinSurface === undefined ? undefined : new Skin(skinSurface, bones, limbs);
   if (skin !== undefined) root.add(skin.group);
   const tubes = new Structures(structures, new Set(bones.map((bone) => bone.name)));
   root.add(tubes.group);

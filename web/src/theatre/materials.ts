@@ -197,6 +197,7 @@ export function skinMaterial(vertexShader: string): THREE.ShaderMaterial {
 
 const CLOSED_SKIN_FRAGMENT = /* glsl */ `
 uniform vec3 tint;
+uniform float cuff;
 varying float vFromRim;
 varying vec3 vNormalView;
 varying vec3 vToEye;
@@ -233,7 +234,7 @@ void main() {
   // Where the scan ends the limb is draped: a cuff of cloth with folds.
   float folds = 0.5 + 0.5 * sin(1.3 * (vBoneMm.x + vBoneMm.y + 0.6 * vBoneMm.z) + 3.0 * patches);
   vec3 cloth = vec3(0.055, 0.19, 0.20) * (0.35 + 0.75 * lit) * mix(0.72, 1.08, folds);
-  float hem = 8.0 + 1.2 * patches;
+  float hem = cuff + 1.2 * patches;
   color = mix(cloth, color * smoothstep(hem - 0.2, hem + 2.5, vFromRim + 0.9), smoothstep(hem - 0.35, hem, vFromRim));
   gl_FragColor = vec4(color, 1.0);
   #include <tonemapping_fragment>
@@ -241,12 +242,12 @@ void main() {
 }
 `;
 
-/** Skin that nothing is seen through, draped where the scan ends. */
-export function closedSkinMaterial(vertexShader: string): THREE.ShaderMaterial {
+/** Skin that nothing is seen through, draped where it ends. @param cuffMm  width of the cloth */
+export function closedSkinMaterial(vertexShader: string, cuffMm: number): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexShader,
     fragmentShader: CLOSED_SKIN_FRAGMENT,
-    uniforms: { tint: { value: new THREE.Color(SKIN_COLOR) } },
+    uniforms: { tint: { value: new THREE.Color(SKIN_COLOR) }, cuff: { value: cuffMm } },
     side: THREE.DoubleSide,
   });
 }

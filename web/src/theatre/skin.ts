@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The skin as a see-through shell that follows forearm and hand (skin_blend_model.ts); its shader moves
-// each point, so that a bent wrist costs no more than a straight one.
+// each point, so that a bent wrist costs no more than a straight one. Closed it goes on beyond the scan,
+// with fingers and an arm that are generated.
 import * as THREE from "three";
 import type { Vec3 } from "../protocol";
 import { BLEND_DECLARATIONS } from "./blend_shader";
@@ -18,10 +19,42 @@ import {
   type RigidMotion,
   type SkinSide,
 } from "./skin_blend_model";
-import { distanceFromRim } from "./skin_rim_model";
+import { apartFrom, nearestOf, pointsAt, rimCorners } from "./skin_rim_model";
 
 /** The bones whose motion is that of their side of the skin, the first that is there. */
 const CARRIERS = { forearm: ["radius", "ulna"], hand: ["capitate", "metacarpal3"] } as const;
+
+/** A rim nearer to another's goes on there [mm]. */
+const GOES_ON_MM = 5;
+/** From a rim on, in so much what goes on takes a way and a light of its own [mm]. */
+const OWN_WAY_MM = 60;
+const OWN_LIGHT_MM = 10;
+/** Width of the cloth at an open rim [mm]. */
+const CUFF_MM = 8;
+const DRAPE_MM = 60;
+
+/** Where the limb goes on beyond the scan, by what carries it. */
+export type Limbs = ReadonlyMap<SkinSide, THREE.BufferGeometry>;
+
+/** Of a surface's open rim: its points [mm], and how they go with the hand. */
+interface Rim {
+  readonly points: Float32Array;
+  readonly normals: Float32Array;
+  readonly weights: readonly number[];
+}
+
+function positionsOf(geometry: THREE.BufferGeometry): ArrayLike<number> {
+  return geometry.getAttribute("position").array;
+}
+
+function rimPoints(geometry: THREE.BufferGeometry): Float32Array {
+  return pointsAt(positionsOf(geometry), rimCorners(geometry.getIndex()?.array ?? []));
+}
+
+function smoothStep(t: number): number {
+  const within = Math.min(1, Math.max(0, t));
+  return within * within * (3 - 2 * within);
+}
 
 const VERTEX = /* glsl */ `
 attribute float handWeight;
@@ -42,8 +75,11 @@ void main() {
 }
 `;
 
+type ClosedSkin = THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+
 export class Skin {
   readonly group = new THREE.Group();
+  private readonly limbs: ClosedSkin[] = [];
   private readonly shell: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   private readonly depth: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   private readonly closed: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
@@ -62,7 +98,7 @@ export class Skin {
   private readonly carriers: ReadonlySet<string>;
 
   /** @param bones  where they are in the case, in the same frame as the skin [mm] */
-  constructor(surface: THREE.BufferGeometry, bones: readonly THREE.Mesh[]) {
+  constructor(surface: THREE.BufferGeometry, bones: readonly THREE.Mesh[], limbs: Limbs) {
     const points = bones.map((bone) => ({
       name: bone.name,
       positions: bone.geometry.getAttribute("position").array,
@@ -70,10 +106,15 @@ export class Skin {
     const nearest = handWeights(surface.getAttribute("position").array, points);
     const weights = evened(nearest, surface.getIndex()?.array ?? []);
     surface.setAttribute("handWeight", new THREE.BufferAttribute(weights, 1));
-    const fromRim = distanceFromRim(
-      surface.getAttribute("position").array,
-      surface.getIndex()?.array ?? [],
-    );
+    const corners = rimCorners(surface.getIndex()?.array ?? []);
+    const rim: Rim = {
+      points: pointsAt(positionsOf(surface), corners),
+      normals: pointsAt(surface.getAttribute("normal").array, corners),
+      weights: corners.map((corner) => weights[corner] ?? 0),
+    };
+    const goesOn = [...limbs.values()].map(rimPoints);
+    const open = goesOn.reduce((left, other) => apartFrom(left, other, GOES_ON_MM), rim.points);
+    const fromRim = nearestOf(positionsOf(surface), open).distances;
     surface.setAttribute("fromRim", new THREE.BufferAttribute(fromRim, 1));
     const carriers = Object.values(CARRIERS).map((names) =>
       names.find((name) => bones.some((bone) => bone.name === name)),
@@ -83,14 +124,45 @@ export class Skin {
     this.depth.renderOrder = 5;
     this.shell = new THREE.Mesh(surface, skinMaterial(VERTEX));
     this.shell.renderOrder = 6;
-    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX));
+    this.closed = new THREE.Mesh(surface, closedSkinMaterial(VERTEX, CUFF_MM));
+    for (const [side, limb] of limbs) this.limbs.push(this.makeLimb(side, limb, rim));
     this.closed.visible = false;
-    for (const mesh of [this.depth, this.shell, this.closed]) {
+    for (const mesh of [this.depth, this.shell, this.closed, ...this.limbs]) {
       Object.assign(mesh.material.uniforms, this.motion);
       // Its bounds are those of the unbent wrist.
       mesh.frustumCulled = false;
       this.group.add(mesh);
     }
+  }
+
+  /** It leaves the skin's rim as the skin comes to it: moved alike, in the same light. */
+  private makeLimb(side: SkinSide, limb: THREE.BufferGeometry, rim: Rim): ClosedSkin {
+    const positions = positionsOf(limb);
+    const { distances, indices } = nearestOf(positions, rim.points);
+    const own = side === "hand" ? 1 : 0;
+    const weights = distances.map((mm, v) => {
+      const there = rim.weights[indices[v] ?? 0] ?? own;
+      return there + (own - there) * smoothStep(mm / OWN_WAY_MM);
+    });
+    const normals = limb.getAttribute("normal");
+    for (let v = 0; v < distances.length; ++v) {
+      const share = smoothStep((distances[v] ?? 0) / OWN_LIGHT_MM);
+      const there = 3 * (indices[v] ?? 0);
+      const mixed = new THREE.Vector3()
+        .fromArray(rim.normals, there)
+        .lerp(new THREE.Vector3().fromBufferAttribute(normals, v), share)
+        .normalize();
+      normals.setXYZ(v, mixed.x, mixed.y, mixed.z);
+    }
+    limb.setAttribute("handWeight", new THREE.BufferAttribute(weights, 1));
+    const open = apartFrom(rimPoints(limb), rim.points, GOES_ON_MM);
+    limb.setAttribute(
+      "fromRim",
+      new THREE.BufferAttribute(nearestOf(positions, open).distances, 1),
+    );
+    const mesh = new THREE.Mesh(limb, closedSkinMaterial(VERTEX, DRAPE_MM));
+    mesh.visible = false;
+    return mesh;
   }
 
   /** @param opacity  0 none, 1 as on the patient */
@@ -102,7 +174,7 @@ export class Skin {
 
   /** Whether nothing is seen through it, whatever the opacity. */
   setClosed(on: boolean): void {
-    this.closed.visible = on;
+    for (const mesh of [this.closed, ...this.limbs]) mesh.visible = on;
     this.depth.visible = this.shell.visible = !on;
     if (on) this.group.visible = true;
   }
