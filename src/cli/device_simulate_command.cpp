@@ -31,11 +31,12 @@ struct SimulateArguments {
 void guide(devices::SimulatedPort& port, const sigset_t& ends, double seconds, bool is_guided) {
   const int signals = ::signalfd(-1, &ends, SFD_CLOEXEC);
   if (signals < 0) throw IoError("signals cannot be waited for");
-  std::size_t step = is_guided ? 0 : devices::GuidedHand::kSteps;
+  const std::size_t steps = port.hand().step_count();
+  std::size_t step = is_guided ? 0 : steps;
   const auto tell = [&] {
     port.guide(step);
-    std::printf("  its hand %s%s\n", devices::GuidedHand::in_words(step).c_str(),
-                step < devices::GuidedHand::kSteps ? ". Enter: next" : "");
+    std::printf("  its hand %s%s\n", port.hand().in_words(step).c_str(),
+                step < steps ? ". Enter: next" : "");
     std::fflush(stdout);
   };
   if (is_guided) tell();
@@ -51,7 +52,7 @@ void guide(devices::SimulatedPort& port, const sigset_t& ends, double seconds, b
     const ssize_t count = ::read(STDIN_FILENO, typed, sizeof typed);
     if (count <= 0) waits[1].fd = -1;  // nobody types: the step stays
     for (ssize_t i = 0; i < count; ++i) {
-      if (typed[i] != '\n' || step >= devices::GuidedHand::kSteps) continue;
+      if (typed[i] != '\n' || step >= steps) continue;
       ++step;
       tell();
     }
@@ -74,7 +75,7 @@ void run(const SimulateArguments& arguments) {
   if (!arguments.uncalibrated) {
     devices::store(port.calibration(), devices::calibration_folder());
   }
-  const bool is_guided = !is_motor && arguments.uncalibrated;
+  const bool is_guided = arguments.uncalibrated;
   std::printf("a simulated arm (drive %s, unit %u) is at %s; %s\nCtrl+C unplugs it\n",
               is_motor ? "B" : "A", arguments.unit, port.path().c_str(),
               is_guided ? "its hand does what a calibration asks, here before there"

@@ -147,9 +147,9 @@ TEST(ArmOnVirtualArm, DriveAIsCalibratedByAHandThatVisitsTheNotchesAndByItself) 
   desk.run_ms(100);
   ASSERT_EQ(desk.state.health, Health::Uncalibrated);
   ArmCalibrator calibrator(firmware::Drive::Stop, 3);
-  GuidedHand hand;
-  desk.follows = [&] { hand.act(GuidedHand::step_for(calibrator.step()), desk.unit.arm()); };
-  for (std::size_t step = 0; step < GuidedHand::kLift; ++step) {
+  GuidedHand hand(firmware::Drive::Stop);
+  desk.follows = [&] { hand.act(hand.step_for(calibrator.step()), desk.unit.arm()); };
+  for (std::size_t step = 0; step < kLegs * kGaugeDeg.size(); ++step) {
     desk.run_ms(450);
     const double held = radians_from_degrees(kGaugeDeg[step % kGaugeDeg.size()]);
     ASSERT_NEAR(plant.angles()[step / kGaugeDeg.size()], held, 0.01);
@@ -189,19 +189,15 @@ TEST(ArmOnVirtualArm, DriveBFindsItsWindingsAndIsEvenedOnceAHandHasLedItAbout) {
   const Vec3 centre = desk.unit.arm().size().centre;
   desk.run_ms(300);
   ArmCalibrator calibrator(firmware::Drive::Motor, 3);
+  GuidedHand hand(firmware::Drive::Motor);
+  desk.follows = [&] { hand.act(hand.step_for(calibrator.step()), desk.unit.arm()); };
+  desk.run_ms(300);
   ASSERT_EQ(desk.measure(calibrator), std::nullopt);
-  // In two fingers.
-  desk.unit.arm().plant().set_hand(virtual_arm::kHandModels[0]);
   ASSERT_EQ(desk.measure(calibrator), std::nullopt);
   desk.pulse_us = 0;
-  desk.unit.arm().plant().set_hand(virtual_arm::kHandModels[1]);
   desk.run_ms(200);
-  const auto led = desk.measure(calibrator, [&](int ms) {
-    const double turn = 2 * kPi * 1e-3 * ms;
-    const double soft = std::min(1.0, 2e-3 * ms);
-    desk.unit.arm().plant().set_intent(
-        {centre + Vec3{9 * std::sin(turn), 9 * std::cos(turn), 0} * soft, {}});
-  });
+  const auto led = desk.measure(calibrator);
+  desk.follows = nullptr;
   ASSERT_EQ(led, std::nullopt);
   const ArmCalibration made = desk.finish(calibrator);
   for (std::size_t leg = 0; leg < kLegs; ++leg) {

@@ -69,7 +69,7 @@ fs::path simulated_folder() {
 }
 
 SimulatedPort::SimulatedPort(firmware::Drive drive, std::uint32_t unit, const fs::path& folder)
-    : unit_(drive, unit), calibration_(unit_.calibration()) {
+    : unit_(drive, unit), calibration_(unit_.calibration()), hand_(drive) {
   make_own_folder(folder);
   master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) {
@@ -106,8 +106,6 @@ void SimulatedPort::run() {
   const Vec3 centre = arm.size().centre;
   Nanoseconds began = monotonic_now() - static_cast<Nanoseconds>(arm.now_us() * 1000);
   std::uint8_t bytes[256];
-  GuidedHand hand;
-  std::size_t was_guided = GuidedHand::kSteps;
   double first_heard_us = -1;
   double last_heard_us = 0;
   while (!stopping_.load(std::memory_order_relaxed)) {
@@ -129,13 +127,12 @@ void SimulatedPort::run() {
     }
     const double moves_s = first_heard_us < 0 ? 0 : (due_us - first_heard_us) * 1e-6 - kRestS;
     const std::size_t guided = guided_.load(std::memory_order_relaxed);
-    if (guided < GuidedHand::kSteps) {
-      hand.act(guided, arm);
+    if (guided < hand_.step_count()) {
+      hand_.act(guided, arm);
     } else {
-      if (was_guided < GuidedHand::kSteps) arm.plant().set_hand(virtual_arm::kHandModels[1]);
+      arm.plant().set_hand(virtual_arm::kHandModels[1]);
       arm.plant().set_intent(intent_at(moves_s, centre));
     }
-    was_guided = guided;
     arm.run_to_us(due_us);
     if (!going.empty()) {
       // What nobody reads is lost, as on a line.

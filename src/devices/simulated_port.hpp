@@ -31,8 +31,9 @@ class SimulatedPort {
   /// The link: .../arm_b_7
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   [[nodiscard]] ArmCalibration calibration() const { return calibration_; }
-  /// From now on the hand does this step of a calibration; GuidedHand::kSteps: it moves by itself.
+  /// From now on the hand does this step of a calibration; past the last it moves by itself.
   void guide(std::size_t step) noexcept { guided_.store(step, std::memory_order_relaxed); }
+  [[nodiscard]] const GuidedHand& hand() const noexcept { return hand_; }
   /// Wall clock that the simulation could not keep up with, and gave up [ms].
   [[nodiscard]] long lost_ms() const noexcept { return lost_ms_.load(std::memory_order_relaxed); }
 
@@ -44,7 +45,8 @@ class SimulatedPort {
   std::filesystem::path path_;
   int master_ = -1;
   std::atomic<long> lost_ms_{0};
-  std::atomic<std::size_t> guided_{GuidedHand::kSteps};
+  GuidedHand hand_;
+  std::atomic<std::size_t> guided_{static_cast<std::size_t>(-1)};
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
