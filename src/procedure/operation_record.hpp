@@ -84,10 +84,10 @@ struct OperationRecord {
   FractureFacts fracture;      ///< at the end
   /// By body, where it lies beside where the wrist's motion takes it; empty while none was moved.
   std::vector<Pose<frame::Bone, frame::Bone>> displacements;
-  double compression_n = 0.0;        ///< of the pieces on each other, by the screw
-  bool is_stripped = false;          ///< its thread gave way
-  std::optional<ScopeRecord> scope;  ///< of an arthroscopy
-  double most_bend_rad = 0.0;        ///< by which any wire was bent for good
+  double compression_n = 0.0;         ///< of the pieces on each other, by the screw
+  std::uint32_t stripped_screws = 0;  ///< whose thread gave way, undone or taken out or not
+  std::optional<ScopeRecord> scope;   ///< of an arthroscopy
+  double most_bend_rad = 0.0;         ///< by which any wire was bent for good
   std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;
   std::uint8_t aids = 0;              ///< bit i: Aid i was used

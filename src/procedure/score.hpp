@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "anatomy/bone_id.hpp"
 #include "cases/lesson.hpp"
+#include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::procedure {
@@ -49,6 +51,14 @@ struct PlacedLine {
 };
 
 /// Where things lie, to be drawn beside the figures.
+/// A piece of the bone that lies beside where it was scanned.
+struct PlacedPiece {
+  BoneId bone = BoneId::Scaphoid;
+  BonePart part = BonePart::Whole;
+  Pose<frame::Bone, frame::Bone> pose;  ///< seen from the piece in which the line lies
+};
+
+/// In that piece's frame.
 struct PlacementPicture {
   PlacedLine central_axis;          ///< proximal to distal
   Vec3 waist;                       ///< on the central axis
@@ -56,6 +66,7 @@ struct PlacementPicture {
   std::optional<PlacedLine> screw;  ///< tail to tip
   double screw_tip_diameter_mm = 0.0;
   double screw_tail_diameter_mm = 0.0;
+  std::vector<PlacedPiece> pieces;  ///< empty where all lie as scanned
 };
 
 /// What a case's lesson says of it, for afterwards.

@@ -741,11 +741,22 @@ void write(FieldWriter& out, const PlacedScrew& in) {
   out.value("tail_diameter_mm", in.tail_diameter_mm);
 }
 
+void read(FieldReader& in, PlacedPiece& out) {
+  out.name = in.string("name", 32);
+  in.record("pose", out.pose);
+}
+
+void write(FieldWriter& out, const PlacedPiece& in) {
+  out.text("name", in.name, 32);
+  out.record("pose", in.pose);
+}
+
 void read(FieldReader& in, Placement& out) {
   in.record("central_axis", out.central_axis);
   out.waist_mm = in.vec3("waist_mm", 10000.0, 0.0);
   if (in.has("wire")) in.record("wire", out.wire.emplace());
   if (in.has("screw")) in.record("screw", out.screw.emplace());
+  if (in.has("pieces")) in.records("pieces", 0, 8, out.pieces.emplace());
 }
 
 void write(FieldWriter& out, const Placement& in) {
@@ -760,6 +771,11 @@ void write(FieldWriter& out, const Placement& in) {
     out.record("screw", *in.screw);
   } else {
     out.null("screw");
+  }
+  if (in.pieces) {
+    out.records("pieces", *in.pieces);
+  } else {
+    out.null("pieces");
   }
 }
 

@@ -808,13 +808,26 @@ struct PlacedScrew {
   bool operator==(const PlacedScrew&) const = default;
 };
 
-/// Where things lie, to be drawn beside the figures.
+/// A piece of the bone that lies beside where it was scanned, seen from the one in which the line
+/// lies.
+struct PlacedPiece {
+  /// of its node in /api/scene.glb
+  std::string name;
+  /// from where it was scanned to where it lies
+  BodyPose pose;
+  bool operator==(const PlacedPiece&) const = default;
+};
+
+/// Where things lie, to be drawn beside the figures: in the frame of the piece in which the line
+/// lies.
 struct Placement {
   PlacedAxis central_axis;
   /// on the central axis
   Vec3 waist_mm;
   std::optional<PlacedWire> wire;
   std::optional<PlacedScrew> screw;
+  /// none where all lie as scanned
+  std::optional<std::vector<PlacedPiece>> pieces;
   bool operator==(const Placement&) const = default;
 };
 

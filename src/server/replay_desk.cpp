@@ -199,7 +199,7 @@ std::optional<HttpResponse> ReplayDesk::locked(const std::shared_ptr<const Recor
   return std::nullopt;
 }
 
-const ViewDebrief& ReplayDesk::debrief() {
+ViewDebrief& ReplayDesk::debrief() {
   if (!debrief_) debrief_ = std::make_unique<ViewDebrief>(data_);
   return *debrief_;
 }

@@ -85,7 +85,7 @@ class ReplayDesk {
   /// Why this attempt has no truth to be told; nothing where it has.
   [[nodiscard]] static std::optional<HttpResponse> locked(
       const std::shared_ptr<const Recorded>& recorded);
-  [[nodiscard]] const ViewDebrief& debrief();
+  [[nodiscard]] ViewDebrief& debrief();
   /// @param before  state a pulse earlier. Empty: nothing was looked at.
   [[nodiscard]] std::string frame_of(const procedure::Procedure& procedure,
                                      const simulation::ReplayPlayer& player,

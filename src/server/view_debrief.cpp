@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "session/exercise_pictures.hpp"
 #include "session/metal_in_beam.hpp"
 #include "simulation/c_arm_angles.hpp"
@@ -25,12 +26,58 @@ constexpr double kSamePlaceMm = 0.05;
 /// Pictures told of beside the presets: the message takes 32 in all.
 constexpr std::size_t kMostTaken = 24;
 constexpr std::size_t kMostWires = 8;
+/// Pieces that lie alike to this lie alike [mm]; of so many ways to lie the newest are kept.
+constexpr double kAlikeMm = 0.02;
+constexpr std::size_t kMostLying = 4;
+
+using Place = Pose<frame::Bone, frame::Bone>;
 
 std::size_t first_fragment(const cases::CaseData& data) {
   const auto it = std::find_if(data.bones.begin(), data.bones.end(), [](const cases::Bone& bone) {
     return bone.bone == BoneId::Scaphoid;
   });
   return static_cast<std::size_t>(it - data.bones.begin());
+}
+
+/// Where each piece of the scaphoid lies, seen from the first of them.
+std::vector<Place> places_at(const cases::CaseData& data, const simulation::Snapshot& now) {
+  const auto first_from_patient = now.patient_from_bone.at(first_fragment(data)).inverse();
+  std::vector<Place> places;
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone == BoneId::Scaphoid) {
+      places.push_back(first_from_patient * now.patient_from_bone.at(b));
+    }
+  }
+  return places;
+}
+
+bool are_alike(const std::vector<Place>& one, const std::vector<Place>& other, const Vec3& middle) {
+  constexpr double kReachMm = 15;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (const Vec3& way : {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      const Point<frame::Bone> p{middle + way * kReachMm};
+      if (distance((one[i] * p).v, (other[i] * p).v) > kAlikeMm) return false;
+    }
+  }
+  return true;
+}
+
+/// The case without its scan, the scaphoid's pieces in one frame as they lie.
+cases::CaseData with_pieces_at(const cases::CaseData& data, const std::vector<Place>& places) {
+  cases::CaseData lying;
+  lying.side = data.side;
+  lying.wrist_from_patient = data.wrist_from_patient;
+  lying.scaphoid = data.scaphoid;
+  lying.hand_motion = data.hand_motion;
+  std::size_t piece = 0;
+  for (const cases::Bone& bone : data.bones) {
+    cases::Bone& copy = lying.bones.emplace_back();
+    copy.bone = bone.bone;
+    copy.part = bone.part;
+    copy.patient_from_bone = bone.patient_from_bone;
+    copy.surface = bone.bone == BoneId::Scaphoid ? places[piece++] * bone.surface : bone.surface;
+  }
+  return lying;
 }
 
 PosedView posed_of(const cases::CaseData& data, const TakenShot& shot) {
@@ -41,6 +88,12 @@ PosedView posed_of(const cases::CaseData& data, const TakenShot& shot) {
   posed.patient_from_bone.assign(now.patient_from_bone.begin(),
                                  now.patient_from_bone.begin() + now.body_count);
   posed.patient_from_scaphoid = posed.patient_from_bone.at(first_fragment(data));
+  // The pieces come in the first one's frame.
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].bone == BoneId::Scaphoid) {
+      posed.patient_from_bone[b] = posed.patient_from_scaphoid;
+    }
+  }
   return posed;
 }
 
@@ -72,14 +125,37 @@ std::vector<view_trainer::StandardView> all_presets() {
 
 }  // namespace
 
-ViewDebrief::ViewDebrief(const cases::CaseData& data)
-    : data_(data), scaphoid_(data), presets_(scaphoid_, all_presets()) {}
+struct ViewDebrief::Lying {
+  Lying(const cases::CaseData& data, std::vector<Place> where)
+      : places(std::move(where)), bones(with_pieces_at(data, places)), scaphoid(bones) {}
+  std::vector<Place> places;
+  cases::CaseData bones;
+  view_trainer::ScaphoidSurface scaphoid;
+};
+
+ViewDebrief::ViewDebrief(const cases::CaseData& data) : data_(data) {
+  if (cases::scaphoid_parts(data).empty()) {
+    throw InvalidInput("views are judged for the scaphoid, and the case has none");
+  }
+}
+
+ViewDebrief::~ViewDebrief() = default;
+
+const ViewDebrief::Lying& ViewDebrief::lying_at(const simulation::Snapshot& now) {
+  std::vector<Place> places = places_at(data_, now);
+  const auto it = std::find_if(lying_.begin(), lying_.end(), [&](const auto& each) {
+    return are_alike(each->places, places, data_.scaphoid.waist);
+  });
+  if (it != lying_.end()) return **it;
+  if (lying_.size() >= kMostLying) lying_.erase(lying_.begin());
+  return *lying_.emplace_back(std::make_unique<Lying>(data_, std::move(places)));
+}
 
 std::optional<view_trainer::PlacedScrew> ViewDebrief::screw_in(const cases::CaseData& data,
                                                                const simulation::Snapshot& now) {
   for (const simulation::ItemView& item : now.items) {
     if (!is_fixed_in_scaphoid(data, item) || work_of(item) != instruments::Work::Thread) continue;
-    const auto bone_from_patient = now.patient_from_bone[item.body].inverse();
+    const auto bone_from_patient = now.patient_from_bone[first_fragment(data)].inverse();
     return view_trainer::PlacedScrew{
         item.instrument, (bone_from_patient * Point<frame::Patient>{item.tip_in_patient}).v,
         (bone_from_patient * Direction<frame::Patient>{item.shaft_in_patient}).v};
@@ -87,10 +163,11 @@ std::optional<view_trainer::PlacedScrew> ViewDebrief::screw_in(const cases::Case
   return std::nullopt;
 }
 
-protocol::PictureTruth ViewDebrief::truth_of(const TakenShot& shot) const {
+protocol::PictureTruth ViewDebrief::truth_of(const TakenShot& shot) {
   const simulation::Snapshot& now = shot.snapshot;
+  const view_trainer::ScaphoidSurface& scaphoid = lying_at(now).scaphoid;
   const PosedView posed = posed_of(data_, shot);
-  const view_trainer::OutlineMap bone = silhouette_of(scaphoid_, posed);
+  const view_trainer::OutlineMap bone = silhouette_of(scaphoid, posed);
   protocol::PictureTruth truth;
   truth.bone = view_trainer::outline_messages(bone);
   if (const auto screw = screw_in(data_, now)) {
@@ -105,9 +182,9 @@ protocol::PictureTruth ViewDebrief::truth_of(const TakenShot& shot) const {
       truth.wires.push_back(
           view_trainer::outline_message(view_trainer::rod_outline(rod, posed.c_arm)));
     }
-    const auto bone_from_patient = now.patient_from_bone[item.body].inverse();
-    const Vec3 tip = (bone_from_patient * Point<frame::Patient>{item.tip_in_patient}).v;
-    const double out_mm = scaphoid_.signed_distance(tip);
+    const Vec3 tip =
+        (posed.patient_from_scaphoid.inverse() * Point<frame::Patient>{item.tip_in_patient}).v;
+    const double out_mm = scaphoid.signed_distance(tip);
     // Before it is in, the tip is out where it came from; out of the skin it was drawn through.
     const bool is_through =
         item.depth_mm > 5.0 && out_mm > view_trainer::kOutMm && !item.far_end_is_out;
@@ -121,12 +198,15 @@ protocol::PictureTruth ViewDebrief::truth_of(const TakenShot& shot) const {
 }
 
 protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
-                                           std::span<const TakenShot> taken) const {
+                                           std::span<const TakenShot> taken) {
   protocol::ViewDebrief message;
   message.revealed_mm = view_trainer::kRevealedMm;
   const auto screw = screw_in(data_, end);
   if (!screw) return message;
   message.screw = screw->instrument().name;
+  const view_trainer::ScaphoidSurface& scaphoid = lying_at(end).scaphoid;
+  const std::vector<Place> places = places_at(data_, end);
+  const view_trainer::CaseViews presets(scaphoid, all_presets());
   struct Looked {
     const TakenShot* shot;
     PosedView posed;
@@ -135,14 +215,15 @@ protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
   std::vector<Looked> looked;
   for (const TakenShot& shot : taken.last(std::min(taken.size(), kMostTaken))) {
     const auto then = screw_in(data_, shot.snapshot);
-    if (!then || then->screw != screw->screw || length(then->tip - screw->tip) > kSamePlaceMm) {
+    if (!then || then->screw != screw->screw || length(then->tip - screw->tip) > kSamePlaceMm ||
+        !are_alike(places_at(data_, shot.snapshot), places, data_.scaphoid.waist)) {
       continue;
     }
     PosedView posed = posed_of(data_, shot);
-    view_trainer::OutlineMap bone = silhouette_of(scaphoid_, posed);
+    view_trainer::OutlineMap bone = silhouette_of(scaphoid, posed);
     looked.push_back({&shot, std::move(posed), std::move(bone)});
   }
-  for (const view_trainer::PlacementFault& fault : faults_of(scaphoid_, *screw)) {
+  for (const view_trainer::PlacementFault& fault : faults_of(scaphoid, *screw)) {
     protocol::PlacementFault& told = message.faults.emplace_back();
     told.place = place_of(fault.region);
     told.depth_mm = fault.depth_mm;
@@ -152,14 +233,14 @@ protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
       seen.reveals = overhang_mm >= view_trainer::kRevealedMm;
       told.seen.push_back(std::move(seen));
     };
-    for (std::size_t i = 0; i < presets_.views().size(); ++i) {
-      const view_trainer::StandardView& view = presets_.views()[i];
+    for (std::size_t i = 0; i < presets.views().size(); ++i) {
+      const view_trainer::StandardView& view = presets.views()[i];
       protocol::FaultSeen seen;
       seen.view = view.id;
       seen.label = view.label;
       seen.rotation_deg = view.angles.rotation_deg;
       seen.tilt_deg = view.angles.tilt_deg;
-      add(std::move(seen), overhang_of(fault, *screw, presets_.at(i).truth, presets_.at(i).posed));
+      add(std::move(seen), overhang_of(fault, *screw, presets.at(i).truth, presets.at(i).posed));
     }
     for (const Looked& one : looked) {
       protocol::FaultSeen seen;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/score_message.hpp"
 
+#include "session/snapshot_message.hpp"
+
 namespace carpus::session {
 
 namespace {
@@ -24,6 +26,11 @@ protocol::Placement placement_message(const procedure::PlacementPicture& picture
     placement.screw =
         protocol::PlacedScrew{picture.screw->from, picture.screw->to, picture.screw_tip_diameter_mm,
                               picture.screw_tail_diameter_mm};
+  }
+  for (const procedure::PlacedPiece& piece : picture.pieces) {
+    if (!placement.pieces) placement.pieces.emplace();
+    placement.pieces->push_back({std::string(name_of(piece.bone, piece.part)),
+                                 {quaternion_of(piece.pose.rotation), piece.pose.translation}});
   }
   return placement;
 }

@@ -35,7 +35,14 @@ TEST(ScoreMessage, PutsScrewAndWireWhereTheyLie) {
   report.placement.screw = procedure::PlacedLine{{7, 8, 9}, {10, 11, 12}};
   report.placement.screw_tip_diameter_mm = 3.5;
   report.placement.screw_tail_diameter_mm = 4.1;
+  report.placement.pieces.push_back(
+      {BoneId::Scaphoid, BonePart::Distal, {rotation_from_quaternion(0.8, 0, 0.6, 0), {1, 2, 3}}});
   const protocol::Placement placement = score_message(report).placement;
+  ASSERT_TRUE(placement.pieces.has_value());
+  ASSERT_EQ(placement.pieces->size(), 1U);
+  EXPECT_EQ(placement.pieces->front().name, "scaphoid_distal");
+  EXPECT_NEAR(placement.pieces->front().pose.quaternion[2], 0.6, 1e-12);
+  EXPECT_EQ(placement.pieces->front().pose.translation_mm, (Vec3{1, 2, 3}));
   EXPECT_EQ(placement.wire, (protocol::PlacedWire{{1, 2, 3}, {4, 5, 6}}));
   EXPECT_EQ(placement.screw, (protocol::PlacedScrew{{7, 8, 9}, {10, 11, 12}, 3.5, 4.1}));
 }

@@ -290,7 +290,7 @@ procedure::OperationRecord World::operation_record() const {
     record.displacements.push_back(state.now.moved[b].pose());
   }
   record.compression_n = state.now.compression_n;
-  record.is_stripped = state.now.is_stripped;
+  record.stripped_screws = state.spent.stripped_screws;
   if (model_->map != nullptr) record.scope = state.scope_record(*model_);
   record.most_bend_rad = state_->spent.most_bend_rad;
   record.broken_wires = state_->spent.broken_wires;

@@ -239,7 +239,7 @@ TEST(Score, DoingNothingEarnsNothing) {
       EXPECT_FALSE(must.not_measured) << "that none is in is known";
     }
   }
-  nothing.is_stripped = true;
+  nothing.stripped_screws = 1;
   for (const MustHave& must : score(wrist(), nothing).must_haves) {
     if (must.id == "screw_holds") {
       EXPECT_FALSE(must.not_measured) << "stripped, and taken out";
@@ -260,7 +260,7 @@ TEST(Score, OneHarmAndTheFixationIsNotAcceptable) {
   harmed.back().second.passes.back().was_undone = true;
   add("a drill 9 mm out of the far cortex").passes.front().follower_exit_mm = 9.0;
   add("a wire broken").broken_wires = 1;
-  add("a screw turned on until it stripped").is_stripped = true;
+  add("a screw turned on until it stripped").stripped_screws = 1;
   add("a screw too long").lines.front().depth_mm = 28.0;
   LineFacts wire = screw_of(harmed.back().second);
   wire.instrument = index_of("guide_wire");

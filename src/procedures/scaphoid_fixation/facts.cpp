@@ -80,11 +80,27 @@ void fill_references(ScoreReport& report, const Facts& facts) {
   }
 }
 
+/// Those that do not lie as scanned, seen from `body`.
+std::vector<procedure::PlacedPiece> moved_pieces(const Facts& facts, std::size_t body) {
+  std::vector<procedure::PlacedPiece> pieces;
+  const auto& moved = facts.record.displacements;
+  if (moved.size() != facts.data.bones.size() || body >= moved.size()) return pieces;
+  for (std::size_t b = 0; b < moved.size(); ++b) {
+    const cases::Bone& bone = facts.data.bones[b];
+    const auto pose = moved[body].inverse() * moved[b];
+    if (bone.bone != BoneId::Scaphoid || b == body) continue;
+    if (pose == Pose<frame::Bone, frame::Bone>{}) continue;
+    pieces.push_back({bone.bone, bone.part, pose});
+  }
+  return pieces;
+}
+
 procedure::PlacementPicture picture_of(const Facts& facts) {
   const cases::ScaphoidLandmarks& marks = facts.marks;
   procedure::PlacementPicture picture;
   picture.central_axis = {marks.central_axis.proximal, marks.central_axis.distal};
   picture.waist = marks.waist;
+  if (const auto& line = fixed_line(facts)) picture.pieces = moved_pieces(facts, line->body);
   const auto at = [](const LineFacts& line, double depth_mm) {
     return line.entry_in_bone + line.direction_in_bone * depth_mm;
   };

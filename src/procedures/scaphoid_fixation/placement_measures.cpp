@@ -135,15 +135,15 @@ Measure compression(const Facts& facts) {
   if (!facts.placed) return measure;
   measure.value = facts.record.compression_n;
   measure.finding =
-      facts.record.is_stripped ? "The thread gave way: it was turned on too far." : "";
+      facts.record.stripped_screws > 0 ? "A thread gave way: it was turned on too far." : "";
   return measure;
 }
 
 Measure stripped(const Facts& facts) {
   Measure measure{"screws_stripped", std::nullopt, kNoScrew};
   // Stripped once counts, wherever that screw is now; a thread that never held proved nothing.
-  if (!facts.placed && !facts.record.is_stripped) return measure;
-  measure.value = facts.record.is_stripped ? 1.0 : 0.0;
+  if (!facts.placed && facts.record.stripped_screws == 0) return measure;
+  measure.value = static_cast<double>(facts.record.stripped_screws);
   measure.finding.clear();
   return measure;
 }

@@ -138,7 +138,7 @@ TEST(VolarScore, OneHarmAndTheFixationIsNotAcceptable) {
   add("the drill as far").passes.front().follower_exit_mm = 9.0;
   add("a capitate drilled").passes.front().bodies_entered |= bit_of(BoneId::Capitate);
   add("a wire broken").broken_wires = 1;
-  add("a screw turned on until it stripped").is_stripped = true;
+  add("a screw turned on until it stripped").stripped_screws = 1;
   add("a screw through the proximal pole").lines.front().depth_mm = 28.0;
   LineFacts wire = perfect().lines.front();
   wire.instrument = *instruments::instrument_of("guide_wire");

@@ -125,6 +125,9 @@ void write(FieldWriter& out, const PlacedWire& in);
 void read(FieldReader& in, PlacedScrew& out);
 void write(FieldWriter& out, const PlacedScrew& in);
 
+void read(FieldReader& in, PlacedPiece& out);
+void write(FieldWriter& out, const PlacedPiece& in);
+
 void read(FieldReader& in, Placement& out);
 void write(FieldWriter& out, const Placement& in);
 

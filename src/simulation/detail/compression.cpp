@@ -67,6 +67,7 @@ void World::State::compress(const Model& model, std::uint8_t index, double advan
   now.compression_n = kNPerMm * now.closure_mm;
   if (now.compression_n <= kPeakN * now.holding_share) return;
   now.is_stripped = true;
+  ++spent.stripped_screws;
   now.compression_n = 0.0;
   now.holding_share *= kStrippedShare;
   emit(EventKind::ScrewStripped, index, 0, 0.0);

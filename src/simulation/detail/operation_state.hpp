@@ -242,6 +242,7 @@ struct Spent {
   std::uint32_t pass_count = 0;  ///< may exceed what is kept
   double most_bend_rad = 0.0;    ///< of any wire
   std::uint32_t broken_wires = 0;
+  std::uint32_t stripped_screws = 0;  ///< whose thread gave way, undone or not
   std::uint32_t tissue_revision = 0;
   std::uint64_t hash = 0;
 };
@@ -283,6 +284,7 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
   }
   v(spent.most_bend_rad);
   v(spent.broken_wires);
+  v(spent.stripped_screws);
   v(spent.tissue_revision);
   v(spent.hash);
 }

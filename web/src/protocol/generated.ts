@@ -635,13 +635,23 @@ export interface PlacedScrew {
   readonly tail_diameter_mm: number;
 }
 
-/** Where things lie, to be drawn beside the figures. */
+/** A piece of the bone that lies beside where it was scanned, seen from the one in which the line lies. */
+export interface PlacedPiece {
+  /** of its node in /api/scene.glb */
+  readonly name: string;
+  /** from where it was scanned to where it lies */
+  readonly pose: BodyPose;
+}
+
+/** Where things lie, to be drawn beside the figures: in the frame of the piece in which the line lies. */
 export interface Placement {
   readonly central_axis: PlacedAxis;
   /** on the central axis */
   readonly waist_mm: Vec3;
   readonly wire: PlacedWire | null;
   readonly screw: PlacedScrew | null;
+  /** none where all lie as scanned */
+  readonly pieces: readonly PlacedPiece[] | null;
 }
 
 /** Why one may decline to operate. */

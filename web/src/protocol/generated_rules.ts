@@ -344,11 +344,16 @@ export const SCHEMA: Schema = {
       tip_diameter_mm: {"type": "number", "min": 0, "max": 100},
       tail_diameter_mm: {"type": "number", "min": 0, "max": 100},
     } },
+    placed_piece: { fields: {
+      name: {"type": "string", "max_length": 32},
+      pose: {"type": "body_pose"},
+    } },
     placement: { fields: {
       central_axis: {"type": "placed_axis"},
       waist_mm: {"type": "vec3", "limit": 10000},
       wire: {"type": "placed_wire", "optional": true},
       screw: {"type": "placed_screw", "optional": true},
+      pieces: {"type": "array", "of": {"type": "placed_piece"}, "max_items": 8, "optional": true},
     } },
     decline_reason: { fields: {
       id: {"type": "string", "max_length": 32},

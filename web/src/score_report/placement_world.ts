@@ -5,7 +5,7 @@
 // it was entered and where its tip lies.
 import * as THREE from "three";
 import { makeFrameMap, type FrameMap } from "../frames";
-import type { CaseDescription, Placement, PlacedAxis, Vec3 } from "../protocol";
+import type { BodyPose, CaseDescription, Placement, PlacedAxis, Vec3 } from "../protocol";
 import {
   alignShaft,
   drawInstrument,
@@ -48,6 +48,8 @@ export async function makePlacementWorld(
   for (const bone of scene.bones) {
     if (!bone.name.startsWith("scaphoid")) continue;
     bone.material = glassBoneMaterial();
+    const piece = placement.pieces?.find(({ name }) => name === bone.name);
+    if (piece !== undefined) lay(bone, piece.pose);
     bone.renderOrder = 4;
     patient.add(bone);
   }
@@ -62,6 +64,13 @@ export async function makePlacementWorld(
     at: new THREE.Vector3(...mm).applyMatrix4(patient.matrix),
   }));
   return { world, light, frames, box, marks };
+}
+
+/** Where the piece lies at the end, seen from the one with the line. */
+function lay(bone: THREE.Object3D, { quaternion, translation_mm }: BodyPose): void {
+  const [w, x, y, z] = quaternion;
+  bone.quaternion.set(x, y, z, w);
+  bone.position.set(...translation_mm);
 }
 
 /** Of the screw; of the wire where no screw was placed. */
