@@ -25,10 +25,6 @@ export interface CArmHandlers extends StandHandlers {
 
 const HISTORY = 6;
 
-function kvText({ tubeKv }: CArmPicture): string {
-  return `${Math.round(tubeKv)} kV`;
-}
-
 function toggle(
   label: string,
   keys: string,
@@ -242,7 +238,7 @@ export class CArmPanel {
       this.handlers.say("There is no picture to save yet.");
       return;
     }
-    const overlay = { view: this.nameOf(picture), kv: kvText(picture) };
+    const overlay = { view: this.nameOf(picture) };
     savePicture(picture, this.inverted, overlay, this.ruler.drawn.ruler, this.patient);
     this.handlers.say("The picture is saved among the downloads.");
   }
@@ -317,15 +313,14 @@ export class CArmPanel {
   private redraw(): void {
     const { inverted, kept, picture } = this;
     const view = picture === undefined ? "" : this.nameOf(picture);
-    const kv = picture === undefined ? "" : kvText(picture);
-    this.monitor.show({ picture, inverted, overlay: { view, kv }, ...this.ruler.drawn });
+    this.monitor.show({ picture, inverted, overlay: { view }, ...this.ruler.drawn });
     this.ruler.showReading();
     setText(this.name, picture === undefined ? "" : `${view}, ${this.whenTaken(picture)}`);
     this.referenceBox.hidden = kept === undefined;
     if (kept === undefined) return;
     const keptView = this.nameOf(kept);
     setText(this.referenceName, kept.shot > 0 ? `${keptView}, shot ${kept.shot}` : keptView);
-    const overlay = { view: keptView, kv: kvText(kept) };
+    const overlay = { view: keptView };
     this.reference.show({ picture: kept, inverted, overlay });
   }
 

@@ -8,7 +8,6 @@ import { rulerMm, rulerText, type PicturePoint, type Ruler } from "./ruler_model
 
 export interface Overlay {
   readonly view: string;
-  readonly kv: string;
   /** Below the view: whose picture, when; of one that leaves the page. */
   readonly lines?: readonly string[];
 }
@@ -103,7 +102,7 @@ function write(
     context.fillText(line, margin, margin + (index + 1.3) * size);
   });
   context.textBaseline = "bottom";
-  context.fillText(overlay.kv, margin, side - margin);
+  context.fillText(`${Math.round(picture.tubeKv)} kV`, margin, side - margin);
   context.textAlign = "right";
   context.fillText(`${picture.doseCgyCm2.toFixed(2)} cGy cm²`, side - margin, side - margin);
 }

@@ -15,7 +15,6 @@ import { looksOf, marksOf, type Mark } from "./replay_marks_model";
 import { readingsOf } from "./readings_model";
 import { ScrubBar } from "./scrub_bar";
 
-const KV_TEXT = "60 kV";
 const STRIP = 6;
 const PICTURES_KEPT = 120;
 /** With bones to be seen, skin is a shell about them. */
@@ -214,7 +213,7 @@ export class ReplayStage {
       this.monitor.show({
         picture,
         inverted: this.inverted,
-        overlay: { view, kv: KV_TEXT },
+        overlay: { view },
       });
       const number = picture?.kind === "live" ? "live" : `shot ${picture?.shot ?? 0}`;
       setText(this.pictureName, picture === undefined ? "" : `${view}, ${number}`);

@@ -24,7 +24,10 @@ function svg(...children: SVGElement[]): SVGElement {
   );
 }
 
-/** Section of the bone across its axis: the good zone is its central third. */
+/**
+ * Section of the bone across its axis: the good zone is its central third. How far beside the middle is a
+ * ring: which way is said in words.
+ */
 function target(percentOfWidth: number, color: string): SVGElement {
   const radius = 50;
   const scale = 25 / Math.max(radius, percentOfWidth);
@@ -33,7 +36,14 @@ function target(percentOfWidth: number, color: string): SVGElement {
   return svg(
     ring(radius * scale, "var(--picture-bone)"),
     ring((radius * scale) / 3, "none"),
-    makeSvg("circle", { cx: MIDDLE + percentOfWidth * scale, cy: MIDDLE, r: 4, fill: color }),
+    makeSvg("circle", {
+      cx: MIDDLE,
+      cy: MIDDLE,
+      r: Math.max(1.5, percentOfWidth * scale),
+      fill: "none",
+      stroke: color,
+      "stroke-width": 3,
+    }),
   );
 }
 

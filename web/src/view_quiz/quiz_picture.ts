@@ -8,9 +8,6 @@ import { make, makeSvg } from "../dom";
 import type { CArmPicture, QuizViewTruth } from "../protocol";
 import { polygonPoints } from "./quiz_model";
 
-/** The tube of every picture of a wrist here. */
-const KV_TEXT = "60 kV";
-
 export class QuizPicture {
   readonly element: HTMLElement;
   private readonly canvas = make("canvas", { role: "img", "aria-label": "No picture yet" });
@@ -63,6 +60,6 @@ export class QuizPicture {
     const side = Math.round(this.canvas.clientWidth * Math.min(devicePixelRatio, 2));
     if (side <= 0) return;
     if (this.canvas.width !== side) this.canvas.width = this.canvas.height = side;
-    drawPicture(this.canvas, this.shown, this.inverted, { view: this.name, kv: KV_TEXT });
+    drawPicture(this.canvas, this.shown, this.inverted, { view: this.name });
   }
 }
