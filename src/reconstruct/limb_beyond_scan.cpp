@@ -19,6 +19,7 @@
 #include "geometry/mat3.hpp"
 #include "mesh/clip.hpp"
 #include "mesh/marching_cubes.hpp"
+#include "mesh/simplify.hpp"
 #include "mesh/smooth.hpp"
 #include "reconstruct/bone_surface.hpp"
 
@@ -55,6 +56,9 @@ constexpr double kVoxelMm = 1.6;
 /// Of the middle finger's way in another's: shafts spread, fingers at rest hardly do [E].
 constexpr double kMiddleInShaft = 0.35;
 constexpr double kMiddleInFinger = 0.75;
+/// For the eye: as many as the skin itself has.
+constexpr std::size_t kMostFacets = 9000;
+constexpr double kMostErrorMm = 0.3;
 constexpr mesh::SmoothOptions kSmooth{8, 0.5, -0.526, false, 0};
 
 struct Capsule {
@@ -277,7 +281,9 @@ TriangleMesh surface_of(const Vec3& low, const Vec3& high, const Distance& dista
       grid[i] = static_cast<float>(-distance_at(p));
     }
   });
-  return mesh::smooth(mesh::extract_isosurface(grid.view(), 0), kSmooth);
+  return mesh::simplify(mesh::smooth(mesh::extract_isosurface(grid.view(), 0), kSmooth),
+                        {kMostFacets, kMostErrorMm})
+      .mesh;
 }
 
 struct Box {
