@@ -80,10 +80,10 @@ export class StartDialog {
         ),
       ),
       this.facts(description),
-      this.procedureChoice(),
-      this.modeChoice(),
       make("label", { for: "trainee-name" }, "Your name, for the list of attempts"),
       this.name,
+      this.procedureChoice(),
+      this.modeChoice(),
       this.note,
       make(
         "div.actions",
@@ -208,7 +208,9 @@ export class StartDialog {
         .querySelector(".start-facts")
         ?.after(make("p.case-card-doubt", {}, `${doubt} before you operate.`));
     }
-    if (list.cases.length < 2) return;
+    const [only] = list.cases;
+    // One case is no choice; what is to be learnt of it is told all the same.
+    if (list.cases.length < 2 && (only?.goal ?? "") === "") return;
     this.cards = new CaseCards(list, choose);
     this.cards.show(this.mode);
     this.element.querySelector(".start-facts")?.before(this.cards.element);
