@@ -45,6 +45,8 @@ export class ViewBar {
   private readonly appearanceButton: HTMLButtonElement;
   private hasStructures = false;
 
+  private readonly key = keyCap("{KeyV}");
+
   constructor(private readonly handlers: ViewBarHandlers) {
     const look = (view: ViewId): HTMLButtonElement =>
       button(
@@ -92,7 +94,7 @@ export class ViewBar {
     this.element = make(
       "div.view-bar",
       { role: "group", "aria-label": "View" },
-      make("span.secondary", {}, make("span.view-word", {}, "View "), keyCap("{KeyV}")),
+      make("span.secondary", {}, make("span.view-word", {}, "View "), this.key),
       ...VIEWS.map((view) => this.looks[view]),
       make("span.gap"),
       make(
@@ -116,6 +118,11 @@ export class ViewBar {
     for (const aid of Object.values(this.aids)) aid.hidden = on;
     this.structuresButton.disabled = on || !this.hasStructures;
     if (on) this.showStructures(false);
+  }
+
+  /** A scope's V is its next portal. */
+  offerKey(has: boolean): void {
+    this.key.hidden = !has;
   }
 
   /** Where nothing is planned there is no ghost of it, and no cut along it. */

@@ -90,6 +90,7 @@ export class WhatIsSeen {
     drive.element.hidden = !offered.drive;
     arm.element.hidden = !offered.cArm;
     views.offerPlan(offered.plan);
+    views.offerKey(offered.drive);
     bottom.offer(offered);
     wrist.reset(exercise.wrist_limits);
   }
