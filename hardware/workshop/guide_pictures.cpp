@@ -222,7 +222,8 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
        [](const Piece& p) -> std::optional<Look> {
          if (p.leg != 0) return std::nullopt;
          if (is_one_of(p, {"bearing_block", "bearing"})) return Look{true, {}};
-         if (p.name == "leg_a") return pulled(-50);
+         if (is_one_of(p, {"leg_a", "pin_screw"})) return pulled(-50);
+         if (p.name == "mast_screw") return pulled(14);
          if (p.name == "shaft") return pulled(-14);
          if (p.group == Group::Leg0 && is_one_of(p, {"stud", "ball", "nut"})) {
            const double y = centroid_of(p.mesh).y;
@@ -232,7 +233,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
          }
          return std::nullopt;
        },
-       {"shaft", "leg_a", "stud", "nut", "ball"},
+       {"shaft", "leg_a", "stud", "nut", "ball", "pin_screw", "mast_screw"},
        side});
   pictures.push_back(
       {"step_04_drive_a",
@@ -257,7 +258,8 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
                       [](const Piece& p) -> std::optional<Look> {
                         if (p.leg != 0 || is_rod(p) || (p.group == Group::Platform))
                           return std::nullopt;
-                        if (p.name == "leg_b") return pulled(-30);
+                        if (p.name == "cord") return std::nullopt;
+                        if (is_one_of(p, {"leg_b", "pin_screw"})) return pulled(-30);
                         if (p.group == Group::Leg0 && is_one_of(p, {"stud", "ball", "nut"}))
                           return pulled(-30);
                         if (p.name == "drum") return pulled(-10, 0, 0);
