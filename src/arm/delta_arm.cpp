@@ -11,8 +11,6 @@
 namespace carpus::arm {
 namespace {
 
-constexpr double kGravityNPerGram = 9.80665e-3;
-
 firmware::Vector<double> vector_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// Eigenvalues of a symmetric 3 x 3 matrix in ascending order, in closed form

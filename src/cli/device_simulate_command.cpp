@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -45,7 +46,8 @@ void guide(devices::SimulatedPort& port, const sigset_t& ends, double seconds, b
   for (;;) {
     const std::chrono::duration<double, std::milli> left = until - std::chrono::steady_clock::now();
     if (seconds > 0 && left.count() <= 0) break;
-    const int changed = ::poll(waits, 2, seconds > 0 ? static_cast<int>(left.count()) + 1 : -1);
+    const int changed =
+        ::poll(waits, 2, seconds > 0 ? static_cast<int>(std::min(left.count(), 1e6)) + 1 : -1);
     if (changed > 0 && waits[0].revents != 0) break;
     if (changed <= 0 || waits[1].revents == 0) continue;
     char typed[256];

@@ -207,7 +207,7 @@ TEST(ArmOnVirtualArm, DriveBFindsItsWindingsAndIsEvenedOnceAHandHasLedItAbout) {
   desk.run_ms(500);
   ASSERT_TRUE(is_usable(desk.state.health)) << in_words(desk.state.health);
   const double evened = desk.free_space_n();
-  EXPECT_LE(evened, 0.2);
+  EXPECT_LE(evened, 0.15);
   ArmCalibration without = made;
   without.cogging = {};
   store(without, desk.folder.path());

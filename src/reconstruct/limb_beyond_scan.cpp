@@ -1,20 +1,19 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rims of the skin -> for each its plane, outline and the way out -> a distance to outline and
+// Rims of the skin -> for each the way out -> a distance to outline and
 // generated limb, blended by how far out -> marching cubes -> cut off at the rim.
 #include "reconstruct/limb_beyond_scan.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "geometry/aabb.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/mat3.hpp"
 #include "mesh/clip.hpp"
@@ -22,6 +21,7 @@
 #include "mesh/simplify.hpp"
 #include "mesh/smooth.hpp"
 #include "reconstruct/bone_surface.hpp"
+#include "reconstruct/skin_rims.hpp"
 
 namespace carpus::reconstruct {
 namespace {
@@ -48,11 +48,10 @@ constexpr double kBlendMm = 6;     ///< by which parts melt into each other
 constexpr double kOutlineMm = 25;  ///< in which the outline becomes the generated
 constexpr double kWithinMm = 1.5;  ///< it begins so far inside the skin
 constexpr double kUnderMm = 0.1;   ///< and so far below it
-constexpr double kLeastRimMm2 = 150;
-constexpr double kFlatMm = 2;
 constexpr double kForearmMm = 150;
 constexpr double kWidenPerMm = 0.002;
 constexpr double kVoxelMm = 1.6;
+constexpr double kMostMm = 500;
 /// Of the middle finger's way in another's: shafts spread, fingers at rest hardly do [E].
 constexpr double kMiddleInShaft = 0.35;
 constexpr double kMiddleInFinger = 0.75;
@@ -78,102 +77,6 @@ double melted(double a, double b) {
   const double h = std::max(kBlendMm - std::abs(a - b), 0.0) / kBlendMm;
   return std::min(a, b) - h * h * kBlendMm / 4;
 }
-
-/// Where the skin was cut off: a closed outline in a plane.
-struct Rim {
-  std::vector<Vec3> corners;
-  Vec3 middle;
-  Vec3 outwards;
-  [[nodiscard]] double beyond(const Vec3& p) const { return dot(p - middle, outwards); }
-};
-
-/// An outline about a corner of the field goes on nowhere: there it stays draped.
-bool is_flat(const Rim& rim) {
-  return std::all_of(rim.corners.begin(), rim.corners.end(),
-                     [&](const Vec3& c) { return std::abs(rim.beyond(c)) < kFlatMm; });
-}
-
-std::vector<Rim> rims_of(const TriangleMesh& skin) {
-  std::map<std::uint32_t, std::uint32_t> next;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const Triangle& t : skin.facets) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::uint32_t>(t[k]);
-      const auto b = static_cast<std::uint32_t>(t[(k + 1) % 3]);
-      ++edges[{a, b}];
-    }
-  }
-  Vec3 inside;
-  for (const Vec3& v : skin.vertices) inside += v / static_cast<double>(skin.vertices.size());
-  for (const auto& [edge, count] : edges) {
-    if (!edges.contains({edge.second, edge.first})) next[edge.first] = edge.second;
-  }
-  std::vector<Rim> rims;
-  while (!next.empty()) {
-    Rim rim;
-    auto at = next.begin();
-    while (at != next.end()) {
-      rim.corners.push_back(skin.vertices[at->first]);
-      const auto to = at->second;
-      next.erase(at);
-      at = next.find(to);
-    }
-    if (rim.corners.size() < 12) continue;
-    for (const Vec3& c : rim.corners) rim.middle += c / static_cast<double>(rim.corners.size());
-    // Twice the area, as a vector: normal to the plane.
-    Vec3 area;
-    for (std::size_t i = 0; i < rim.corners.size(); ++i) {
-      area += cross(rim.corners[i] - rim.middle,
-                    rim.corners[(i + 1) % rim.corners.size()] - rim.middle);
-    }
-    rim.outwards = normalized_or(area, {});
-    if (dot(rim.middle - inside, rim.outwards) < 0) rim.outwards = -rim.outwards;
-    if (length(area) > 2 * kLeastRimMm2 && is_flat(rim)) rims.push_back(std::move(rim));
-  }
-  return rims;
-}
-
-/// Signed distance in the rim's plane of where a point comes down along `way`.
-class Outline {
- public:
-  Outline(const Rim& rim, const Vec3& way) : rim_(rim), way_(way) {
-    across_ = normalized_or(
-        cross(rim.outwards, std::abs(rim.outwards.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}), {});
-    up_ = cross(rim.outwards, across_);
-    for (const Vec3& c : rim.corners) flat_.push_back(flat(c));
-  }
-  [[nodiscard]] double distance_to(const Vec3& p, double widened) const {
-    const double t = rim_.beyond(p) / std::max(0.2, dot(way_, rim_.outwards));
-    const auto [x0, y0] = flat(p - way_ * t);
-    const double x = x0 / widened;
-    const double y = y0 / widened;
-    double least = 1e18;
-    bool is_in = false;
-    for (std::size_t i = 0, j = flat_.size() - 1; i < flat_.size(); j = i++) {
-      const auto [ax, ay] = flat_[i];
-      const auto [bx, by] = flat_[j];
-      const double ex = bx - ax;
-      const double ey = by - ay;
-      const double s = std::clamp(
-          ((x - ax) * ex + (y - ay) * ey) / std::max(1e-12, ex * ex + ey * ey), 0.0, 1.0);
-      const double dx = x - ax - s * ex;
-      const double dy = y - ay - s * ey;
-      least = std::min(least, dx * dx + dy * dy);
-      if ((ay > y) != (by > y) && x < ex * (y - ay) / ey + ax) is_in = !is_in;
-    }
-    return (is_in ? -1 : 1) * std::sqrt(least) * widened;
-  }
-
- private:
-  [[nodiscard]] std::pair<double, double> flat(const Vec3& p) const {
-    return {dot(p - rim_.middle, across_), dot(p - rim_.middle, up_)};
-  }
-  const Rim& rim_;
-  Vec3 way_;
-  Vec3 across_;
-  Vec3 up_;
-  std::vector<std::pair<double, double>> flat_;
-};
 
 /// The way of a bone's shaft, from its base.
 struct Shaft {
@@ -212,11 +115,6 @@ std::optional<Shaft> shaft_of(const cases::CaseData& data, BoneId id, const Vec3
   return std::nullopt;
 }
 
-Vec3 turned_about(const Vec3& v, const Vec3& axis, double degrees) {
-  const double a = radians_from_degrees(degrees);
-  return v * std::cos(a) + cross(axis, v) * std::sin(a) + axis * (dot(axis, v) * (1 - std::cos(a)));
-}
-
 /// Parts that follow each other; others melt into them.
 using Finger = std::vector<Capsule>;
 
@@ -243,7 +141,9 @@ Finger finger(const Ray& ray,
   Vec3 at = knuckle;
   const int phalanges = is_thumb ? 2 : 3;
   for (int i = 0; i < phalanges; ++i) {
-    way = turned_about(way, axis, is_thumb ? 8 : kBendDeg[static_cast<std::size_t>(i)]);
+    way = rotation_about(
+              axis, radians_from_degrees(is_thumb ? 8 : kBendDeg[static_cast<std::size_t>(i)])) *
+          way;
     const Vec3 to = at + way * (size * ray.lengths[static_cast<std::size_t>(i) + 1]);
     const double share = [&](double k) { return 1 - (1 - kTipShare) * k / phalanges; }(i);
     const double then = 1 - (1 - kTipShare) * (i + 1.0) / phalanges;
@@ -265,12 +165,16 @@ Finger palm_between(const Capsule& one, const Capsule& other, double size) {
 }
 
 template <typename Distance>
-TriangleMesh surface_of(const Vec3& low, const Vec3& high, const Distance& distance_at) {
+TriangleMesh surface_of(const Aabb& box, const Distance& distance_at) {
+  const Vec3 low = box.low;
+  const Vec3 extent = box.extent();
+  // Of no hand and no forearm: a case that came from elsewhere may hold anything.
+  if (!(std::max({extent.x, extent.y, extent.z}) < kMostMm)) return {};
   GridGeometry g;
   g.origin = low;
   g.spacing = {kVoxelMm, kVoxelMm, kVoxelMm};
   for (std::size_t a = 0; a < 3; ++a) {
-    g.size[a] = static_cast<int>((high[a] - low[a]) / kVoxelMm) + 2;
+    g.size[a] = static_cast<int>(extent[a] / kVoxelMm) + 2;
   }
   Grid<float> grid(g);
   const auto plane = static_cast<std::size_t>(g.size[0]) * static_cast<std::size_t>(g.size[1]);
@@ -286,16 +190,11 @@ TriangleMesh surface_of(const Vec3& low, const Vec3& high, const Distance& dista
       .mesh;
 }
 
-struct Box {
-  Vec3 low{1e9, 1e9, 1e9};
-  Vec3 high{-1e9, -1e9, -1e9};
-  void take(const Vec3& p, double radius) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], p[a] - radius);
-      high[a] = std::max(high[a], p[a] + radius);
-    }
-  }
-};
+void include(Aabb& box, const Vec3& p, double radius) {
+  const Vec3 r{radius, radius, radius};
+  box.include(p - r);
+  box.include(p + r);
+}
 
 void append(TriangleMesh& mesh, const TriangleMesh& other) {
   const auto first = static_cast<Triangle::value_type>(mesh.vertices.size());
@@ -306,22 +205,28 @@ void append(TriangleMesh& mesh, const TriangleMesh& other) {
   }
 }
 
+double breadth_of(const Rim& rim) {
+  double most = 0;
+  for (const Vec3& c : rim.corners) most = std::max(most, 2 * distance(c, rim.middle));
+  return most;
+}
+
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
 TriangleMesh hand_from(const Rim& rim, const std::vector<Finger>& fingers, const Vec3& way) {
-  const Outline outline(rim, way);
-  Box box;
-  for (const Vec3& c : rim.corners) box.take(c, 4);
+  const RimOutline outline(rim, way);
+  Aabb box;
+  for (const Vec3& c : rim.corners) include(box, c, 4);
   for (const Finger& parts : fingers) {
     for (const Capsule& part : parts) {
-      box.take(part.from, part.from_mm + 8);
-      box.take(part.to, part.to_mm + 8);
+      include(box, part.from, part.from_mm + 8);
+      include(box, part.to, part.to_mm + 8);
     }
   }
-  const TriangleMesh grown = surface_of(box.low, box.high, [&](const Vec3& p) {
+  const TriangleMesh grown = surface_of(box, [&](const Vec3& p) {
     double generated = 1e9;
     for (const Finger& parts : fingers) {
       double least = 1e9;
@@ -338,13 +243,14 @@ TriangleMesh hand_from(const Rim& rim, const std::vector<Finger>& fingers, const
 }
 
 TriangleMesh forearm_from(const Rim& rim, const Vec3& way) {
-  const Outline outline(rim, way);
-  Box box;
+  const RimOutline outline(rim, way);
+  Aabb box;
   for (const Vec3& c : rim.corners) {
-    box.take(c, 4);
-    box.take(rim.middle + (c - rim.middle) * (1 + kWidenPerMm * kForearmMm) + way * kForearmMm, 2);
+    include(box, c, 4);
+    include(box, rim.middle + (c - rim.middle) * (1 + kWidenPerMm * kForearmMm) + way * kForearmMm,
+            2);
   }
-  const TriangleMesh grown = surface_of(box.low, box.high, [&](const Vec3& p) {
+  const TriangleMesh grown = surface_of(box, [&](const Vec3& p) {
     const double widened = 1 + kWidenPerMm * std::max(0.0, rim.beyond(p));
     return outline.distance_to(p, widened) + kUnderMm;
   });
@@ -366,12 +272,15 @@ LimbBeyondScan limb_beyond_scan(const cases::CaseData& data) {
   for (std::size_t i = 0; i < kRays.size(); ++i) {
     shafts[i] = shaft_of(data, kRays[i].metacarpal, distal);
   }
+  double palm_mm = 0;
   for (const Rim& rim : rims) {
-    if (dot(rim.middle - (shafts[2] ? shafts[2]->base : Vec3{}), distal) < -10 &&
-        dot(rim.outwards, distal) < -0.5) {
-      append(limb.forearm, forearm_from(rim, -distal));
-    }
+    // The wrist's origin is the radius's distal end.
+    const double proximal_mm = (data.wrist_from_patient * Point<frame::Patient>{rim.middle}).v.x;
+    const bool is_forearm = proximal_mm > 10 && dot(rim.outwards, distal) < -0.5;
+    if (is_forearm) append(limb.forearm, forearm_from(rim, -distal));
+    if (dot(rim.outwards, distal) > 0.5) palm_mm = std::max(palm_mm, breadth_of(rim));
   }
+  const double size = palm_mm > 0 ? std::clamp(palm_mm / kPalmMm, 0.8, 1.2) : 1;
   // Each ray goes on from the rim through which its shaft leaves.
   std::vector<std::vector<Finger>> fingers(rims.size());
   std::vector<Vec3> ways(rims.size());
@@ -384,7 +293,7 @@ LimbBeyondScan limb_beyond_scan(const cases::CaseData& data) {
     double nearest = 15;
     for (std::size_t r = 0; r < rims.size(); ++r) {
       if (!(dot(shafts[i]->way, rims[r].outwards) > 0.3)) continue;
-      const Outline outline(rims[r], shafts[i]->way);
+      const RimOutline outline(rims[r], shafts[i]->way);
       const double apart = std::max(std::abs(rims[r].beyond(end)) - 4, outline.distance_to(end, 1));
       if (apart < nearest) {
         nearest = apart;
@@ -392,10 +301,6 @@ LimbBeyondScan limb_beyond_scan(const cases::CaseData& data) {
       }
     }
     if (!through) continue;
-    const Rim& rim = rims[*through];
-    double breadth = 0;
-    for (const Vec3& a : rim.corners) breadth = std::max(breadth, 2 * distance(a, rim.middle));
-    const double size = i == 0 ? 1 : std::clamp(breadth / kPalmMm, 0.8, 1.2);
     auto& of_rim = fingers[*through];
     of_rim.push_back(finger(kRays[i], *shafts[i], middle, dorsal, size));
     ways[*through] += shafts[i]->way;

@@ -109,6 +109,14 @@ TEST(LimbBeyondScan, MakesNothingWhereNothingWasCutOff) {
   EXPECT_TRUE(limb.forearm.facets.empty());
 }
 
+TEST(LimbBeyondScan, ACaseOfNoLimbsSizeGetsNone) {
+  cases::CaseData data = sleeve(40);
+  for (Vec3& v : data.skin.vertices) v = v * 1e5;
+  const LimbBeyondScan limb = limb_beyond_scan(data);
+  EXPECT_TRUE(limb.hand.facets.empty());
+  EXPECT_TRUE(limb.forearm.facets.empty());
+}
+
 TEST(LimbBeyondScan, StaysDrapedAboutACornerOfTheField) {
   cases::CaseData data = sleeve(40);
   // The rim of the hand slants and bends: no plane cut it.
