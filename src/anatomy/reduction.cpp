@@ -169,6 +169,25 @@ FractureOffset Reduction::offset(
   return {along, length(way - first_normal * along), -dot(normal, first_normal)};
 }
 
+Pose<frame::Bone, frame::Bone> Reduction::first_from_second_reduced() const noexcept {
+  constexpr double kOpposite = -0.5;  // faces that look the same way belong to no one bone
+  const Vec3 wanted = -first_normal;
+  const double cosine = dot(second_normal, wanted);
+  Mat3 rotation = Mat3::identity();
+  if (cosine > kOpposite) {
+    // Rodrigues: the least turn that takes one unit vector to another.
+    const Vec3 axis = cross(second_normal, wanted);
+    const auto turned = [&](const Vec3& v) {
+      return v * cosine + cross(axis, v) + axis * (dot(axis, v) / (1.0 + cosine));
+    };
+    const std::array<Vec3, 3> columns{turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
+    for (std::size_t r = 0; r < 3; ++r) {
+      rotation.rows[r] = {columns[0][r], columns[1][r], columns[2][r]};
+    }
+  }
+  return {rotation, first_middle - rotation * second_middle};
+}
+
 std::optional<Reduction> reduction_of(const MeshIn<frame::Bone>& first,
                                       const MeshIn<frame::Bone>& second) {
   const Vec3 between = middle_of(second) - middle_of(first);

@@ -29,6 +29,10 @@ struct Reduction {
   ///                           as scanned.
   [[nodiscard]] FractureOffset offset(
       const Pose<frame::Bone, frame::Bone>& first_from_second) const noexcept;
+
+  /// How the second fragment lies, seen from the first, once the faces meet: turned by the least
+  /// angle that lets them oppose each other.
+  [[nodiscard]] Pose<frame::Bone, frame::Bone> first_from_second_reduced() const noexcept;
 };
 
 /// Finds the two faces: facets of each fragment that have one of the other within 5 mm that looks

@@ -100,6 +100,20 @@ struct Ellipsoid {
   return {{2, -1, 3}, rotation_from_quaternion(8, -3, -2, 0), {5.6, 4.8, 13.5}};
 }
 
+/// A half of that bone, its fracture face across the middle and so far from it [mm].
+[[nodiscard]] inline MeshIn<frame::Bone> half_scaphoid(BonePart part, double face_mm) {
+  const Ellipsoid body = synthetic_scaphoid();
+  const Vec3 along = body.rotation.column(2);  // proximal is where it points to +z
+  const bool is_plus = (along.z > 0) == (part == BonePart::Proximal);
+  const Vec3 out = along * (is_plus ? 1.0 : -1.0);
+  TriangleMesh mesh = surface_of(body, 4);
+  for (Vec3& v : mesh.vertices) {
+    const double height = dot(v - body.centre, out);
+    if (height < face_mm) v += out * (face_mm - height);
+  }
+  return MeshIn<frame::Bone>(std::move(mesh));
+}
+
 /// A left wrist of six bones. Patient frame: proximal is +z, volar is -y, ulnar is -x.
 [[nodiscard]] inline CaseData synthetic_case() {
   CaseData data;

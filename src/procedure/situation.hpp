@@ -64,6 +64,7 @@ struct LineFacts {
   Vec3 direction_in_bone{};  ///< unit, from the entry towards the tip
   double depth_mm = 0.0;     ///< tip beyond the entry; of what rides, its own tip
   double chord_mm = 0.0;     ///< of the line inside the target, gap included; 0 outside it
+  double from_aim_mm = 0.0;  ///< that entry, from the aim's as its piece lies now
   double buried_mm = 0.0;    ///< a screw's tail below the surface; negative while it stands out
   /// Of a wire, beyond its entry towards the hand; negative when its near end is in the bone.
   double near_end_out_mm = 0.0;
@@ -79,9 +80,11 @@ struct HandFacts {
   bool operator==(const HandFacts&) const = default;
 };
 
-/// The line that a procedure is after on a case, frame Bone of the target [mm]. Steps are told by
-/// it and practice shows it; the score measures by itself.
+/// The line that a procedure is after on a case [mm]: of a bone that is to be reduced first, that
+/// of the bone reduced. Steps are told by it and practice shows it; the score measures by itself.
 struct Aim {
+  /// Index in CaseData::bones of the piece with the entry: all else is in its frame Bone.
+  std::uint8_t body = kNoBody;
   Vec3 entry;                    ///< where an instrument should go in
   Vec3 direction{0, 0, 1};       ///< unit, into the bone
   double length_mm = 0.0;        ///< of the longest way through the bone

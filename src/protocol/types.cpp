@@ -176,6 +176,7 @@ void write(FieldWriter& out, const NamedView& in) {
 }
 
 void read(FieldReader& in, Ideal& out) {
+  out.body = in.string("body", 32);
   out.entry_mm = in.vec3("entry_mm", 10000.0, 0.0);
   out.direction = in.vec3("direction", 1.001, 0.0);
   out.length_mm = in.number("length_mm", 0.0, 1000.0);
@@ -184,6 +185,7 @@ void read(FieldReader& in, Ideal& out) {
 }
 
 void write(FieldWriter& out, const Ideal& in) {
+  out.text("body", in.body, 32);
   out.vec3("entry_mm", in.entry_mm);
   out.vec3("direction", in.direction);
   out.value("length_mm", in.length_mm);

@@ -337,8 +337,11 @@ struct NamedView {
   bool operator==(const NamedView&) const = default;
 };
 
-/// The line and the screw that the procedure is after, frame of the target as scanned.
+/// The line and the screw that the procedure is after: of a bone that is to be reduced first, those
+/// of the bone reduced.
 struct Ideal {
+  /// in whose frame as scanned all else is: the piece with the entry
+  std::string body;
   Vec3 entry_mm;
   /// unit, into the bone
   Vec3 direction;

@@ -90,9 +90,10 @@ protocol::WristLimits message_of(const anatomy::HandLimits& limits) noexcept {
 }
 
 /// None where the procedure is after no line.
-std::optional<protocol::Ideal> ideal_of(const procedure::Aim& aim) {
-  if (!(aim.chord_mm > 0.0)) return std::nullopt;
-  protocol::Ideal ideal{aim.entry, aim.direction, aim.chord_mm, {}, aim.screw_tail_mm};
+std::optional<protocol::Ideal> ideal_of(const procedure::Aim& aim, const BodyNames& bodies) {
+  if (aim.body >= bodies.size()) return std::nullopt;
+  protocol::Ideal ideal{bodies.name(aim.body), aim.entry, aim.direction,
+                        aim.chord_mm,          {},        aim.screw_tail_mm};
   const auto all = instruments::catalogue();
   if (aim.screw < all.size()) ideal.screw = all[aim.screw].id;
   return ideal;
@@ -146,6 +147,7 @@ protocol::InstrumentList instrument_list() {
 
 protocol::Exercise exercise_message(const cases::CaseData& data,
                                     const procedure::Procedure& procedure,
+                                    const procedure::Aim& aim,
                                     procedure::Mode mode,
                                     std::uint64_t seed) {
   protocol::Exercise message;
@@ -166,7 +168,7 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
     message.bodies.push_back(
         {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
   }
-  if (mode == procedure::Mode::Practice) message.ideal = ideal_of(procedure.opening(data).aim);
+  if (mode == procedure::Mode::Practice) message.ideal = ideal_of(aim, names);
   message.arthroscopy = arthroscopy_of(data, procedure, seed);
   message.wrist_limits = message_of(data.hand_motion.limits);
   for (const procedure::DeclineReason& reason : procedure.decline.reasons) {

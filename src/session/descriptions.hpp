@@ -17,9 +17,10 @@ namespace carpus::session {
 [[nodiscard]] protocol::ProcedureList procedure_list(const procedure::ProcedureList& procedures);
 /// The whole catalogue.
 [[nodiscard]] protocol::InstrumentList instrument_list();
-/// What is being done.
+/// What is being done. @param aim  of the procedure on this case.
 [[nodiscard]] protocol::Exercise exercise_message(const cases::CaseData& data,
                                                   const procedure::Procedure& procedure,
+                                                  const procedure::Aim& aim,
                                                   procedure::Mode mode,
                                                   std::uint64_t seed);
 

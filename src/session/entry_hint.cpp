@@ -21,10 +21,9 @@ std::string whole(double value) { return std::to_string(std::lround(value)); }
 std::string entry_hint(const cases::CaseData& data,
                        const procedure::Aim& aim,
                        const simulation::Snapshot& now,
-                       std::size_t target,
                        const simulation::ItemView& item) {
-  // In the target as scanned: there the case's directions are those of the hand.
-  const auto bone_from_patient = now.patient_from_bone[target].inverse();
+  // In the bone as scanned: there the case's directions are those of the hand.
+  const auto bone_from_patient = now.patient_from_bone[aim.body].inverse();
   const Vec3 entry = (bone_from_patient * Point<frame::Patient>{item.entry_in_patient}).v;
   const Vec3 line = (bone_from_patient * Direction<frame::Patient>{-item.shaft_in_patient}).v;
   const Vec3 to_entry = aim.entry - entry;

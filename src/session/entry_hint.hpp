@@ -15,11 +15,10 @@ namespace carpus::session {
 
 /// "Enter 4 mm more radial. Aim 18° more distal.", or that it is where it should be. Within 2 mm
 /// and 5 degrees nothing is to be changed [E].
-/// @param target  body that is operated on. @param item  fixed in bone.
+/// @param item  fixed in bone.
 [[nodiscard]] std::string entry_hint(const cases::CaseData& data,
                                      const procedure::Aim& aim,
                                      const simulation::Snapshot& now,
-                                     std::size_t target,
                                      const simulation::ItemView& item);
 
 }  // namespace carpus::session

@@ -21,6 +21,7 @@ const cases::CaseData& wrist() {
 /// origin and straight distally.
 std::string hint(const Vec3& entry, const Vec3& line, double turned_deg = 0.0) {
   procedure::Aim aim;
+  aim.body = 0;
   aim.direction = {0, 0, -1};
   simulation::Snapshot now;
   now.body_count = 1;
@@ -33,7 +34,7 @@ std::string hint(const Vec3& entry, const Vec3& line, double turned_deg = 0.0) {
   simulation::ItemView item;
   item.entry_in_patient = (pose * Point<frame::Bone>{entry}).v;
   item.shaft_in_patient = (pose * Direction<frame::Bone>{-normalized_or(line, {})}).v;
-  return entry_hint(wrist(), aim, now, 0, item);
+  return entry_hint(wrist(), aim, now, item);
 }
 
 TEST(EntryHint, SaysWhatToChange) {

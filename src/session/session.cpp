@@ -20,6 +20,7 @@ Session::Session(const cases::CaseData& data,
     : data_(data),
       procedure_(procedure),
       bodies_(data),
+      aim_(procedure.opening(data).aim),
       broken_(broken_bone_of(data, procedure.target)),
       held_(resting(initial)),
       latest_(initial) {}
@@ -75,7 +76,7 @@ const HeldInput& Session::let_go() noexcept {
 }
 
 protocol::Exercise Session::exercise() const {
-  return exercise_message(data_, procedure_, latest_.mode, latest_.seed);
+  return exercise_message(data_, procedure_, aim_, latest_.mode, latest_.seed);
 }
 
 std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& now,
@@ -120,8 +121,7 @@ protocol::LoggedEvent Session::describe(const simulation::Event& event) const {
   return session::describe(event, procedure_, bodies_);
 }
 
-/// Of a wire that went into what is operated on; empty for all else. Asked a few times in an
-/// operation, so the aim is found anew.
+/// Of a wire that went into what is operated on; empty for all else.
 std::string Session::hint_on(const simulation::Event& event,
                              const simulation::Snapshot& then) const {
   const auto body = static_cast<std::size_t>(event.detail);
@@ -135,9 +135,7 @@ std::string Session::hint_on(const simulation::Event& event,
       !item.in_target) {
     return {};
   }
-  const procedure::Aim aim = procedure_.opening(data_).aim;
-  if (!(aim.length_mm > 0.0)) return {};  // this procedure has none
-  return ". " + entry_hint(data_, aim, then, body, item);
+  return is_aimed() ? ". " + entry_hint(data_, aim_, then, item) : std::string();
 }
 
 std::string Session::hint_for(std::uint8_t item, const simulation::Snapshot& then) const {
@@ -148,13 +146,10 @@ std::string Session::hint_for(std::uint8_t item, const simulation::Snapshot& the
   if (broken_ && instruments::catalogue()[then.items[item].instrument].is_joystick) {
     return reduction_hint(data_, *broken_, then);
   }
-  const procedure::Aim aim = procedure_.opening(data_).aim;
-  std::size_t target = 0;
-  while (target < data_.bones.size() && data_.bones[target].bone != procedure_.target) ++target;
-  if (!(aim.length_mm > 0.0) || target == data_.bones.size()) return "this procedure has none.";
+  if (!is_aimed()) return "this procedure has none.";
   simulation::ItemView held = then.items[item];
   if (held.body == simulation::kNoBody) held.entry_in_patient = held.tip_in_patient;
-  return entry_hint(data_, aim, then, target, held);
+  return entry_hint(data_, aim_, then, held);
 }
 
 std::optional<protocol::LoggedEvent> Session::tell(const simulation::Event& event,

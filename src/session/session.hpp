@@ -65,6 +65,7 @@ class Session {
  private:
   using BonePose = Pose<frame::Patient, frame::Bone>;
 
+  [[nodiscard]] bool is_aimed() const noexcept { return aim_.body < data_.bones.size(); }
   /// On request: of what is in that hand, in bone or not.
   [[nodiscard]] std::string hint_for(std::uint8_t item, const simulation::Snapshot& then) const;
   [[nodiscard]] std::string hint_on(const simulation::Event& event,
@@ -73,6 +74,7 @@ class Session {
   const cases::CaseData& data_;
   const procedure::Procedure& procedure_;
   BodyNames bodies_;
+  procedure::Aim aim_;
   std::optional<BrokenBone> broken_;  ///< the bone that is operated on, where it is in pieces
   HeldInput held_;
   simulation::Snapshot latest_;

@@ -92,25 +92,13 @@ Reducing::Reducing(const cases::CaseData& data, const procedure::Procedure& proc
 
 /// Where the screw will run once the faces meet.
 void Reducing::plan_axis() {
-  const Vec3 opposed = -faces_->first_normal;
-  Mat3 rotation = Mat3::identity();
-  if (dot(faces_->second_normal, opposed) > -0.5) {
-    const std::array<Vec3, 3> columns{turned_as(faces_->second_normal, opposed, {1, 0, 0}),
-                                      turned_as(faces_->second_normal, opposed, {0, 1, 0}),
-                                      turned_as(faces_->second_normal, opposed, {0, 0, 1})};
-    for (std::size_t r = 0; r < 3; ++r) {
-      rotation.rows[r] = {columns[0][r], columns[1][r], columns[2][r]};
-    }
-  }
-  const Pose<frame::Bone, frame::Bone> first_from_second{
-      rotation, faces_->first_middle - rotation * faces_->second_middle};
-  first_from_second_ = first_from_second;
-  const MeshIn<frame::Bone> second = first_from_second * case_.bones[second_].surface;
+  first_from_second_ = faces_->first_from_second_reduced();
+  const MeshIn<frame::Bone> second = first_from_second_ * case_.bones[second_].surface;
   const std::array<const MeshIn<frame::Bone>*, 2> parts{&case_.bones[first_].surface, &second};
   const auto& scanned = case_.scaphoid.central_axis;
   const auto found = find_central_axis(BoneSolid(parts), scanned.proximal - scanned.distal);
   first_axis_ = found ? found->axis : BoneLine{scanned.proximal, scanned.distal};
-  const auto back = first_from_second.inverse();
+  const auto back = first_from_second_.inverse();
   second_axis_ = {(back * Point<frame::Bone>{first_axis_.start}).v,
                   (back * Point<frame::Bone>{first_axis_.end}).v};
 }

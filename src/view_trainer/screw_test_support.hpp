@@ -47,26 +47,15 @@ namespace carpus::view_trainer::test {
 /// The same with a scaphoid in two halves, 1.6 mm apart about its middle.
 [[nodiscard]] inline cases::CaseData broken_wrist() {
   cases::CaseData data = wrist();
-  const cases::test::Ellipsoid body = cases::test::synthetic_scaphoid();
-  const Vec3 along = body.rotation.column(2);
-  const auto half = [&](double sign) {
-    TriangleMesh mesh = cases::test::surface_of(body, 4);
-    for (Vec3& v : mesh.vertices) {
-      const double height = dot(v - body.centre, along) * sign;
-      constexpr double kFaceMm = 0.8;
-      if (height < kFaceMm) v += along * (sign * (kFaceMm - height));
-    }
-    return MeshIn<frame::Bone>(std::move(mesh));
-  };
+  constexpr double kFaceMm = 0.8;
   const auto it = std::find_if(data.bones.begin(), data.bones.end(), [](const cases::Bone& bone) {
     return bone.bone == BoneId::Scaphoid;
   });
-  const bool proximal_is_plus = along.z > 0;
   cases::Bone distal = *it;
   it->part = BonePart::Proximal;
-  it->surface = half(proximal_is_plus ? 1.0 : -1.0);
+  it->surface = cases::test::half_scaphoid(BonePart::Proximal, kFaceMm);
   distal.part = BonePart::Distal;
-  distal.surface = half(proximal_is_plus ? -1.0 : 1.0);
+  distal.surface = cases::test::half_scaphoid(BonePart::Distal, kFaceMm);
   data.bones.insert(it + 1, std::move(distal));
   return data;
 }

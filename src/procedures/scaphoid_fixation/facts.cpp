@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "anatomy/central_axis.hpp"
+#include "cases/scaphoid_landmarks.hpp"
 #include "procedures/scaphoid_fixation/screws.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
@@ -157,12 +157,7 @@ cases::ScaphoidLandmarks marks_of(const cases::CaseData& data,
                          Direction<frame::Bone>{data.scaphoid.central_axis.proximal -
                                                 data.scaphoid.central_axis.distal})
                             .v;
-  const auto found = find_central_axis(BoneSolid(all), proximal);
-  if (!found) return data.scaphoid;
-  return {{found->axis.start, found->axis.end},
-          found->radius_mm,
-          {found->longest_line.start, found->longest_line.end},
-          found->waist};
+  return cases::find_scaphoid_landmarks(all, proximal).value_or(data.scaphoid);
 }
 
 }  // namespace

@@ -87,8 +87,9 @@ bool is_surveyed(const Situation& now) noexcept {
   return has_all(views_in(now.shots), kWanted);
 }
 
-bool is_displaced(const Situation& now) noexcept {
-  const procedure::FractureFacts& fracture = now.fracture;
+bool is_displaced(const Situation& now) noexcept { return lies_apart(now.fracture); }
+
+bool lies_apart(const procedure::FractureFacts& fracture) noexcept {
   return fracture.is_apart && (fracture.gap_mm > kAlignedMm || fracture.step_mm > kAlignedMm ||
                                fracture.cosine_angle < kAlignedCosine);
 }
@@ -108,9 +109,8 @@ bool is_ring_seen(const Situation& now) noexcept {
 }
 
 bool is_entry_right(const Situation& now) noexcept {
-  const double within = now.aim.entry_within_mm;
   return any_line(now, Work::Drill, [&](const LineFacts& line) {
-    return squared_length(line.entry_in_bone - now.aim.entry) <= within * within;
+    return line.from_aim_mm <= now.aim.entry_within_mm;
   });
 }
 

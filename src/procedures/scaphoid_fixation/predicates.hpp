@@ -22,6 +22,7 @@ using procedure::Situation;
 [[nodiscard]] bool is_reduced(const Situation& now) noexcept;
 /// The pieces lie farther from each other.
 [[nodiscard]] bool is_displaced(const Situation& now) noexcept;
+[[nodiscard]] bool lies_apart(const procedure::FractureFacts& fracture) noexcept;
 /// A wire lies in the scaphoid that went in where the aim's entry is.
 [[nodiscard]] bool is_entry_right(const Situation& now) noexcept;
 /// A wire is 4 mm deep on a line that is at least 85 % as long as the longest.

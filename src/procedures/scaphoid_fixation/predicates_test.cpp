@@ -21,7 +21,7 @@ struct Scene {
   std::vector<Shot> shots;
   Situation now;
 
-  Scene() { now.aim = {{1, 2, 3}, {0, 0, 1}, 27.0, 4.0}; }
+  Scene() { now.aim = {0, {1, 2, 3}, {0, 0, 1}, 27.0, 4.0}; }
   const Situation& seen() {
     now.lines = lines;
     now.shots = shots;
@@ -133,7 +133,7 @@ TEST(Predicates, AnEntryIsRightWhereTheAimGoesIn) {
   EXPECT_FALSE(is_entry_right(scene.seen())) << "touching is not entering";
   scene.lines = {line("guide_wire", 1)};
   EXPECT_TRUE(is_entry_right(scene.seen()));
-  scene.lines.front().entry_in_bone = {1, 2, 7.5};
+  scene.lines.front().from_aim_mm = 4.5;
   EXPECT_FALSE(is_entry_right(scene.seen())) << "beside it";
   scene.lines = {line("acutrak_2_mini_24", 1)};
   EXPECT_FALSE(is_entry_right(scene.seen())) << "a screw finds no entry";

@@ -27,13 +27,13 @@ constexpr std::uint32_t kPulseTicks = 1000 / procedure::kPulsesPerSecond;
 double World::State::along_aim(const Model& model,
                                double rotation_deg,
                                double tilt_deg) const noexcept {
+  const procedure::Aim& aim = model.opening.aim;
+  if (aim.body == procedure::kNoBody) return 0.0;
   const SinCos rotation = sin_cos_deg(rotation_deg);
   const SinCos tilt = sin_cos_deg(tilt_deg);
   const double radial = model.data.side == Side::Left ? -1.0 : 1.0;
   const Vec3 towards_source{tilt.sin, radial * rotation.sin * tilt.cos, -rotation.cos * tilt.cos};
-  const Vec3 line = (poses[detail::first_of(model.kinds.target)] *
-                     Direction<frame::Bone>{model.opening.aim.direction})
-                        .v;
+  const Vec3 line = (poses[aim.body] * Direction<frame::Bone>{aim.direction}).v;
   return absolute(
       dot((model.data.wrist_from_patient * Direction<frame::Patient>{line}).v, towards_source));
 }

@@ -19,6 +19,12 @@ procedure::LineFacts World::State::facts_of(const Model& model, const Item& item
   facts.in_hand = item.hand != kNoHand;
   facts.in_target = item.in_target;
   facts.entry_in_bone = entry_in_bone(item);
+  const std::uint8_t aim = model.opening.aim.body;
+  if (item.is_fixed() && aim != procedure::kNoBody) {
+    const Vec3 entry = (poses[item.body] * Point<frame::Bone>{facts.entry_in_bone}).v;
+    facts.from_aim_mm =
+        length(entry - (poses[aim] * Point<frame::Bone>{model.opening.aim.entry}).v);
+  }
   facts.direction_in_bone = item.direction_in_bone;
   facts.depth_mm = item.depth_mm();
   facts.chord_mm = item.chord_mm;

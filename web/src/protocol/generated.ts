@@ -200,8 +200,10 @@ export interface NamedView {
   readonly radial_deviation_deg: number | null;
 }
 
-/** The line and the screw that the procedure is after, frame of the target as scanned. */
+/** The line and the screw that the procedure is after: of a bone that is to be reduced first, those of the bone reduced. */
 export interface Ideal {
+  /** in whose frame as scanned all else is: the piece with the entry */
+  readonly body: string;
   readonly entry_mm: Vec3;
   /** unit, into the bone */
   readonly direction: Vec3;

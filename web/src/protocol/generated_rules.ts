@@ -99,6 +99,7 @@ export const SCHEMA: Schema = {
       radial_deviation_deg: {"type": "number", "min": -60, "max": 60, "optional": true},
     } },
     ideal: { fields: {
+      body: {"type": "string", "max_length": 32},
       entry_mm: {"type": "vec3", "limit": 10000},
       direction: {"type": "vec3", "limit": 1.001},
       length_mm: {"type": "number", "min": 0, "max": 1000},

@@ -13,7 +13,7 @@ const SEGMENTS = 24;
 const UP = new THREE.Vector3(0, 1, 0);
 
 export class Ghost {
-  /** In the frame of the bone as scanned [mm]; to be put under it. */
+  /** In the frame of the ideal's body as scanned [mm]; to be put under it. */
   readonly group = new THREE.Group();
 
   constructor() {

@@ -270,7 +270,7 @@ export class Theatre {
   }
 
   showGhost(on: boolean): void {
-    this.targetBone()?.add(this.ghost.group);
+    this.idealBone()?.add(this.ghost.group);
     this.ghost.group.visible = on;
     this.stale = true;
   }
@@ -284,25 +284,24 @@ export class Theatre {
     this.stale = true;
   }
 
-  private targetBone(): THREE.Object3D | undefined {
-    const [first] = this.target;
-    return this.caseScene.bones.find((bone) => bone.name === first);
+  /** The piece in which the ideal line goes in. */
+  private idealBone(): THREE.Object3D | undefined {
+    return this.caseScene.bones.find((bone) => bone.name === this.ideal?.body);
   }
 
   /** The plane goes with the camera, and with the bone in which the axis lies. */
   private followCut(): void {
-    const bone = this.targetBone();
-    if (this.cut === "off" || bone === undefined) return this.cutBones.cut(undefined);
+    if (this.cut === "off") return this.cutBones.cut(undefined);
     const { axis, entry, plane, sight } = this.scratch;
     this.sight.camera.getWorldDirection(sight);
-    const isAlong = this.cut === "axis" && this.ideal !== null;
-    if (isAlong && this.ideal !== null) {
+    const bone = this.cut === "axis" ? this.idealBone() : undefined;
+    if (bone !== undefined && this.ideal !== null) {
       entry.set(...this.ideal.entry_mm).applyMatrix4(bone.matrixWorld);
       axis.set(...this.ideal.direction).transformDirection(bone.matrixWorld);
     } else {
       entry.copy(middleOf(this.caseScene, this.target));
     }
-    const found = cutPlane(entry.toArray(), sight.toArray(), isAlong ? axis.toArray() : undefined);
+    const found = cutPlane(entry.toArray(), sight.toArray(), bone && axis.toArray());
     if (found === undefined) return this.cutBones.cut(undefined);
     plane.normal.set(...found.normal);
     plane.constant = found.constant;
