@@ -27,6 +27,8 @@ struct Pass {
   double far_exit_mm = 0.0;          ///< the wire's tip beyond the target's far surface, at most
   std::uint32_t far_exits = 0;
   double follower_exit_mm = 0.0;  ///< likewise, of what ran over the wire
+  /// Of its ways out there the one with the shortest way through the target; 0 where there is none.
+  double shortest_exit_mm = 0.0;
   bool was_undone = false;
   bool operator==(const Pass&) const = default;
 };
@@ -80,8 +82,10 @@ struct OperationRecord {
   std::vector<NearStructure> structures;  ///< one each of the case's
   double gauge_reading_mm = -1.0;         ///< last reading, -1 for none
   double reamed_mm = 0.0;                 ///< greatest depth of a reamer along its wire
-  double holding_share = 1.0;  ///< of a screw in untouched bone [1] (instruments/…holding)
-  FractureFacts fracture;      ///< at the end
+  double holding_share = 1.0;       ///< of a screw in untouched bone [1] (instruments/…holding)
+  FractureFacts fracture_at_first;  ///< before anything was done
+  FractureFacts fracture;           ///< at the end
+  Judgement judgement = Judgement::None;
   /// By body, where it lies beside where the wrist's motion takes it; empty while none was moved.
   std::vector<Pose<frame::Bone, frame::Bone>> displacements;
   double compression_n = 0.0;         ///< of the pieces on each other, by the screw
@@ -94,6 +98,9 @@ struct OperationRecord {
   std::uint32_t aids_used = 0;        ///< how often any was
   Tick ticks = 0;                     ///< duration
   std::uint32_t completed_steps = 0;  ///< bit i: step i
+  /// By step, when it was first done, undone since or not; 0: never.
+  std::vector<Tick> first_done;
+  double unheld_ream_mm = 0.0;  ///< greatest depth of a reamer over a wire not out at both ends
   bool finished = false;
   std::uint8_t declined_for = 0;  ///< bit i: Procedure::decline.reasons[i]; 0: not declined
 };

@@ -145,6 +145,7 @@ Procedure read_procedure(std::string_view json,
   procedure.rules = detail::read_score_rules(fields);
   procedure.decline = detail::read_decline_rules(fields);
   procedure.examines = fields.boolean_or("examines", false);
+  procedure.judges_displacement = fields.boolean_or("judges_displacement", false);
   refuse_twins(fields, "steps", procedure.steps);
   refuse_twins(fields, "views", procedure.views);
   fields.refuse_unknown_fields();

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "anatomy/hand_pose.hpp"
+#include "anatomy/reduction.hpp"
 #include "core/units.hpp"
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
@@ -68,7 +69,8 @@ struct LineFacts {
   double buried_mm = 0.0;    ///< a screw's tail below the surface; negative while it stands out
   /// Of a wire, beyond its entry towards the hand; negative when its near end is in the bone.
   double near_end_out_mm = 0.0;
-  bool was_flush = false;  ///< it was drawn through until that end lay level with the bone
+  bool far_end_is_out = false;  ///< a wire's, of the skin beyond the bone
+  bool was_flush = false;       ///< it was drawn through until that end lay level with the bone
   bool operator==(const LineFacts&) const = default;
 };
 
@@ -103,6 +105,12 @@ struct FractureFacts {
   double cosine_angle = 1.0;
   bool operator==(const FractureFacts&) const = default;
 };
+[[nodiscard]] constexpr FractureFacts facts_of(const anatomy::FractureOffset& offset) noexcept {
+  return {true, offset.gap_mm, offset.step_mm, offset.cosine_angle};
+}
+
+/// What was said of the fracture before anything was drilled.
+enum class Judgement : std::uint8_t { None = 0, Aligned = 1, Displaced = 2 };
 
 /// What has been done by arthroscopy. A point's bit is its number in the tour.
 struct ScopeFacts {
@@ -132,6 +140,7 @@ struct Situation {
   double reamed_mm = 0.0;  ///< greatest depth of a reamer along its wire, from the entry
   WristPose wrist;
   FractureFacts fracture;
+  Judgement judgement = Judgement::None;
   Aim aim;
   ScopeFacts scope;
   bool is_finishing = false;  ///< this is the tick of Finish

@@ -92,6 +92,7 @@ void read(FieldReader& in, Act& out) {
   if (in.has("item")) out.item = in.integer("item", 0, 254);
   if (in.has("aid")) out.aid = static_cast<Aid>(in.choice("aid", kAidNames));
   if (in.has("reasons")) in.list("reasons", 0, 8, 32, out.reasons.emplace());
+  if (in.has("displaced")) out.displaced = in.boolean("displaced");
 }
 
 void write(FieldWriter& out, const Act& in) {
@@ -121,6 +122,11 @@ void write(FieldWriter& out, const Act& in) {
     out.list("reasons", *in.reasons, 32);
   } else {
     out.null("reasons");
+  }
+  if (in.displaced) {
+    out.value("displaced", *in.displaced);
+  } else {
+    out.null("displaced");
   }
 }
 
@@ -348,6 +354,7 @@ void read(FieldReader& in, Snapshot& out) {
   if (in.has("gauge_reading_mm")) out.gauge_reading_mm = in.number("gauge_reading_mm", 0.0, 1000.0);
   out.holding_share = in.number("holding_share", 0.0, 1.0);
   out.passes = in.integer("passes", 0, 4294967295);
+  if (in.has("judged_displaced")) out.judged_displaced = in.boolean("judged_displaced");
   in.record("c_arm", out.c_arm);
   out.shots = in.integer("shots", 0, 4294967295);
   out.dose_cgy_cm2 = in.number("dose_cgy_cm2", 0.0, 1000000.0);
@@ -381,6 +388,11 @@ void write(FieldWriter& out, const Snapshot& in) {
   }
   out.value("holding_share", in.holding_share);
   out.value("passes", in.passes);
+  if (in.judged_displaced) {
+    out.value("judged_displaced", *in.judged_displaced);
+  } else {
+    out.null("judged_displaced");
+  }
   out.record("c_arm", in.c_arm);
   out.value("shots", in.shots);
   out.value("dose_cgy_cm2", in.dose_cgy_cm2);

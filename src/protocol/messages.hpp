@@ -98,6 +98,8 @@ struct Act {
   std::optional<Aid> aid;
   /// of decline: ids of exercise.decline_reasons, at least one
   std::optional<std::vector<std::string>> reasons;
+  /// of judge: whether the fracture is, before anything is drilled
+  std::optional<bool> displaced;
   bool operator==(const Act&) const = default;
 };
 
@@ -316,6 +318,8 @@ struct Snapshot {
   double holding_share = 0.0;
   /// how often bone was entered anew 0 to 4294967295
   std::int64_t passes = 0;
+  /// what was said of the fracture; none: nothing yet, or it is not asked
+  std::optional<bool> judged_displaced;
   CArmStand c_arm;
   /// pictures taken, and times that the pedal went down 0 to 4294967295
   std::int64_t shots = 0;

@@ -66,11 +66,12 @@ enum class ActionId : std::uint8_t {
   Finish,
   Decline,
   UseAid,
-  ReturnToStep
+  ReturnToStep,
+  Judge
 };
-inline constexpr std::array<std::string_view, 11> kActionIdNames{
-    "take", "pick_up", "pick_up_far_end", "put_down", "read_gauge",    "take_shot",
-    "undo", "finish",  "decline",         "use_aid",  "return_to_step"};
+inline constexpr std::array<std::string_view, 12> kActionIdNames{
+    "take", "pick_up", "pick_up_far_end", "put_down", "read_gauge",     "take_shot",
+    "undo", "finish",  "decline",         "use_aid",  "return_to_step", "judge"};
 [[nodiscard]] constexpr std::string_view name_of(ActionId value) noexcept {
   return kActionIdNames[static_cast<std::size_t>(value)];
 }

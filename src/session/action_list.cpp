@@ -31,6 +31,8 @@ class ActionList {
     add_steps();
     add(ActionId::Finish, {CommandKind::Finish}, "Finish the operation").hand = -1;
     add(ActionId::UseAid, {CommandKind::UseAid}, "Aids").hand = -1;
+    const auto first_answer = static_cast<std::uint8_t>(procedure::Judgement::Aligned);
+    add(ActionId::Judge, {CommandKind::Judge, 0, first_answer}, "Judge the fracture").hand = -1;
     // Whether it can be declined at all: the first reason stands for any.
     add(ActionId::Decline, {CommandKind::Decline, 0, 1}, "Decline to operate").hand = -1;
     return std::move(message_);

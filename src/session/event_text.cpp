@@ -82,6 +82,10 @@ class Sentence {
         return "The wire broke at the bone";
       case EventKind::ScrewStripped:
         return "The screw turns freely: its thread gave way";
+      case EventKind::Judged:
+        return place() == static_cast<std::size_t>(procedure::Judgement::Displaced)
+                   ? "Judged: the fracture is displaced"
+                   : "Judged: the fracture is aligned";
       case EventKind::AidUsed:
         return "Aid: " + procedure::in_words(static_cast<procedure::Aid>(event_.detail));
       case EventKind::StructureStruck:
@@ -139,14 +143,14 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 27> kNames{
+constexpr std::array<std::string_view, 28> kNames{
     "none",           "touched_bone", "entered_bone",     "left_far_side",
     "withdrawn",      "shot_taken",   "gauge_read",       "taken",
     "put_down",       "seated",       "step_completed",   "undone",
     "finished",       "refused",      "wrong_bone",       "slipped",
     "wrist_stopped",  "live_ended",   "wire_bent",        "wire_broke",
     "screw_stripped", "aid_used",     "structure_struck", "entered_joint",
-    "left_joint",     "point_seen",   "point_probed"};
+    "left_joint",     "point_seen",   "point_probed",     "judged"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {

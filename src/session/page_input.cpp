@@ -54,6 +54,8 @@ std::optional<CommandKind> kind_of(protocol::ActionId id) noexcept {
       return CommandKind::UseAid;
     case protocol::ActionId::Decline:
       return CommandKind::Decline;
+    case protocol::ActionId::Judge:
+      return CommandKind::Judge;
     case protocol::ActionId::TakeShot:
       break;
   }
@@ -140,6 +142,11 @@ Result<Command> command_of(const protocol::Act& message, const procedure::Proced
   if (*kind == CommandKind::UseAid) {
     if (!message.aid) return Refusal{"use_aid needs an aid"};
     command.index = static_cast<std::uint8_t>(*message.aid);
+  }
+  if (*kind == CommandKind::Judge) {
+    if (!message.displaced) return Refusal{"judge needs to know what: displaced or not"};
+    command.index = static_cast<std::uint8_t>(*message.displaced ? procedure::Judgement::Displaced
+                                                                 : procedure::Judgement::Aligned);
   }
   if (*kind == CommandKind::ReturnToStep) {
     if (!message.item) return Refusal{"return_to_step needs a step"};

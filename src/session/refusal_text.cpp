@@ -49,6 +49,8 @@ std::string_view text_of(simulation::Refusal refusal) noexcept {
       return "In an assessed operation nothing helps but the pictures and the hand";
     case Refusal::NoWayBackToStep:
       return "Too much was done since: from that step on it cannot be done again";
+    case Refusal::TooLateToJudge:
+      return "Bone has been entered: whether it is displaced is judged before";
     case Refusal::NoReasonToDecline:
       return "Say why: choose at least one of the reasons";
   }

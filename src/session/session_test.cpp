@@ -214,6 +214,7 @@ TEST(Session, EveryActionThatIsNotAllowedIsRefusedWithTheReasonThatWasTold) {
     message.hand = std::max<std::int64_t>(0, action.hand);
     if (!action.instrument.empty()) message.instrument = action.instrument;
     if (action.item >= 0) message.item = action.item;
+    if (action.id == protocol::ActionId::Judge) message.displaced = true;
     page.events.clear();
     EXPECT_EQ(page.say(message), "");
     page.run(1);

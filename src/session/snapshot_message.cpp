@@ -125,6 +125,9 @@ protocol::Snapshot snapshot_message(const simulation::Snapshot& now,
   if (now.gauge_reading_mm >= 0) message.gauge_reading_mm = now.gauge_reading_mm;
   message.holding_share = std::clamp(now.holding_share, 0.0, 1.0);
   message.passes = now.passes;
+  if (now.judgement != procedure::Judgement::None) {
+    message.judged_displaced = now.judgement == procedure::Judgement::Displaced;
+  }
   message.c_arm = {simulation::held_rotation_deg(now.c_arm.rotation_deg, now.wrist.pronation_rad),
                    now.c_arm.tilt_deg, now.c_arm.pedal_is_down && !host.paused && !now.finished,
                    static_cast<double>(procedure::kTubeKv[procedure::voltage_of(now.tube)]),

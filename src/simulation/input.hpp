@@ -42,8 +42,10 @@ enum class CommandKind : std::uint8_t {
   /// Back to the last checkpoint at which step `index` was not done; practice only, counted as one
   /// undo.
   ReturnToStep = 15,
+  /// `index`: which procedure::Judgement of the fracture; before anything is drilled.
+  Judge = 16,
 };
-inline constexpr std::uint8_t kCommandKinds = 16;
+inline constexpr std::uint8_t kCommandKinds = 17;
 
 /// After it the state is not one that follows from the tick before.
 [[nodiscard]] constexpr bool goes_back(CommandKind kind) noexcept {

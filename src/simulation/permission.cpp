@@ -14,6 +14,8 @@
 namespace carpus::simulation {
 namespace {
 
+using procedure::Judgement;
+
 /// A wire bent by more than this lets nothing with a bore run over it [E].
 constexpr double kStraightRad = 0.1;
 
@@ -153,6 +155,12 @@ Refusal why_not(const procedure::Procedure& procedure,
       const bool is_said = command.index != 0 && (command.index >> known) == 0;
       return is_said ? Refusal::None : Refusal::NoReasonToDecline;
     }
+    case CommandKind::Judge: {
+      const bool is_said = command.index == static_cast<std::uint8_t>(Judgement::Aligned) ||
+                           command.index == static_cast<std::uint8_t>(Judgement::Displaced);
+      if (!procedure.judges_displacement || !is_said) return Refusal::UnknownCommand;
+      return now.passes == 0 ? Refusal::None : Refusal::TooLateToJudge;
+    }
     case CommandKind::UseAid:
       if (command.index >= procedure::kAidCount) return Refusal::UnknownCommand;
       return now.mode == procedure::Mode::Assessed ? Refusal::NoAidsWhenAssessed : Refusal::None;
@@ -181,7 +189,7 @@ Refusal why_not(const procedure::Procedure& procedure,
 }
 
 std::string_view name_of(Refusal refusal) noexcept {
-  static constexpr std::array<std::string_view, 22> kNames{"none",
+  static constexpr std::array<std::string_view, 23> kNames{"none",
                                                            "finished",
                                                            "unknown_command",
                                                            "no_such_hand",
@@ -202,7 +210,8 @@ std::string_view name_of(Refusal refusal) noexcept {
                                                            "wire_is_bent",
                                                            "no_reason_to_decline",
                                                            "no_aids_when_assessed",
-                                                           "no_way_back_to_step"};
+                                                           "no_way_back_to_step",
+                                                           "too_late_to_judge"};
   const auto index = static_cast<std::size_t>(refusal);
   return index < kNames.size() ? kNames[index] : kNames[2];
 }

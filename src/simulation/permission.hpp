@@ -39,6 +39,7 @@ enum class Refusal : std::uint8_t {
   NoReasonToDecline,  ///< none was said, or one that the procedure does not know
   NoAidsWhenAssessed,
   NoWayBackToStep,  ///< it is not done, or no checkpoint before that is kept
+  TooLateToJudge,   ///< bone was entered
 };
 
 /// Plain comparisons on what the last tick left: real-time.

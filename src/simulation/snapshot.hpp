@@ -132,6 +132,7 @@ enum class EventKind : std::uint8_t {
   LeftJoint = 24,     ///< likewise
   PointSeen = 25,     ///< detail: its number in the tour
   PointProbed = 26,   ///< likewise
+  Judged = 27,        ///< detail: procedure::Judgement
 };
 
 struct Event {
@@ -164,12 +165,13 @@ struct Snapshot {
   double gauge_reading_mm = -1.0;     ///< last reading, -1 before any
   double holding_share = 1.0;         ///< of the screw in the target, of that in untouched bone
   double compression_n = 0.0;         ///< of what the screw holds
-  std::uint32_t passes = 0;           ///< how often bone was entered anew
-  CArmInput c_arm;                    ///< as it stands; pedal_is_down while it is looked through
-  std::uint32_t shots = 0;            ///< kept of all looks: OperationRecord::shots
-  std::uint32_t looks = 0;            ///< shots taken and times that the pedal went down
-  std::uint32_t pulses = 0;           ///< of the tube in all
-  std::uint64_t dose_units = 0;       ///< procedure::dose_units of them
+  procedure::Judgement judgement = procedure::Judgement::None;
+  std::uint32_t passes = 0;      ///< how often bone was entered anew
+  CArmInput c_arm;               ///< as it stands; pedal_is_down while it is looked through
+  std::uint32_t shots = 0;       ///< kept of all looks: OperationRecord::shots
+  std::uint32_t looks = 0;       ///< shots taken and times that the pedal went down
+  std::uint32_t pulses = 0;      ///< of the tube in all
+  std::uint64_t dose_units = 0;  ///< procedure::dose_units of them
   procedure::TubeSetting tube = procedure::kUsualTube;
   ScopeView scope;
   /// Of the disc's particles, by how much they are off where they rest, frame Bone of the forearm

@@ -273,7 +273,7 @@ procedure::OperationRecord World::operation_record() const {
     const detail::PassState& pass = state.spent.passes[i];
     record.passes.push_back({pass.instrument, pass.first_body, pass.bodies_entered,
                              pass.far_exit_mm, pass.far_exits, pass.follower_exit_mm,
-                             pass.was_undone});
+                             pass.shortest_exit_mm, pass.was_undone});
   }
   record.shots.assign(state.shots.begin(), state.shots.begin() + state.spent.shot_count);
   for (std::size_t i = 0; i < state.structure_state.count; ++i) {
@@ -284,6 +284,9 @@ procedure::OperationRecord World::operation_record() const {
   record.reamed_mm = state.now.reamed_mm;
   record.holding_share = state.now.holding_share;
   record.fracture = state.fracture_now(*model_);
+  if (model_->fracture)
+    record.fracture_at_first = procedure::facts_of(model_->fracture->faces.offset({}));
+  record.judgement = state.spent.judgement;
   const bool has_moved = std::any_of(state.now.moved.begin(), state.now.moved.end(),
                                      [](const auto& moved) { return !moved.is_none(); });
   for (std::size_t b = 0; has_moved && b < state.snapshot.body_count; ++b) {
@@ -297,6 +300,10 @@ procedure::OperationRecord World::operation_record() const {
   record.undos = state.spent.undos;
   record.ticks = state.spent.tick;
   record.completed_steps = state.now.completed_steps;
+  record.first_done.assign(
+      state.spent.first_done.begin(),
+      state.spent.first_done.begin() + static_cast<std::ptrdiff_t>(model_->procedure.steps.size()));
+  record.unheld_ream_mm = state.spent.unheld_ream_mm;
   record.finished = state.spent.ended != 0;
   record.declined_for = static_cast<std::uint8_t>(state.spent.ended >> 1U);
   record.aids = state.spent.aids;

@@ -57,6 +57,7 @@ void ScriptedTrainee::draw_through(const Snapshot& now, Input& input) {
   switch (phase_) {
     case Phase::DriveThrough:
     case Phase::PushBack:
+    case Phase::HoldWire:
       hand.driver = Driver::Forward;
       lean(held(now).depth_mm);
       hand.thrust_n = std::min(kGreatestPushN, kThrustN + lean_n_);
@@ -121,7 +122,10 @@ void ScriptedTrainee::measure(const Snapshot& now, Input& input) {
   if (in_phase_ == kReadAt) input.command = of_hand(CommandKind::ReadGauge, 1);
   if (in_phase_ == kPutDownAt) input.command = of_hand(CommandKind::PutDown, 1);
   if (in_phase_ < kDoneAt) return;
-  enter(drill_ != instruments::kNoInstrument ? Phase::Ream : Phase::Choose, now);
+  enter(drill_ == instruments::kNoInstrument ? Phase::Choose
+        : is_drawn_through_                  ? Phase::HoldWire
+                                             : Phase::Ream,
+        now);
 }
 
 void ScriptedTrainee::ream(const Snapshot& now, Input& input) {
@@ -191,7 +195,7 @@ void ScriptedTrainee::take_wire(const Snapshot& now, Input& input) {
     enter(Phase::DrawWire, now);
     return;
   }
-  enter(Phase::Verify, now);
+  enter(Phase::Finish, now);
 }
 
 /// The second hand keeps beside the first.
@@ -232,6 +236,7 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
     case Phase::PushBack:
     case Phase::TakeNearEnd:
     case Phase::DrawBack:
+    case Phase::HoldWire:
       return draw_through(now, input);
     case Phase::Withdraw:
     case Phase::DrillOut:
@@ -255,7 +260,7 @@ void ScriptedTrainee::act(const Snapshot& now, Input& input) {
     case Phase::TakeWire:
       return take_wire(now, input);
     case Phase::Verify:
-      if (shoot(input)) enter(Phase::Finish, now);
+      if (shoot(input)) enter(Phase::LetGo, now);
       return;
     case Phase::Finish:
       input.command = of_hand(CommandKind::Finish, 0);

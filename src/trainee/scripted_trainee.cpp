@@ -14,6 +14,7 @@ namespace {
 
 using detail::kind_of;
 using detail::kWristTicks;
+using detail::of_hand;
 using instruments::InstrumentIndex;
 using instruments::Work;
 using simulation::CommandKind;
@@ -270,6 +271,7 @@ void ScriptedTrainee::judge_line(const Snapshot& now) {
     enter(Phase::Withdraw, now);
   } else {
     const bool goes_on = draws_through_ && is_in && is_way_out_free(now);
+    is_drawn_through_ = goes_on;
     after_freeing_ = goes_on ? Phase::DriveThrough : is_in ? Phase::Measure : Phase::Finish;
     after_sleeve_ = reducing_.has_left_wire() ? Phase::FreeFragment : after_freeing_;
     enter(sleeve_.is_held() ? Phase::PutSleeveDown : after_sleeve_, now);
@@ -298,6 +300,9 @@ void ScriptedTrainee::think(const Snapshot& now) {
     case Phase::PushBack:
     case Phase::DrawBack:
       return think_of_drawing_through(now);
+    case Phase::HoldWire:
+      if (held(now).far_end_is_out || in_phase_ > kPhaseTicks) enter(Phase::Ream, now);
+      return;
     case Phase::Ream:
       if (held(now).instrument == drill_ &&
           (held(now).depth_mm >= ream_depth_mm_ || in_phase_ > kPhaseTicks)) {
@@ -308,7 +313,7 @@ void ScriptedTrainee::think(const Snapshot& now) {
       if (held(now).wire == simulation::kNoItem) enter(Phase::Choose, now);
       return;
     case Phase::Insert:
-      if (held(now).buried_mm >= bury_mm_ || in_phase_ > kPhaseTicks) enter(Phase::LetGo, now);
+      if (held(now).buried_mm >= bury_mm_ || in_phase_ > kPhaseTicks) enter(Phase::Verify, now);
       return;
     case Phase::DrawWire:
       if (held(now).body == simulation::kNoBody || in_phase_ > kPhaseTicks) {
@@ -423,13 +428,30 @@ bool ScriptedTrainee::is_seen_apart(const Snapshot& now) const {
   return offset && std::max(offset->gap_mm, offset->step_mm) > profile_.noticed_displacement_mm;
 }
 
+/// What this trainee says of the fracture: a gap that a scan makes of a line is none [E].
+simulation::Command ScriptedTrainee::judgement(const Snapshot& now) const {
+  constexpr double kLineMm = 1.5;
+  const auto offset = reducing_.offset(now);
+  const double noticed_mm = std::max(kLineMm, profile_.noticed_displacement_mm);
+  const bool is_displaced = offset && std::max(offset->gap_mm, offset->step_mm) > noticed_mm;
+  simulation::Command command = of_hand(CommandKind::Judge, 0);
+  command.index = static_cast<std::uint8_t>(is_displaced ? procedure::Judgement::Displaced
+                                                         : procedure::Judgement::Aligned);
+  return command;
+}
+
 /// Before anything is drilled: a fracture that is seen apart is reduced first, once.
 void ScriptedTrainee::look_at_bone(const Snapshot& now, Input& input) {
-  if (!shoot(input)) return;
-  if (phase_ == Phase::Survey && is_seen_apart(now)) {
-    enter(Phase::Reduce, now);
+  // PA and lateral are seen: how it lies is said before the next picture.
+  constexpr std::size_t kJudgedAfter = 2;
+  const bool is_survey = phase_ == Phase::Survey;
+  if (is_survey && procedure_.judges_displacement && !has_judged_ && next_shot_ >= kJudgedAfter) {
+    input.command = judgement(now);
+    has_judged_ = true;
     return;
   }
+  if (!shoot(input)) return;
+  if (is_survey && is_seen_apart(now)) return enter(Phase::Reduce, now);
   try_again(now);
 }
 

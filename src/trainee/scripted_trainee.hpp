@@ -64,6 +64,7 @@ class ScriptedTrainee {
     DrawBack,
     Withdraw,
     Measure,
+    HoldWire,
     Ream,
     DrillOut,
     Choose,
@@ -119,6 +120,7 @@ class ScriptedTrainee {
   [[nodiscard]] bool is_seen_apart(const simulation::Snapshot& now) const;
   void plan_on_reduced_bone(const simulation::Snapshot& now);
   [[nodiscard]] bool is_posing(const simulation::Snapshot& now, simulation::Input& input);
+  [[nodiscard]] simulation::Command judgement(const simulation::Snapshot& now) const;
   void look_at_bone(const simulation::Snapshot& now, simulation::Input& input);
   /// A direction of frame Bone of the target in Patient, as it lies now.
   [[nodiscard]] Vec3 turned(const simulation::Snapshot& now, const Vec3& in_target) const;
@@ -143,11 +145,13 @@ class ScriptedTrainee {
   LeadingSleeve sleeve_;
 
   bool uses_sleeve_ = false;
-  bool draws_through_ = false;   ///< a step asks for it, and this trainee knows how
-  simulation::WristPose wrist_;  ///< as it is to be held
+  bool is_drawn_through_ = false;  ///< the wire was
+  bool draws_through_ = false;     ///< a step asks for it, and this trainee knows how
+  simulation::WristPose wrist_;    ///< as it is to be held
   Phase phase_ = Phase::Survey;
   Tick posing_ = 0;
   bool has_begun_ = false;
+  bool has_judged_ = false;
   Tick in_phase_ = 0;  ///< ticks since the phase began
   Tick wait_ = 0;      ///< reaction time left
   Tick total_ = 0;

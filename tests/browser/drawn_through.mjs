@@ -13,10 +13,15 @@ const TRAINEE = "Browser test, drawn through";
 
 const wireOf = (s) => s.items.find((item) => item.instrument === "guide_wire");
 
-async function hasDone(operator, id) {
+async function placeOf(operator, id) {
   const { steps } = await operator.exercise();
   const index = steps.findIndex((step) => step.id === id);
   expect(index >= 0, `there is no step ${id}`);
+  return index;
+}
+
+async function hasDone(operator, id) {
+  const index = await placeOf(operator, id);
   await operator.until((s) => s.completed_steps.includes(index), `step ${id} ticked`);
 }
 
@@ -45,7 +50,9 @@ export async function drawnThrough(browser, station) {
   const went = await check(page, "the wire is driven through and drawn at the thumb's base", async () => {
     await operator.start(station.url, TRAINEE, "dorsal_scaphoid_fixation", "practice");
     for (const key of ["1", "2"]) await operator.shot(key);
+    await page.getByRole("button", { name: "Aligned" }).click();
     await hasDone(operator, "survey");
+    await operator.logged("Judged: the fracture is aligned");
     await operator.placeSleeve(axis);
     await operator.placeWire(axis);
     await operator.driveWireTo(axis.lengthMm - 2);
@@ -97,6 +104,8 @@ export async function drawnThrough(browser, station) {
   const fixed = await check(page, "it is measured, reamed and fixed", async () => {
     await page.keyboard.press("m");
     await hasDone(operator, "measure");
+    const hold = await placeOf(operator, "hold");
+    await operator.holdKey("Space", (s) => s.completed_steps.includes(hold), "the wire out at both ends");
     await operator.take("cannulated_drill");
     await operator.driveOn((drill) => drill.depth_mm >= axis.lengthMm - 3.5, "the drill's depth");
     await operator.holdKey("r", (s) => Operator.held(s)?.instrument !== "cannulated_drill", "the drill out");
@@ -124,16 +133,19 @@ export async function drawnThrough(browser, station) {
     await operator.take((await operator.fittingScrew()).id);
     await operator.holdKey("Space", (s) => Operator.held(s).buried_mm >= 1.9, "the screw buried");
     await hasDone(operator, "insert");
+    for (const key of ["1", "2", "3", "6"]) await operator.shot(key);
+    await hasDone(operator, "verify");
     await page.keyboard.press("q");
     await operator.takeWireOut();
-    for (const key of ["1", "2", "3", "6"]) await operator.shot(key);
     const report = await finishedReport(page);
     const struck = report.items.structures_struck.reason;
     expect(report.unmet.length === 0, `not fulfilled: ${report.unmet.join("; ")} (${struck})`);
     expect(/acceptable/i.test(report.verdict) && !/not acceptable/i.test(report.verdict), report.verdict);
     expect(report.overall > 70, `${report.overall} points`);
     expect(report.items.undos.value === 1, "the step taken back is not counted");
-    expect(report.items.far_exits.value === 1, `${report.items.far_exits.value} ways out at the far side`);
+    expect(report.items.wire_held_while_reaming.value === 1, "the wire was not held at both ends");
+    expect(report.items.judgement_right.value === 1, report.items.judgement_right.reason);
+    expect(report.items.far_exits.value === 2, `${report.items.far_exits.value} ways out at the far side`);
     const pages = await printedPages(page);
     expect(pages === 2, `${pages} pages`);
   });

@@ -90,6 +90,7 @@ OperationRecord perfect() {
     }
   }
   record.completed_steps = (1U << declared().steps.size()) - 1U;
+  record.judgement = procedure::Judgement::Aligned;
   record.ticks = 300000;
   record.finished = true;
   return record;
@@ -285,7 +286,7 @@ TEST(Score, ViewsCountOnlyOnceWireOrScrewAreIn) {
   EXPECT_EQ(*item_of(report, "views_with_screw").value, 0.0);
 }
 
-TEST(Score, AWireMayGoThroughAndABentOneCosts) {
+TEST(Score, AWireMayGoThroughAndABentOneIsTold) {
   OperationRecord record = perfect();
   record.passes.front().far_exit_mm = 120.0;
   const double through = score(wrist(), record).overall;
@@ -293,20 +294,65 @@ TEST(Score, AWireMayGoThroughAndABentOneCosts) {
   record.most_bend_rad = 0.3;
   const ScoreReport bent = score(wrist(), record);
   EXPECT_NEAR(*item_of(bent, "wire_bend_deg").value, 17.2, 0.05);
-  EXPECT_LT(bent.overall, through);
+  EXPECT_EQ(item_of(bent, "wire_bend_deg").grade, Grade::Fail) << "told, not counted";
 }
 
-TEST(Score, OneWayOutIsMeantAndEachFurtherOneCosts) {
+TEST(Score, WhatIsSaidOfTheFractureIsHeldAgainstHowItLay) {
+  OperationRecord record = perfect();
+  EXPECT_EQ(*item_of(score(wrist(), record), "judgement_right").value, 1.0);
+  record.fracture_at_first = {true, 0.4, 2.4, 0.99};
+  const ScoreItem wrong = item_of(score(wrist(), record), "judgement_right");
+  EXPECT_EQ(*wrong.value, 0.0);
+  EXPECT_NE(wrong.reason.find("Said: aligned; it was displaced."), std::string::npos);
+  record.judgement = procedure::Judgement::Displaced;
+  EXPECT_EQ(*item_of(score(wrist(), record), "judgement_right").value, 1.0);
+  record.judgement = procedure::Judgement::None;
+  EXPECT_EQ(*item_of(score(wrist(), record), "judgement_right").value, 0.0) << "nothing was said";
+}
+
+TEST(Score, AWireThatIsOutAtOneEndAloneMayComeWithTheDrill) {
+  OperationRecord record = perfect();
+  EXPECT_EQ(*item_of(score(wrist(), record), "wire_held_while_reaming").value, 1.0);
+  record.unheld_ream_mm = 12.0;
+  EXPECT_EQ(*item_of(score(wrist(), record), "wire_held_while_reaming").value, 0.0);
+  record.reamed_mm = 0.0;
+  EXPECT_FALSE(item_of(score(wrist(), record), "wire_held_while_reaming").value.has_value());
+}
+
+TEST(Score, AWayOutAtTheSideIsNoneAtThePole) {
   OperationRecord record = perfect();
   record.passes.front().far_exits = 1;
+  record.passes.front().shortest_exit_mm = 26.0;
+  EXPECT_EQ(*item_of(score(wrist(), record), "side_exits").value, 0.0);
+  record.passes.front().shortest_exit_mm = 12.0;
+  EXPECT_EQ(*item_of(score(wrist(), record), "side_exits").value, 1.0);
+}
+
+TEST(Score, StepsOutOfTheirOrderAreNamed) {
+  OperationRecord record = perfect();
+  const std::size_t count = declared().steps.size();
+  for (std::size_t i = 0; i < count; ++i) record.first_done.push_back(10 * (i + 1));
+  EXPECT_EQ(*item_of(score(wrist(), record), "steps_out_of_order").value, 0.0);
+  record.first_done[3] = 0;  // left out
+  record.first_done[5] = record.first_done[4];
+  EXPECT_EQ(*item_of(score(wrist(), record), "steps_out_of_order").value, 0.0);
+  record.first_done[0] = 175;  // surveyed after all but the last
+  const ScoreItem late = item_of(score(wrist(), record), "steps_out_of_order");
+  EXPECT_EQ(*late.value, 1.0) << "one step, however far it was moved";
+  EXPECT_NE(late.reason.find(declared().steps[0].title), std::string::npos) << late.reason;
+}
+
+TEST(Score, TwoWaysOutAreMeantAndEachFurtherOneCosts) {
+  OperationRecord record = perfect();
+  record.passes.front().far_exits = 2;
   EXPECT_EQ(item_of(score(wrist(), record), "far_exits").grade, Grade::Good);
   record.passes.push_back(record.passes.front());
   record.passes.back().was_undone = true;
   record.passes.back().far_exits = 3;
   const ScoreItem out = item_of(score(wrist(), record), "far_exits");
-  EXPECT_EQ(*out.value, 4.0) << "what is undone counts";
+  EXPECT_EQ(*out.value, 5.0) << "what is undone counts";
   EXPECT_EQ(out.grade, Grade::Fail);
-  EXPECT_NE(out.reason.find("4 times"), std::string::npos) << out.reason;
+  EXPECT_NE(out.reason.find("5 times"), std::string::npos) << out.reason;
 }
 
 TEST(Score, TheGaugeIsHeldAgainstTheBone) {

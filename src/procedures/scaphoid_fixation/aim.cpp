@@ -31,8 +31,7 @@ std::optional<cases::ScaphoidLandmarks> reduced(const cases::CaseData& data,
                                                 const cases::Bone& far) {
   const auto faces = anatomy::reduction_of(near.surface, far.surface);
   if (!faces) return std::nullopt;
-  const anatomy::FractureOffset offset = faces->offset({});
-  if (!lies_apart({true, offset.gap_mm, offset.step_mm, offset.cosine_angle})) return std::nullopt;
+  if (!lies_apart(procedure::facts_of(faces->offset({})))) return std::nullopt;
   const MeshIn<frame::Bone> led = faces->first_from_second_reduced() * far.surface;
   const std::array<const MeshIn<frame::Bone>*, 2> pieces{&near.surface, &led};
   const cases::AxisSegment& scanned = data.scaphoid.central_axis;

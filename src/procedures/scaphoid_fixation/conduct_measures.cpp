@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "procedure/thrift_measures.hpp"
 #include "procedures/scaphoid_fixation/measures.hpp"
+#include "procedures/scaphoid_fixation/predicates.hpp"
 #include "procedures/scaphoid_fixation/views.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
@@ -51,6 +52,47 @@ Measure far_exits(const Facts& facts) {
   for (const procedure::Pass& pass : facts.record.passes) times += pass.far_exits;
   measure.value = times;
   measure.finding = ways_out_in_words(facts, times);
+  return measure;
+}
+
+/// Wires that came out beside the far pole: whose way in the bone was much shorter than the
+/// longest.
+Measure side_exits(const Facts& facts) {
+  constexpr double kPoleShare = 0.7;  // of the longest line [E]
+  Measure measure{"side_exits", std::nullopt, kNoWire};
+  if (facts.record.passes.empty()) return measure;
+  const cases::AxisSegment& longest = facts.marks.longest_line;
+  const double least_mm = kPoleShare * distance(longest.proximal, longest.distal);
+  measure.value = 0.0;
+  for (const procedure::Pass& pass : facts.record.passes) {
+    if (pass.shortest_exit_mm > 0.0 && pass.shortest_exit_mm < least_mm) *measure.value += 1.0;
+  }
+  measure.finding = *measure.value > 0.0 ? "The bone's side was gone through, not its far pole."
+                                         : "Whatever came out did so at the far pole.";
+  return measure;
+}
+
+/// 1 where the drill ran only over a wire that stood out of the skin at both ends.
+Measure wire_held(const Facts& facts) {
+  constexpr double kScratchMm = 0.5;
+  Measure measure{"wire_held_while_reaming", std::nullopt, "No drill went over the wire."};
+  if (!(facts.record.reamed_mm > 0.0)) return measure;
+  const bool is_held = facts.record.unheld_ream_mm < kScratchMm;
+  measure.value = is_held ? 1.0 : 0.0;
+  measure.finding = is_held ? "It stood out at both ends." : "It was out at one end alone.";
+  return measure;
+}
+
+/// 1 where what was said before drilling is how the pieces lay.
+Measure judgement_right(const Facts& facts) {
+  using procedure::Judgement;
+  Measure measure{"judgement_right", 0.0, "It was not said whether the fracture was displaced."};
+  if (facts.record.judgement == Judgement::None) return measure;
+  const bool is_displaced = lies_apart(facts.record.fracture_at_first);
+  const bool said_so = facts.record.judgement == Judgement::Displaced;
+  measure.value = said_so == is_displaced ? 1.0 : 0.0;
+  measure.finding = std::string("Said: ") + (said_so ? "displaced" : "aligned") + "; it was " +
+                    (is_displaced ? "displaced." : "aligned.");
   return measure;
 }
 
@@ -226,6 +268,9 @@ std::vector<Measure> conduct_measures(const Facts& facts) {
   std::vector<Measure> all{
       wire_passes(facts),
       far_exits(facts),
+      side_exits(facts),
+      wire_held(facts),
+      judgement_right(facts),
       beyond_far_cortex(facts),
       follower_beyond_far_cortex(facts),
       wire_bend(facts),

@@ -38,6 +38,9 @@ constexpr double kFlushDeepMm = 3.0;      // … or in it, when it is drawn thro
 constexpr double kExtendedRad = 0.175;    // 10 degrees of flexion: the wrist is straight
 constexpr double kHeldAtMm = 20.0;        // of a wire out of the bone, to work over it
 
+constexpr unsigned kPaAndLateral =
+    1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
+
 const Instrument* kind_of(InstrumentIndex index) noexcept {
   const auto all = instruments::catalogue();
   return index < all.size() ? &all[index] : nullptr;
@@ -82,9 +85,7 @@ bool is_right_length(const Instrument& screw, double measured_mm) noexcept {
 }  // namespace
 
 bool is_surveyed(const Situation& now) noexcept {
-  constexpr unsigned kWanted =
-      1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
-  return has_all(views_in(now.shots), kWanted);
+  return now.judgement != procedure::Judgement::None && has_all(views_in(now.shots), kPaAndLateral);
 }
 
 bool is_displaced(const Situation& now) noexcept { return lies_apart(now.fracture); }
@@ -96,9 +97,7 @@ bool lies_apart(const procedure::FractureFacts& fracture) noexcept {
 
 bool is_reduced(const Situation& now) noexcept {
   if (!now.fracture.is_apart) return is_surveyed(now);
-  constexpr unsigned kWanted =
-      1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
-  return !is_displaced(now) && has_all(views_in(now.recent_shots), kWanted);
+  return !is_displaced(now) && has_all(views_in(now.recent_shots), kPaAndLateral);
 }
 
 bool is_ring_seen(const Situation& now) noexcept {
@@ -131,14 +130,12 @@ bool is_flush(const Situation& now) noexcept {
 }
 
 bool is_seen_extended(const Situation& now) noexcept {
-  constexpr unsigned kWanted =
-      1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
   unsigned seen = 0;
   for (const Shot& shot : now.recent_shots) {
     if (!shot.shows_wire || shot.wrist.flexion_rad > kExtendedRad) continue;
     seen |= views_in({&shot, 1});
   }
-  return has_all(seen, kWanted);
+  return has_all(seen, kPaAndLateral);
 }
 
 bool is_driven_back(const Situation& now) noexcept {
@@ -156,6 +153,12 @@ bool is_measured(const Situation& now) noexcept {
     const double off = now.gauge_reading_mm - line.chord_mm;
     return off >= -kMeasuredWithinMm && off <= kMeasuredWithinMm;
   });
+}
+
+bool is_held_at_both_ends(const Situation& now) noexcept {
+  return now.gauge_reading_mm >= 0.0 && any_line(now, Work::Drill, [](const LineFacts& line) {
+           return line.far_end_is_out && line.near_end_out_mm >= kHeldAtMm;
+         });
 }
 
 bool is_reamed(const Situation& now) noexcept {
@@ -192,8 +195,7 @@ bool is_wire_out(const Situation& now) noexcept {
 }
 
 bool is_verified(const Situation& now) noexcept {
-  return now.is_finishing && is_screw_seated(now) &&
-         has_all(views_of(now.shots, true), kViewsOfScrew);
+  return is_screw_seated(now) && has_all(views_of(now.recent_shots, true), kViewsOfScrew);
 }
 
 bool has_no_line(const Situation& now) noexcept {

@@ -13,7 +13,7 @@ namespace carpus::procedures::scaphoid_fixation {
 
 using procedure::Situation;
 
-/// PA and lateral were seen.
+/// PA and lateral were seen, and it was said whether the fracture is displaced.
 [[nodiscard]] bool is_surveyed(const Situation& now) noexcept;
 /// A picture looked down the bone within 12 degrees: the ring.
 [[nodiscard]] bool is_ring_seen(const Situation& now) noexcept;
@@ -39,6 +39,8 @@ using procedure::Situation;
 [[nodiscard]] bool is_driven_back(const Situation& now) noexcept;
 /// The gauge was read on a wire, within 1.5 mm of the way between the cortices.
 [[nodiscard]] bool is_measured(const Situation& now) noexcept;
+/// Measured, a wire stands out of the skin at both ends.
+[[nodiscard]] bool is_held_at_both_ends(const Situation& now) noexcept;
 /// A drill stopped 0.5 to 4 mm before the far cortex.
 [[nodiscard]] bool is_reamed(const Situation& now) noexcept;
 /// A screw is in a hand or in the scaphoid that is 4 to 6.6 mm shorter than was measured.
@@ -47,7 +49,7 @@ using procedure::Situation;
 [[nodiscard]] bool is_screw_seated(const Situation& now) noexcept;
 /// A screw lies in the scaphoid and no wire does.
 [[nodiscard]] bool is_wire_out(const Situation& now) noexcept;
-/// Finishing with a screw seated that all four views have shown since.
+/// A screw is seated that all four views have shown since.
 [[nodiscard]] bool is_verified(const Situation& now) noexcept;
 /// Neither wire nor screw lies in the scaphoid: what was done on that line is to be done again.
 [[nodiscard]] bool has_no_line(const Situation& now) noexcept;
@@ -68,6 +70,7 @@ using procedure::Situation;
       NamedPredicate{"is_seen_extended", is_seen_extended},
       NamedPredicate{"is_driven_back", is_driven_back},
       NamedPredicate{"is_measured", is_measured},
+      NamedPredicate{"is_held_at_both_ends", is_held_at_both_ends},
       NamedPredicate{"is_reamed", is_reamed},
       NamedPredicate{"is_screw_chosen", is_screw_chosen},
       NamedPredicate{"is_screw_seated", is_screw_seated},

@@ -68,7 +68,9 @@ TEST(Predicates, ASurveyNeedsPaAndLateral) {
   scene.shoot(45, 0);
   EXPECT_FALSE(is_surveyed(scene.seen()));
   scene.shoot(-85, 5);
-  EXPECT_TRUE(is_surveyed(scene.seen()));
+  EXPECT_FALSE(is_surveyed(scene.seen())) << "it was not said how the fracture lies";
+  scene.now.judgement = procedure::Judgement::Displaced;
+  EXPECT_TRUE(is_surveyed(scene.seen())) << "rightly or not: that is told afterwards";
 }
 
 TEST(Predicates, AWireIsDrawnThroughUntilItIsLevelAndSeenOnAStraightWrist) {
@@ -107,6 +109,8 @@ TEST(Predicates, AWholeBoneIsReducedOnceSurveyedAPieceOnceItLiesRightAndWasSeenS
   Scene scene;
   scene.shoot(0, 0);
   scene.shoot(90, 0);
+  EXPECT_FALSE(is_reduced(scene.seen())) << "nothing was said of it";
+  scene.now.judgement = procedure::Judgement::Aligned;
   EXPECT_TRUE(is_reduced(scene.seen()));
   scene.now.fracture = {true, 1.8, 2.4, 0.99};
   EXPECT_FALSE(is_reduced(scene.seen()));
@@ -221,15 +225,26 @@ TEST(Predicates, TheWireComesOutAndAllViewsAreTakenOfTheScrew) {
   EXPECT_FALSE(is_wire_out(scene.seen()));
   scene.lines.pop_back();
   EXPECT_TRUE(is_wire_out(scene.seen()));
-  scene.now.is_finishing = true;
   for (const auto& [rotation, tilt] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {45.0, 0.0}}) {
     scene.shoot(rotation, tilt);
   }
   EXPECT_FALSE(is_verified(scene.seen())) << "the proximal pole was not looked at";
   scene.shoot(0, -60);
   EXPECT_TRUE(is_verified(scene.seen()));
-  scene.now.is_finishing = false;
-  EXPECT_FALSE(is_verified(scene.seen()));
+  scene.lines.front().buried_mm = 0.2;
+  EXPECT_FALSE(is_verified(scene.seen())) << "it was turned back since";
+}
+
+TEST(Predicates, AWireIsHeldWhenItStandsOutAtBothEndsOnceItIsMeasured) {
+  Scene scene;
+  scene.lines = {line("guide_wire", 70)};
+  scene.lines[0].near_end_out_mm = 80;
+  scene.lines[0].far_end_is_out = true;
+  EXPECT_FALSE(is_held_at_both_ends(scene.seen())) << "on its way through, before it was measured";
+  scene.now.gauge_reading_mm = 25.0;
+  EXPECT_TRUE(is_held_at_both_ends(scene.seen()));
+  scene.lines[0].near_end_out_mm = 4;
+  EXPECT_FALSE(is_held_at_both_ends(scene.seen()));
 }
 
 }  // namespace

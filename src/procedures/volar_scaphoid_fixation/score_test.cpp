@@ -44,6 +44,7 @@ OperationRecord perfect() {
   record.gauge_reading_mm = 26.5;
   record.reamed_mm = 25.0;
   record.compression_n = 70.0;
+  record.judgement = procedure::Judgement::Aligned;
   Pass pass;
   pass.instrument = *instruments::instrument_of("guide_wire");
   pass.bodies_entered = bit_of(BoneId::Scaphoid);

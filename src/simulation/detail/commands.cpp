@@ -44,6 +44,9 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
     case CommandKind::SetTube:
       spent.tube = command.index;
       return;
+    case CommandKind::Judge:
+      spent.judgement = static_cast<procedure::Judgement>(command.index);
+      return emit(EventKind::Judged, kNoItem, command.index, 0.0);
     case CommandKind::Answer: {
       const std::uint8_t grade = command.index % kGradesAFinding;
       scope_state.answers[command.index / kGradesAFinding] =

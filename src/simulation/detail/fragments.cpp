@@ -45,8 +45,7 @@ InBone turn_about(const Vec3& centre, const Vec3& from, const Vec3& to, double m
 procedure::FractureFacts World::State::fracture_now(const Model& model) const noexcept {
   if (!model.fracture) return {};
   const auto& [first, second, faces] = *model.fracture;
-  const anatomy::FractureOffset offset = faces.offset(inverses[first] * poses[second]);
-  return {true, offset.gap_mm, offset.step_mm, offset.cosine_angle};
+  return procedure::facts_of(faces.offset(inverses[first] * poses[second]));
 }
 
 /// Of an item's line in the target, from its entry to where it leaves it for good, the gap

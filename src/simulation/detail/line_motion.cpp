@@ -196,11 +196,19 @@ void World::State::drive(const Model& model, std::uint8_t hand) noexcept {
       compress(model, index, item.travel_mm - travel_before);
       view.torque_n_mm = torque_n_mm(model, item, held.wish.driver);
     }
-    if (kind.work == Work::Ream && item.depth_mm() > now.reamed_mm) {
-      now.reamed_mm = item.depth_mm();
-    }
+    if (kind.work == Work::Ream) note_reamed(model, item);
   }
   carry_fixed_items();
+}
+
+/// How deep, and whether the wire beneath stands out at both ends: else it may come along with the
+/// drill [clinical: B1 step 8].
+void World::State::note_reamed(const Model& model, const Item& item) noexcept {
+  if (item.depth_mm() > now.reamed_mm) now.reamed_mm = item.depth_mm();
+  if (!(item.depth_mm() > spent.unheld_ream_mm)) return;
+  const Item* wire = item.wire < kMaxItems ? &now.items[item.wire] : nullptr;
+  const bool is_held = wire != nullptr && is_far_end_out(model, *wire);
+  if (!is_held) spent.unheld_ream_mm = item.depth_mm();
 }
 
 /// Removes bone from where it was last cut to where the tip is now. The hole's round front ends at
@@ -310,6 +318,9 @@ void World::State::note_tip(const Model& model, std::uint8_t index) noexcept {
   if (beyond > kFarExitMm && !item.has_left) {
     item.has_left = true;
     ++pass.far_exits;
+    if (pass.shortest_exit_mm == 0.0 || item.chord_mm < pass.shortest_exit_mm) {
+      pass.shortest_exit_mm = item.chord_mm;
+    }
     emit(EventKind::LeftFarSide, index, item.body, beyond);
   }
   if (beyond <= 0.0) item.has_left = false;

@@ -186,6 +186,7 @@ struct PassState {
   std::uint32_t far_exits = 0;
   double far_exit_mm = 0.0;
   double follower_exit_mm = 0.0;  ///< likewise, of what ran over the wire
+  double shortest_exit_mm = 0.0;
 };
 
 /// A hand between two ticks.
@@ -243,6 +244,9 @@ struct Spent {
   double most_bend_rad = 0.0;    ///< of any wire
   std::uint32_t broken_wires = 0;
   std::uint32_t stripped_screws = 0;  ///< whose thread gave way, undone or not
+  double unheld_ream_mm = 0.0;
+  procedure::Judgement judgement = procedure::Judgement::None;
+  std::array<Tick, procedure::kMaxSteps> first_done{};  ///< by step; 0: never
   std::uint32_t tissue_revision = 0;
   std::uint64_t hash = 0;
 };
@@ -281,10 +285,14 @@ void visit(SomeSpent& spent, Visitor&& v) noexcept {
     v(pass.far_exits);
     v(pass.far_exit_mm);
     v(pass.follower_exit_mm);
+    v(pass.shortest_exit_mm);
   }
   v(spent.most_bend_rad);
   v(spent.broken_wires);
   v(spent.stripped_screws);
+  v(spent.unheld_ream_mm);
+  v(spent.judgement);
+  for (auto& tick : spent.first_done) v(tick);
   v(spent.tissue_revision);
   v(spent.hash);
 }

@@ -126,7 +126,8 @@ bool are_passes_possible(const Spent& spent, const StateBounds& bounds) noexcept
   for (std::size_t i = 0; i < kept; ++i) {
     const PassState& pass = spent.passes[i];
     if (pass.instrument >= bounds.instruments || pass.first_body >= bounds.bodies ||
-        !is_near(pass.far_exit_mm) || !is_near(pass.follower_exit_mm)) {
+        !is_near(pass.far_exit_mm) || !is_near(pass.follower_exit_mm) ||
+        !is_near(pass.shortest_exit_mm)) {
       return false;
     }
   }
@@ -139,6 +140,12 @@ bool are_counts_possible(const Operated& now, const Spent& spent, std::size_t st
   const bool is_live_possible =
       spent.live_ticks == 0 || (spent.shot_count > 0 && spent.live_look <= spent.looks);
   if (!is_live_possible || spent.live_ticks > spent.tick) return false;
+  if (spent.judgement > procedure::Judgement::Displaced || !is_near(spent.unheld_ream_mm)) {
+    return false;
+  }
+  for (const Tick tick : spent.first_done) {
+    if (tick > spent.tick) return false;
+  }
   for (const std::uint16_t shots : now.shots_at_completion) {
     if (shots > spent.shot_count) return false;
   }

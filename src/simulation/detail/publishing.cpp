@@ -120,6 +120,7 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.holding_share = now.holding_share;
   snapshot.compression_n = now.compression_n;
   snapshot.passes = spent.pass_count;
+  snapshot.judgement = spent.judgement;
   snapshot.c_arm = spent.c_arm;
   snapshot.shots = spent.shot_count;
   snapshot.looks = spent.looks;

@@ -29,6 +29,8 @@ procedure::LineFacts World::State::facts_of(const Model& model, const Item& item
   facts.depth_mm = item.depth_mm();
   facts.chord_mm = item.chord_mm;
   facts.was_flush = item.was_flush;
+  const bool is_wire = kind_of(model, item).work == instruments::Work::Drill;
+  facts.far_end_is_out = is_wire && is_far_end_out(model, item);
   facts.near_end_out_mm = item.length_mm - item.depth_mm();
   if (kind_of(model, item).work == instruments::Work::Thread) {
     facts.buried_mm = buried_mm(model, item);
@@ -57,6 +59,7 @@ void World::State::gather(const Model& model, Facts& facts) const noexcept {
   situation.reamed_mm = now.reamed_mm;
   situation.wrist = spent.wrist;
   situation.fracture = fracture_now(model);
+  situation.judgement = spent.judgement;
   situation.aim = model.opening.aim;
   situation.scope = scope_facts(model);
   situation.is_finishing = is_finishing;
@@ -77,6 +80,7 @@ void World::State::tick_off_steps(const Model& model) noexcept {
       if (step.is_lost != nullptr && step.is_lost(facts.situation)) now.completed_steps &= ~bit;
     } else if (step.is_done(facts.situation)) {
       now.completed_steps |= bit;
+      if (spent.first_done[i] == 0) spent.first_done[i] = spent.tick;
       now.shots_at_completion[i] = static_cast<std::uint16_t>(spent.shot_count);
       emit(EventKind::StepCompleted, kNoItem, static_cast<std::int32_t>(i), 0.0);
     }

@@ -135,6 +135,7 @@ struct World::State {
                  double tilt_deg,
                  procedure::Look look) noexcept;
   void note_what_shows(const Model& model, procedure::Shot& shot) const noexcept;
+  void note_reamed(const Model& model, const detail::Item& item) noexcept;
   [[nodiscard]] double along_aim(const Model& model,
                                  double rotation_deg,
                                  double tilt_deg) const noexcept;

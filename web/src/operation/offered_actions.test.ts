@@ -64,6 +64,7 @@ describe("actMessage", () => {
       item: null,
       reasons: null,
       aid: null,
+      displaced: null,
     });
   });
 });

@@ -16,11 +16,14 @@ export interface Asked {
   readonly reasons?: readonly string[];
   /** Of use_aid. */
   readonly aid?: Aid;
+  /** Of judge: what is said of the fracture. */
+  readonly displaced?: boolean;
 }
 
 export function actMessage(asked: Asked): ActMessage {
-  const { id, hand = null, instrument = null, item = null, reasons = null, aid = null } = asked;
-  return { type: "act", id, hand, instrument, item, aid, reasons };
+  const { id, hand = null, instrument = null, item = null, reasons = null } = asked;
+  const { aid = null, displaced = null } = asked;
+  return { type: "act", id, hand, instrument, item, aid, reasons, displaced };
 }
 
 export class OfferedActions {

@@ -24,7 +24,7 @@ export type Driver = "off" | "forward" | "reverse";
 export type Guidance = "direct" | "planned";
 
 /** Things done once rather than held. */
-export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline" | "use_aid" | "return_to_step";
+export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline" | "use_aid" | "return_to_step" | "judge";
 
 /** What angles of the C-arm are counted from: the forearm as it is held now, or as it was scanned, which is how the room stands. */
 export type AngleReference = "held_forearm" | "room";
@@ -822,6 +822,8 @@ export interface ActMessage {
   readonly aid: Aid | null;
   /** of decline: ids of exercise.decline_reasons, at least one */
   readonly reasons: readonly string[] | null;
+  /** of judge: whether the fracture is, before anything is drilled */
+  readonly displaced: boolean | null;
 }
 
 /** What was found of one thing that an examination asks about; the newest counts. */
@@ -1028,6 +1030,8 @@ export interface SnapshotMessage {
   readonly holding_share: number;
   /** how often bone was entered anew 0 to 4294967295 */
   readonly passes: number;
+  /** what was said of the fracture; none: nothing yet, or it is not asked */
+  readonly judged_displaced: boolean | null;
   readonly c_arm: CArmStand;
   /** pictures taken, and times that the pedal went down 0 to 4294967295 */
   readonly shots: number;

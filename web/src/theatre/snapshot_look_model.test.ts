@@ -52,6 +52,7 @@ const AT_REST: SnapshotMessage = {
   gauge_reading_mm: null,
   holding_share: 0,
   passes: 1,
+  judged_displaced: null,
   c_arm: { rotation_deg: 0, tilt_deg: 0, live: false, tube_kv: 60, dose_level: "usual" },
   shots: 3,
   dose_cgy_cm2: 0.1,

@@ -52,6 +52,7 @@ export interface Wishes {
   endOther(): void;
   /** Asks before what was done since is taken back. */
   returnToStep(step: number): void;
+  judge(displaced: boolean): void;
   /** Was asked and is sure. */
   goBack(): void;
   finish(): void;
@@ -133,9 +134,16 @@ export function makePanels(
         wishes.headset();
       },
     }),
-    steps: new StepPanel(firstTouch.element, wrist.element, (step) => {
-      wishes.returnToStep(step);
-    }),
+    steps: new StepPanel(
+      firstTouch.element,
+      wrist.element,
+      (step) => {
+        wishes.returnToStep(step);
+      },
+      (displaced) => {
+        wishes.judge(displaced);
+      },
+    ),
     wrist,
     views: new ViewBar({
       look: (view) => {

@@ -6,6 +6,7 @@ import { make, setText } from "../dom";
 import { keyCap } from "../key_caps";
 import { keysOf, tickText, type OfferedActions } from "../operation";
 import type { ExerciseMessage, SnapshotMessage, Step } from "../protocol";
+import { DisplacementQuestion } from "./displacement_question";
 import "./step_panel.css";
 
 const MAX_LOG_LINES = 40;
@@ -16,6 +17,8 @@ interface ShownStep {
   readonly mark: HTMLElement;
   /** Goes back to it. */
   readonly again: HTMLButtonElement;
+  /** Of the step that judges the fracture. */
+  readonly question: DisplacementQuestion | undefined;
 }
 
 export class StepPanel {
@@ -36,11 +39,15 @@ export class StepPanel {
   /** Then nobody tells which step is done. */
   private isAssessed = false;
 
-  /** @param onReturn  a step is to be done again, from its place in the procedure on */
+  /**
+   * @param onReturn  a step is to be done again, from its place in the procedure on
+   * @param onJudge  what is said of the fracture
+   */
   constructor(
     firstTouch: HTMLElement,
     wrist: HTMLElement,
     private readonly onReturn: (step: number) => void,
+    private readonly onJudge: (displaced: boolean) => void,
   ) {
     this.element = make(
       "nav.steps",
@@ -85,6 +92,9 @@ export class StepPanel {
         this.showAll(false);
         this.onReturn(index);
       });
+      const question = step.actions.includes("judge")
+        ? new DisplacementQuestion(this.onJudge)
+        : undefined;
       const item = make(
         "li",
         {},
@@ -95,19 +105,25 @@ export class StepPanel {
           make("span.step-name", {}, step.title),
           make("p.step-sentence", {}, step.instruction),
           make("p.step-keys", {}, ...(tool === undefined ? [] : [`${tool.name} `]), ...keys),
+          ...(question === undefined ? [] : [question.element]),
         ),
         again,
       );
-      return { step, item, mark, again };
+      return { step, item, mark, again, question };
     });
     this.list.replaceChildren(...this.items.map(({ item }) => item));
   }
 
   show(s: SnapshotMessage): void {
-    const state = `${s.step} ${s.completed_steps.join(" ")}`;
+    const isBefore = s.passes === 0 && !s.finished;
+    const state = `${s.step} ${s.completed_steps.join(" ")} ${isBefore} ${s.judged_displaced}`;
     if (state === this.shown) return;
     this.shown = state;
-    this.items.forEach(({ step, item, mark }, index) => {
+    this.items.forEach(({ step, item, mark, question }, index) => {
+      // Nobody tells in an assessed operation which step it is: the question stands until bone is
+      // entered.
+      item.classList.toggle("asked", question !== undefined && isBefore);
+      question?.show(s, isBefore);
       const current = index === s.step && !this.isAssessed;
       const done = s.completed_steps.includes(index);
       item.classList.toggle("current", current);

@@ -270,6 +270,9 @@ export class TrainPage {
       returnToStep: (step) => {
         this.actions.askToReturn(step);
       },
+      judge: (displaced) => {
+        this.actions.ask({ id: "judge", displaced });
+      },
       goBack: () => {
         this.actions.goBack();
       },
