@@ -18,7 +18,7 @@ difference() {
     // The mast, on the side away from the leg: the gauge sits before it.
     linear_extrude(14) hull() { translate([mast_x - 5, 0]) square(10); translate([mast_x, mast_z]) circle(5); }
   }
-  translate([mast_x, mast_z, -1]) cylinder(d = 2.6, h = 30, $fn = 16);  // M3 x 40, to the leg
+  translate([mast_x, mast_z, -1]) cylinder(d = 2.6, h = 30, $fn = 16);  // M3 x 30, to the leg
   translate([0, 0, -0.01]) cylinder(d = seat, h = 7);
   translate([0, 0, 6.98]) cylinder(d1 = seat, d2 = 13, h = 4.6);  // a cone: no roof to support
   cylinder(d = 13, h = length);

@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Drive B: the capstan's drum on the bell of a 2804 motor (slots for M2 from 10 to 14 mm across). Two flat turns of cord.
+// Drive B: the capstan's drum on the bell of a 2804 motor (slots for M2 from 14.4 to 16 mm across). Two flat turns of cord.
 include <numbers.scad>
 use <shapes.scad>
 

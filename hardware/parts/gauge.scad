@@ -22,4 +22,7 @@ difference() {
     translate([-15 - fit, -60]) square([30 + 2 * fit, 60]);
   }
   for (a = angles) rotate(-a) hole(3.1, [60, 0]);
+  // As many dots as the notch is in the order in which it is asked for: the first is the highest.
+  for (i = [0 : (gauge_last - gauge_first) / gauge_step], k = [0 : i])
+    rotate(-gauge_first - gauge_step * i + 2.1 * (k - i / 2)) translate([54.5, 0, 7]) cylinder(d = 1.3, h = 2, $fn = 12);
 }

@@ -84,8 +84,7 @@ class Builder {
         at({-112, 112, board + 9}));
     add("controller", Group::Base, Material::Servo, box({-9, -22, 6}, {9, 22, 9}),
         at({-122, 112, board + 9}));
-    add("mushroom_switch", Group::Base, Material::Servo, box({-24, -24, 0}, {24, 24, 34}),
-        at({165, -62, board}));
+    part("switch_box", Group::Base, Material::Frame, at({165, -62, board + 34}) * kUpsideDown);
     add("mushroom_switch", Group::Base, Material::Red, cylinder(15, 42, 52), at({165, -62, board}));
     add("mushroom_switch", Group::Base, Material::Steel, cylinder(8, 34, 42),
         at({165, -62, board}));
@@ -100,7 +99,7 @@ class Builder {
     part("bearing_block", Group::Base, Material::Frame, frame * flat_side_out(33));
     for (const double y : {9.0, 26.0})
       add("bearing", Group::Base, Material::Steel, ring(5.5, 11, 0, 7), frame * along_axis(y));
-    add("shaft", leg, Material::Steel, cylinder(4, -6, o_.drive == Drive::A ? 40 : 35),
+    add("shaft", leg, Material::Steel, cylinder(4, -6, o_.drive == Drive::A ? 39 : 35),
         swung * along_axis(0));
     if (o_.drive == Drive::A) {
       drive_a(i, frame, swung, degrees);
@@ -159,10 +158,10 @@ class Builder {
     append(bell, cylinder(15, 21, 24));
     add("motor", Group::Base, Material::Steel, bell, motor * along_axis(0));
     add("encoder", Group::Base, Material::Board, box({-11, -11, 32}, {11, 11, 33.6}),
-        motor * flat_side_in(0));
+        motor * flat_side_in(0) * turned({0, 0, 1}, 45));
   }
 
-  /// An M5 stud along y with a ball at either end and its nuts.
+  /// An M4 stud along y with a ball at either end and its nuts.
   void stud(Group group, const Place& place) {
     const double half = n_["half_pair"];
     add("stud", group, Material::Steel, cylinder(2, -half + 4, half - 4), place * along_axis(0));

@@ -42,7 +42,7 @@ bool is_one_of(const Piece& piece, std::initializer_list<std::string_view> names
 }
 bool is_board(const Piece& p) {
   return is_one_of(p, {"board", "wrist_shell", "silicone", "portal_frame", "tray", "controller",
-                       "mushroom_switch"});
+                       "mushroom_switch", "switch_box"});
 }
 bool is_tool(const Piece& p) {
   return p.group == Group::Ring || p.group == Group::Carrier || p.group == Group::Tool;
@@ -166,7 +166,8 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
            {"rod_end", M::Moving},
            {"jig", M::Frame},
            {"gauge", M::Accent},
-           {"tray", M::Frame}},
+           {"tray", M::Frame},
+           {"switch_box", M::Frame}},
           390);
   lay_out("printed_drives",
           {{"leg_a", M::Moving},
@@ -319,7 +320,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
                       whole(Drive::A),
                       [](const Piece& p) -> std::optional<Look> {
                         if (is_one_of(p, {"wrist_shell", "silicone", "portal_frame", "tray",
-                                          "controller", "mushroom_switch"}) ||
+                                          "controller", "mushroom_switch", "switch_box"}) ||
                             is_tool(p))
                           return std::nullopt;
                         return Look{!(is_rod(p) || p.group == Group::Platform), {}};
@@ -341,8 +342,8 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
   pictures.push_back({"step_10_electronics",
                       whole(Drive::A),
                       [](const Piece& p) -> std::optional<Look> {
-                        return Look{!is_one_of(p, {"tray", "controller", "mushroom_switch", "servo",
-                                                   "potentiometer"}),
+                        return Look{!is_one_of(p, {"tray", "controller", "mushroom_switch",
+                                                   "switch_box", "servo", "potentiometer"}),
                                     {}};
                       },
                       {"tray", "controller", "mushroom_switch", "servo", "potentiometer"},
@@ -371,7 +372,7 @@ std::vector<Picture> all_pictures(const Numbers& n, const Parts& parts) {
        },
        [](const Piece& p) -> std::optional<Look> {
          if (p.leg >= 0 || is_one_of(p, {"base_plate", "post_socket", "post_foot", "post", "board",
-                                         "mushroom_switch", "tray", "controller"}))
+                                         "mushroom_switch", "switch_box", "tray", "controller"}))
            return std::nullopt;
          return Look{p.name != "cradle" && p.name != "tool_handle", {}};
        },

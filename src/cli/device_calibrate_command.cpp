@@ -99,6 +99,8 @@ void run(const CalibrateArguments& arguments) {
         wait_for_enter("[" + std::to_string(calibrator.step() + 1) + "/" + std::to_string(steps) +
                        "] " + calibrator.instruction());
       }
+      std::printf("  measuring ...\n");
+      std::fflush(stdout);
       const auto samples = listen(loop, calibrator, state);
       if (const auto problem = calibrator.take(samples, state.device.windings)) {
         std::printf("  %s\n", problem->c_str());

@@ -37,10 +37,11 @@ void guide(devices::SimulatedPort& port, const sigset_t& ends, double seconds, b
   const auto tell = [&] {
     port.guide(step);
     std::printf("  its hand %s%s\n", port.hand().in_words(step).c_str(),
-                step < steps ? ". Enter: next" : "");
+                step < steps ? ". Enter: next; b and Enter: back" : "");
     std::fflush(stdout);
   };
   if (is_guided) tell();
+  bool goes_back = false;
   pollfd waits[2] = {{signals, POLLIN, 0}, {is_guided ? STDIN_FILENO : -1, POLLIN, 0}};
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   for (;;) {
@@ -54,9 +55,13 @@ void guide(devices::SimulatedPort& port, const sigset_t& ends, double seconds, b
     const ssize_t count = ::read(STDIN_FILENO, typed, sizeof typed);
     if (count <= 0) waits[1].fd = -1;  // nobody types: the step stays
     for (ssize_t i = 0; i < count; ++i) {
-      if (typed[i] != '\n' || step >= steps) continue;
-      ++step;
-      tell();
+      if (typed[i] == 'b') goes_back = true;
+      if (typed[i] != '\n') continue;
+      if (goes_back ? step > 0 : step < steps) {
+        step = goes_back ? step - 1 : step + 1;
+        tell();
+      }
+      goes_back = false;
     }
   }
   ::close(signals);

@@ -54,11 +54,17 @@ Line line_of(const std::array<int, kSweep>& pulses, const std::array<double, kSw
   return line;
 }
 
-std::string degrees_of(std::size_t step) {
-  return std::to_string(static_cast<int>(kGaugeDeg[step % kNotches]));
-}
-
 }  // namespace
+
+std::string notch_in_words(std::size_t step) {
+  const std::size_t notch = step % kNotches;
+  const int below = static_cast<int>(kGaugeDeg[notch]);
+  const std::string dots = std::to_string(notch + 1) + (notch == 0 ? " dot" : " dots");
+  const std::string angle = below == 0 ? "level"
+                                       : std::to_string(below < 0 ? -below : below) + " degrees " +
+                                             (below < 0 ? "up" : "down");
+  return "notch of " + dots + ", " + angle;
+}
 
 ArmCalibrator::ArmCalibrator(firmware::Drive drive,
                              std::uint32_t unit,
@@ -126,10 +132,10 @@ std::string ArmCalibrator::instruction() const {
            " with a finger, and follow it: its servos turn now, to and fro.";
   }
   if (made_.drive == firmware::Drive::Motor) {
-    return "Lay the arm in its cradle, so that all three legs rest on it, and let go.";
+    return "Clip the cradle round the tool, between its handle and the portal's frame, and let go.";
   }
-  return "Leg " + std::to_string(step_ / kNotches + 1) + ": hold it in the gauge's notch at " +
-         degrees_of(step_) + " degrees and keep it still.";
+  return "Leg " + std::to_string(step_ / kNotches + 1) + ": hold it in the gauge's " +
+         notch_in_words(step_) + ", and keep it still.";
 }
 
 std::optional<std::string> ArmCalibrator::take(

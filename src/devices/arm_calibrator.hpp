@@ -17,6 +17,8 @@ namespace carpus::devices {
 
 /// The gauge's notches, at which a leg of drive A is held [degrees below the horizontal].
 inline constexpr std::array<double, 6> kGaugeDeg{-40, -20, 0, 20, 40, 60};
+/// "notch of 1 dot, 40 degrees up", of the first; counted from 0, over all legs.
+[[nodiscard]] std::string notch_in_words(std::size_t step);
 /// Samples of one step, a quarter of a second.
 inline constexpr std::size_t kSamplesOfStep = 250;
 /// Of the step in which drive B's motors turn by themselves, one after another.

@@ -84,7 +84,12 @@ TEST(ArmCalibrator, DriveAIsGuidedThroughAllNotchesToSixTenthsOfADegree) {
     for (const double notch : kGaugeDeg) {
       const std::string asked = calibrator.instruction();
       EXPECT_NE(asked.find("Leg " + std::to_string(leg + 1)), std::string::npos);
-      EXPECT_NE(asked.find(std::to_string(static_cast<int>(notch)) + " deg"), std::string::npos);
+      const std::string side = notch < 0 ? "up" : notch > 0 ? "down" : "level";
+      EXPECT_NE(asked.find(side), std::string::npos) << asked;
+      if (notch != 0) {
+        const std::string angle = std::to_string(static_cast<int>(std::abs(notch))) + " degrees ";
+        EXPECT_NE(asked.find(angle + side), std::string::npos) << asked;
+      }
       const double angle = radians_from_degrees(notch);
       // A hand that trembles is told, and the step stays.
       const auto problem = calibrator.take(sensors.hold(leg, angle, 0.05));

@@ -40,9 +40,8 @@ std::string GuidedHand::in_words(std::size_t step) const {
   if (drive_ == firmware::Drive::Motor) return kOnMotors[step];
   if (step == kLift) return "lifts the platform with a finger";
   if (step == kPress) return "presses the platform with a finger";
-  const auto degrees = static_cast<int>(kGaugeDeg[step % kGaugeDeg.size()]);
-  return "holds leg " + std::to_string(step / kGaugeDeg.size() + 1) + " in the gauge's notch at " +
-         std::to_string(degrees) + " degrees";
+  return "holds leg " + std::to_string(step / kGaugeDeg.size() + 1) + " in the gauge's " +
+         notch_in_words(step);
 }
 
 void GuidedHand::act(std::size_t step, virtual_arm::VirtualArm& arm) {
