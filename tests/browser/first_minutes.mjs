@@ -25,6 +25,10 @@ const PAD = () => {
   navigator.getGamepads = () => [pad];
 };
 
+/** Two frames have been drawn. */
+const frames = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
 export async function firstMinutes(browser, station) {
   const page = await newcomersPage(browser);
   const operator = new Operator(page);
@@ -34,6 +38,13 @@ export async function firstMinutes(browser, station) {
   const sound = () => page.evaluate(() => window.carpus.sound());
   const press = (button, value) =>
     page.evaluate(([b, v]) => window.pressPad(b, v), [button, value]);
+  /** Down for as long as a slow page needs to see it. */
+  const tap = async (button) => {
+    await press(button, 1);
+    await frames(page);
+    await press(button, 0);
+    await frames(page);
+  };
   const tilt = (...axes) => page.evaluate((a) => window.tiltPad(...a), axes);
 
   await check(page, "sound waits for a gesture, and stays as it was left", async () => {
@@ -79,9 +90,8 @@ export async function firstMinutes(browser, station) {
     await press(0, 1);
     await done.filter({ hasText: "Take a picture" }).waitFor();
     await press(0, 0);
-    await press(8, 1);
+    await tap(8);
     await done.filter({ hasText: "Undo" }).waitFor();
-    await press(8, 0);
     await card.getByText("All of it in").waitFor();
   });
   await check(page, "it does not come again, but begins from the help", async () => {
@@ -94,6 +104,32 @@ export async function firstMinutes(browser, station) {
     await page.getByRole("button", { name: "First touch" }).click();
     await card.getByRole("button", { name: "Skip" }).click();
     expect(!(await card.isVisible()), "it cannot be left");
+  });
+  await check(page, "a gamepad alone judges, flexes the wrist, takes from the tray and asks to finish", async () => {
+    await page.locator("canvas").first().focus();
+    await press(8, 1); // Back is held: its other buttons
+    await tap(15);
+    await operator.until((s) => s.judged_displaced === true, "judged");
+    await tilt(0, 1, 0, 0);
+    await operator.until((s) => s.wrist.flexion_deg > 10, "the wrist flexed");
+    await tilt(0, 0, 0, 0);
+    await frames(page);
+    await tap(2);
+    await page.locator("dialog.tray[open]").waitFor();
+    await press(8, 0);
+    const focused = () => page.evaluate(() => document.activeElement?.value ?? "");
+    for (let i = 0; i < 60 && (await focused()) !== "probe"; ++i) await tap(13);
+    expect((await focused()) === "probe", `the cross came to '${await focused()}'`);
+    await tap(0);
+    await operator.until((s) => Operator.held(s)?.instrument === "probe", "the probe in the hand");
+    await press(8, 1);
+    await tap(9);
+    await page.locator("dialog.confirm[open]").waitFor();
+    await press(8, 0);
+    await tap(1);
+    expect((await page.locator("dialog[open]").count()) === 0, "the question stays");
+    const { undos } = await operator.snapshot();
+    expect(undos === 0, "Back was taken for undo");
   });
   await page.close();
 }

@@ -55,6 +55,9 @@ function fakeRoom(): FakeRoom {
       act: (action) => {
         note(action.kind);
       },
+      goThroughDialog: (step) => {
+        note(`dialog ${step}`);
+      },
       nextShot: () => {
         note("next shot");
       },
@@ -144,5 +147,43 @@ describe("GamepadHand", () => {
     state.did.length = 0;
     frame();
     expect(state.did).toEqual(["loose", "let go pad drive"]);
+    state.did.length = 0;
+    pad.press(13);
+    frame();
+    frame();
+    pad.press(0);
+    frame();
+    expect(state.did).toEqual(["dialog next", "dialog choose"]);
+  });
+
+  it("Back is undo by itself, and none after something that it was held for", () => {
+    const { did, room } = fakeRoom();
+    const { frame } = hand(room);
+    const pad = new FakePad();
+    pads = [pad];
+    frame();
+    did.length = 0;
+    const done = (): readonly string[] => did.filter((one) => one !== "loose");
+    pad.press(8);
+    frame();
+    expect(done()).toEqual([]);
+    pad.press(8, 0);
+    frame();
+    expect(done()).toEqual(["undo"]);
+    did.length = 0;
+    pad.press(8);
+    pad.press(0);
+    frame();
+    pad.press(0, 0);
+    pad.axes[1] = 1;
+    frame();
+    pad.axes[1] = 0;
+    pad.press(8, 0);
+    frame();
+    expect(done()).toEqual([
+      "measure",
+      "hold pad wrist flexion_deg 1",
+      "let go pad wrist flexion_deg 1",
+    ]);
   });
 });

@@ -3,7 +3,15 @@
 //
 // The first gamepad of the standard mapping, asked once a frame, moves the hand.
 import type { HeldAction, OnceAction } from "../operation";
-import { DRIVES, padWish, type PadState, type PadWish } from "./pad_model";
+import {
+  dialogStep,
+  DRIVES,
+  holdsLayer,
+  padWish,
+  type DialogStep,
+  type PadState,
+  type PadWish,
+} from "./pad_model";
 
 /** After a pause nothing jumps [s]. */
 const LONGEST_FRAME_S = 0.1;
@@ -19,6 +27,8 @@ export interface PadRoom {
   squeeze(share: number | undefined): void;
   pedal(down: boolean): void;
   act(action: OnceAction): void;
+  /** Through the dialog that is open, if one is. */
+  goThroughDialog(step: DialogStep): void;
   /** Takes the picture of the next named view. */
   nextShot(): void;
   /** One was plugged in, or is gone. @param wasDriving  its trigger was pressed then */
@@ -31,6 +41,8 @@ export class GamepadHand {
   private held: ReadonlySet<string> = new Set();
   private pedalIsDown = false;
   private isPlugged = false;
+  /** Back was held for something else than undo. */
+  private usedLayer = false;
 
   constructor(private readonly room: PadRoom) {}
 
@@ -45,10 +57,14 @@ export class GamepadHand {
     this.lastMs = nowMs;
     if (pad === undefined || !this.room.isFree()) {
       this.rest();
+      const step = pad && dialogStep(pad, this.before);
+      if (step !== undefined) this.room.goThroughDialog(step);
+      this.usedLayer = true;
       this.before = pad;
       return;
     }
     const wish = padWish(pad, this.before);
+    this.useLayer(pad, wish);
     this.before = pad;
     const { tip, shaft } = wish;
     if (tip.right !== 0 || tip.up !== 0) this.room.moveTipBy(tip.right * seconds, tip.up * seconds);
@@ -60,6 +76,15 @@ export class GamepadHand {
       if (action.kind === "next_shot") this.room.nextShot();
       else this.room.act(action);
     }
+  }
+
+  /** Back by itself, let go of, is undo. */
+  private useLayer(pad: PadState, wish: PadWish): void {
+    const wasHeld = this.before !== undefined && holdsLayer(this.before);
+    const isHeld = holdsLayer(pad);
+    if (isHeld && !wasHeld) this.usedLayer = false;
+    if (wish.usesLayer) this.usedLayer = true;
+    if (wasHeld && !isHeld && !this.usedLayer) this.room.act({ kind: "undo" });
   }
 
   /** What a pad held that is gone is let go before anything is said. */

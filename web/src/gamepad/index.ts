@@ -3,3 +3,4 @@
 //
 // A gamepad as the hand.
 export { GamepadHand, type PadRoom } from "./gamepad_hand";
+export type { DialogStep } from "./pad_model";

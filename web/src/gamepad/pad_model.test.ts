@@ -45,6 +45,16 @@ describe("padWish", () => {
     expect([...both.held.values()]).toEqual([{ kind: "drive", driver: "reverse" }]);
   });
 
+  it("moves the wrist by the sticks and the rest by other buttons while Back is held", () => {
+    const wish = padWish(pad([-0.9, 0.2, 0.7, 0], { 8: 1, 7: 1, 15: 1 }), still);
+    expect([...wish.held.values()]).toEqual([
+      { kind: "move_wrist", axis: "radial_deviation_deg", sign: -1 },
+      { kind: "move_wrist", axis: "pronation_deg", sign: 1 },
+    ]);
+    expect(wish.once).toEqual([{ kind: "judge", displaced: true }]);
+    expect([wish.tip.right, wish.squeeze, wish.usesLayer]).toEqual([0, 0, true]);
+  });
+
   it("acts once for a button that stays down", () => {
     const down = pad([0, 0, 0, 0], { 0: 1 });
     expect(padWish(down, still).once).toEqual([{ kind: "free_shot" }]);

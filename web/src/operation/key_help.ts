@@ -98,6 +98,7 @@ export const HELP: readonly HelpGroup[] = [
     lines: [
       { keys: "{KeyZ}", text: "undo: back to the last checkpoint" },
       { keys: "{KeyF}", text: "finish (asks first)" },
+      { keys: "{Comma} / {Period}", text: "say: the fracture is aligned / displaced" },
       { keys: "Del", text: "decline to operate (asks for the reasons)" },
       { keys: "{KeyP}", text: "pause" },
       { keys: "{Backquote}", text: "sound on or off" },
@@ -121,6 +122,12 @@ export const GAMEPAD_HELP: HelpGroup = {
     { keys: "Cross", text: "turn the view; right stick pressed: next view" },
     { keys: "Left stick pressed", text: "the other hand" },
     { keys: "Back / Start", text: "undo / pause" },
+    { keys: "Back held, sticks", text: "left: down flexes, sideways deviates; right: pronates" },
+    { keys: "Back held, A / X", text: "measure / open the tray" },
+    { keys: "Back held, B / Y", text: "put down / take hold; LB: at the other end" },
+    { keys: "Back held, cross", text: "left: aligned, right: displaced" },
+    { keys: "Back held, Start", text: "finish (asks first)" },
+    { keys: "In a dialog", text: "cross: go through it, A: choose, B: close" },
   ],
 };
 
@@ -145,6 +152,7 @@ const KEYS_OF: Readonly<Record<string, string>> = {
   approach: "{KeyA} / {KeyD}",
   drive: "Hold Space",
   reverse: "{KeyR} reverses",
+  judge: "{Comma} aligned, {Period} displaced",
   move_wrist: "{KeyJ} {KeyU}, {KeyK} {KeyO}, {KeyN} {KeyB}, {KeyW} {KeyS}",
   switch_hand: "{KeyH}",
   shot: "1 … 6, {KeyX}, hold {KeyE}",

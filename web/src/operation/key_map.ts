@@ -26,6 +26,7 @@ export type OnceAction =
   | { readonly kind: "turn_c_arm"; readonly rotationDeg: number; readonly tiltDeg: number }
   | { readonly kind: "change_thrust"; readonly byN: number }
   | { readonly kind: "choose_screw"; readonly by: number }
+  | { readonly kind: "judge"; readonly displaced: boolean }
   | {
       readonly kind:
         | "free_shot"
@@ -102,6 +103,8 @@ const PLACES: Readonly<Record<string, OnceAction>> = {
   Backslash: { kind: "save_picture" },
   Enter: { kind: "aim_along_sight" },
   Delete: { kind: "decline" },
+  Comma: { kind: "judge", displaced: false },
+  Period: { kind: "judge", displaced: true },
   F1: { kind: "help" },
   F2: { kind: "ghost" },
   F4: { kind: "cut" },

@@ -143,6 +143,9 @@ export class Actions {
       case "dose":
         arm.nextDose();
         break;
+      case "judge":
+        this.ask({ id: "judge", displaced: action.displaced });
+        break;
       case "decline":
         if (!this.isRefused({ id: "decline" })) this.room.decline();
         break;

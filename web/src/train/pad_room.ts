@@ -6,6 +6,7 @@ import type { PadRoom } from "../gamepad";
 import type { Actions } from "./actions";
 import { drivenBy } from "./driven_by";
 import type { Hand } from "./hand";
+import { goThroughDialog } from "./pad_dialog";
 import type { Panels } from "./panels";
 import type { TakingPart } from "./taking_part";
 
@@ -33,6 +34,7 @@ export function padRoom(panels: Panels, hand: Hand, actions: Actions, part: Taki
       panels.top.showGamepad(on);
       panels.notice.say(pluggedText(on, wasDriving));
     },
+    goThroughDialog,
     nextShot: () => {
       panels.arm.shootNext();
     },

@@ -271,7 +271,7 @@ export class TrainPage {
         this.actions.askToReturn(step);
       },
       judge: (displaced) => {
-        this.actions.ask({ id: "judge", displaced });
+        this.actions.act({ kind: "judge", displaced });
       },
       goBack: () => {
         this.actions.goBack();
