@@ -52,7 +52,8 @@ class Sentence {
       case EventKind::ShotTaken:
         return "Picture " + std::to_string(event_.detail);
       case EventKind::GaugeRead:
-        return with_mm("Depth gauge reads", event_.value);
+        return with_mm(is_gauge() ? "Depth gauge reads" : "The second wire stands out farther, by",
+                       event_.value);
       case EventKind::Taken:
         return instrument_name(event_.detail) + " taken";
       case EventKind::PutDown:
@@ -107,6 +108,10 @@ class Sentence {
   }
 
  private:
+  [[nodiscard]] bool is_gauge() const {
+    const auto all = instruments::catalogue();
+    return event_.instrument >= all.size() || all[event_.instrument].is_gauge;
+  }
   [[nodiscard]] std::string subject() const { return instrument_name(event_.instrument); }
   [[nodiscard]] const std::string& bone() const {
     return bodies_.words(static_cast<std::size_t>(event_.detail));

@@ -36,7 +36,9 @@ std::string_view text_of(simulation::Refusal refusal) noexcept {
     case Refusal::SomethingRidesOnIt:
       return "Something rides on it: take that off first";
     case Refusal::NoGaugeInHand:
-      return "The depth gauge must be in the hand, over a wire";
+      return "Measured is by the depth gauge over a wire, or by a second wire held along it, its "
+             "tip on "
+             "the bone beside it";
     case Refusal::NothingToUndo:
       return "Nothing to undo";
     case Refusal::NoUndoWhenAssessed:

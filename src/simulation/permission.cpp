@@ -92,12 +92,27 @@ Refusal why_not_pick_up(const Snapshot& now, const Command& command) noexcept {
 }
 
 Refusal why_not_read(const Snapshot& now, const Command& command) noexcept {
-  const auto catalogue = instruments::catalogue();
-  const std::uint8_t held = now.hands[command.hand].item;
-  if (held >= kMaxItems) return Refusal::NoGaugeInHand;
-  const ItemView& item = now.items[held];
-  return catalogue[item.instrument].is_gauge && item.wire < kMaxItems ? Refusal::None
-                                                                      : Refusal::NoGaugeInHand;
+  return wire_to_measure(instruments::catalogue(), now, command.hand) != kNoItem
+             ? Refusal::None
+             : Refusal::NoGaugeInHand;
+}
+
+/// Of the wires that lie in the target, beside which a hand holds this one.
+std::uint8_t wire_beside(std::span<const instruments::Instrument> catalogue,
+                         const Snapshot& now,
+                         const ItemView& held) noexcept {
+  constexpr double kBesideMm = 6.0;
+  constexpr double kAlong = 0.966;  // cos 15 degrees
+  for (std::uint8_t i = 0; i < kMaxItems; ++i) {
+    const ItemView& wire = now.items[i];
+    if (wire.instrument == kNoInstrument || !wire.in_target || !wire.near_end_is_out) continue;
+    const instruments::Instrument& kind = catalogue[wire.instrument];
+    if (kind.work != instruments::Work::Drill || wire.bend_rad > kStraightRad) continue;
+    const bool is_near =
+        squared_length(held.tip_in_patient - wire.entry_in_patient) <= kBesideMm * kBesideMm;
+    if (is_near && dot(held.shaft_in_patient, wire.shaft_in_patient) >= kAlong) return i;
+  }
+  return kNoItem;
 }
 
 }  // namespace
@@ -120,6 +135,19 @@ std::uint8_t wire_to_ride_on(std::span<const instruments::Instrument> catalogue,
     best = i;
   }
   return best;
+}
+
+std::uint8_t wire_to_measure(std::span<const instruments::Instrument> catalogue,
+                             const Snapshot& now,
+                             std::uint8_t hand) noexcept {
+  const std::uint8_t held = now.hands[hand].item;
+  if (held >= kMaxItems) return kNoItem;
+  const ItemView& item = now.items[held];
+  const instruments::Instrument& kind = catalogue[item.instrument];
+  if (kind.is_gauge) return item.wire;
+  const bool is_wire = kind.work == instruments::Work::Drill && kind.is_double_pointed;
+  if (!is_wire || item.body != kNoBody || !now.hands[hand].touching) return kNoItem;
+  return wire_beside(catalogue, now, item);
 }
 
 Refusal why_not(const procedure::Procedure& procedure,

@@ -31,7 +31,7 @@ enum class Refusal : std::uint8_t {
   NothingInHand,
   NothingThere,  ///< no such item, or it is in a hand already
   SomethingRidesOnIt,
-  NoGaugeInHand,
+  NoGaugeInHand,  ///< nor a wire that is held beside another
   NothingToUndo,
   NoUndoWhenAssessed,
   EndIsInside,        ///< that end of the wire is in the body, or was never double-pointed
@@ -52,6 +52,13 @@ enum class Refusal : std::uint8_t {
 [[nodiscard]] std::uint8_t wire_to_ride_on(std::span<const instruments::Instrument> catalogue,
                                            const Snapshot& now,
                                            InstrumentIndex instrument) noexcept;
+
+/// The wire that a hand measures: on which its gauge rides, or beside which it holds another, its
+/// tip on bone within 6 mm of where that went in and within 15 degrees of its line; kNoItem when
+/// there is none [clinical: B1 step 7].
+[[nodiscard]] std::uint8_t wire_to_measure(std::span<const instruments::Instrument> catalogue,
+                                           const Snapshot& now,
+                                           std::uint8_t hand) noexcept;
 
 /// "no_wire_to_ride_on": stable, for the protocol.
 [[nodiscard]] std::string_view name_of(Refusal refusal) noexcept;

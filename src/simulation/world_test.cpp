@@ -301,6 +301,31 @@ TEST(World, TheGaugeReadsTheWireWhereverItsTipIs) {
   EXPECT_NEAR(op.now().gauge_reading_mm, 33.0, 0.3);
 }
 
+/// Both are as long as each other: what the second stands out farther lies in the bone.
+TEST(World, ASecondWireHeldBesideTheFirstMeasuresIt) {
+  Operator op;
+  op.place_on_entry({});
+  op.drive_to(24.0);
+  op.command(take("second_wire", 1));
+  const Vec3 aside = normalized_or(cross(op.inward(), Vec3{0, 0, 1}), {1, 0, 0}) * 2.0;
+  op.hand(1).shaft_in_patient = -op.inward();
+  op.hand(1).tip_in_patient = op.entry() + aside - op.inward() * 40.0;
+  op.hold(Driver::Off, 0.0, 200);
+  EXPECT_EQ(refusal_in(op.command(simple(CommandKind::ReadGauge, 1))), Refusal::NoGaugeInHand)
+      << "it stands on nothing yet";
+  for (double away = 40.0; away > -1.0; away -= 0.05) {
+    op.hand(1).tip_in_patient = op.entry() + aside - op.inward() * away;
+    op.hold(Driver::Off, 0.0, 1);
+  }
+  ASSERT_TRUE(op.now().hands[1].touching);
+  EXPECT_EQ(refusal_in(op.command(simple(CommandKind::ReadGauge, 1))), Refusal::None);
+  EXPECT_NEAR(op.now().gauge_reading_mm, 24.0, 1.0);
+  op.hand(1).shaft_in_patient = normalized_or(-op.inward() + aside * 0.4, {});
+  op.hold(Driver::Off, 0.0, 300);
+  EXPECT_EQ(refusal_in(op.command(simple(CommandKind::ReadGauge, 1))), Refusal::NoGaugeInHand)
+      << "not along it";
+}
+
 TEST(World, ReamsOverTheWireAndHasTheWireAtHandAgain) {
   Operator op;
   op.place_on_entry({});

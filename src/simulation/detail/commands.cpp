@@ -149,13 +149,25 @@ void World::State::put_down(const Model& model, std::uint8_t hand) noexcept {
   emit(EventKind::PutDown, place, instrument, 0.0);
 }
 
+/// By how much farther one wire's tail lies out along the other than its own, had both one length.
+double World::State::stands_out_more_mm(const Item& held, const Item& wire) const noexcept {
+  const Vec3 tail = held.tip + held.shaft * held.length_mm;
+  const Vec3 entry = (poses[wire.body] * Point<frame::Bone>{entry_in_bone(wire)}).v;
+  const Vec3 other = entry + wire.shaft * (wire.length_mm - wire.depth_mm());
+  return dot(tail - other, wire.shaft) + wire.length_mm - held.length_mm;
+}
+
 void World::State::read_gauge(const Model& model, std::uint8_t hand) noexcept {
-  const Item& gauge = *in_hand(hand);
-  const Item& wire = now.items[gauge.wire];
-  // The foot stands on bone where the wire went in; what of the wire is beyond it is read, to the
-  // scale's step, wherever its tip may be.
-  const double step = kind_of(model, gauge).gauge_step_mm;
-  const double steps = wire.depth_mm() / step + 0.5;
+  const Item& held = *in_hand(hand);
+  const Item& wire = now.items[wire_to_measure(model.catalogue, snapshot, hand)];
+  const instruments::Instrument& kind = kind_of(model, held);
+  // The gauge's foot stands on bone where the wire went in; what of the wire is beyond it is read,
+  // to the scale's step, wherever its tip may be. A wire of the same length, held beside it with
+  // its tip on the bone, stands out farther by as much.
+  constexpr double kRulerStepMm = 0.5;
+  const double step = kind.is_gauge ? kind.gauge_step_mm : kRulerStepMm;
+  const double beyond_mm = kind.is_gauge ? wire.depth_mm() : stands_out_more_mm(held, wire);
+  const double steps = beyond_mm / step + 0.5;
   const auto whole = static_cast<std::int64_t>(steps < 0 ? 0.0 : steps);
   now.gauge_reading_mm = static_cast<double>(whole) * step;
   emit(EventKind::GaugeRead, now.held[hand], 0, now.gauge_reading_mm);

@@ -107,6 +107,8 @@ struct World::State {
   void take(const Model& model, std::uint8_t hand, InstrumentIndex instrument) noexcept;
   void pick_up(const Model& model, std::uint8_t hand, std::uint8_t item) noexcept;
   void put_down(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] double stands_out_more_mm(const detail::Item& held,
+                                          const detail::Item& wire) const noexcept;
   void read_gauge(const Model& model, std::uint8_t hand) noexcept;
 
   // wire_ends.cpp

@@ -244,13 +244,21 @@ export class Actions {
     return (latest === undefined ? undefined : heldItem(latest, hand)?.instrument) ?? "";
   }
 
-  /** By the other hand, unless this one holds the gauge. */
+  private isGauge(id: string): boolean {
+    return this.room.tray.instruments.some((one) => one.id === id && one.is_gauge);
+  }
+
+  /** By a wire that this hand holds beside the one in bone; else by the other hand, unless this one holds the gauge. */
   private measuring(): readonly Asked[] {
     const { active } = this.room.hand;
+    const byThisHand: Asked = { id: "read_gauge", hand: active };
+    if (
+      this.room.offered().find(byThisHand)?.allowed === true &&
+      !this.isGauge(this.heldBy(active))
+    )
+      return [byThisHand];
     const { instruments } = this.room.tray;
-    const isGauge = (id: string): boolean =>
-      instruments.some((one) => one.id === id && one.is_gauge);
-    const hand = isGauge(this.heldBy(active)) ? active : otherHand(active);
+    const hand = this.isGauge(this.heldBy(active)) ? active : otherHand(active);
     return this.room.offered().measuring(hand, this.heldBy(hand), instruments);
   }
 
