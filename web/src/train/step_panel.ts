@@ -104,8 +104,8 @@ export class StepPanel {
           {},
           make("span.step-name", {}, step.title),
           make("p.step-sentence", {}, step.instruction),
-          make("p.step-keys", {}, ...(tool === undefined ? [] : [`${tool.name} `]), ...keys),
           ...(question === undefined ? [] : [question.element]),
+          make("p.step-keys", {}, ...(tool === undefined ? [] : [`${tool.name} `]), ...keys),
         ),
         again,
       );
