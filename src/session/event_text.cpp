@@ -31,6 +31,10 @@ std::string instrument_name(std::int64_t index) {
 }
 
 /// A sentence of one event, in terms of one procedure.
+/// The same where no bone may be named.
+constexpr std::string_view kShaftUnderSkin =
+    "The shaft lies under the skin where a hand would hold it: turn it until it comes from outside";
+
 class Sentence {
  public:
   Sentence(const simulation::Event& event,
@@ -83,6 +87,8 @@ class Sentence {
         return "The wire broke at the bone";
       case EventKind::ScrewStripped:
         return "The screw turns freely: its thread gave way";
+      case EventKind::ShaftUnderSkin:
+        return std::string(kShaftUnderSkin);
       case EventKind::Judged:
         return place() == static_cast<std::size_t>(procedure::Judgement::Displaced)
                    ? "Judged: the fracture is displaced"
@@ -148,14 +154,35 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 28> kNames{
-    "none",           "touched_bone", "entered_bone",     "left_far_side",
-    "withdrawn",      "shot_taken",   "gauge_read",       "taken",
-    "put_down",       "seated",       "step_completed",   "undone",
-    "finished",       "refused",      "wrong_bone",       "slipped",
-    "wrist_stopped",  "live_ended",   "wire_bent",        "wire_broke",
-    "screw_stripped", "aid_used",     "structure_struck", "entered_joint",
-    "left_joint",     "point_seen",   "point_probed",     "judged"};
+constexpr std::array<std::string_view, 29> kNames{"none",
+                                                  "touched_bone",
+                                                  "entered_bone",
+                                                  "left_far_side",
+                                                  "withdrawn",
+                                                  "shot_taken",
+                                                  "gauge_read",
+                                                  "taken",
+                                                  "put_down",
+                                                  "seated",
+                                                  "step_completed",
+                                                  "undone",
+                                                  "finished",
+                                                  "refused",
+                                                  "wrong_bone",
+                                                  "slipped",
+                                                  "wrist_stopped",
+                                                  "live_ended",
+                                                  "wire_bent",
+                                                  "wire_broke",
+                                                  "screw_stripped",
+                                                  "aid_used",
+                                                  "structure_struck",
+                                                  "entered_joint",
+                                                  "left_joint",
+                                                  "point_seen",
+                                                  "point_probed",
+                                                  "judged",
+                                                  "shaft_under_skin"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {

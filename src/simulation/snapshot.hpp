@@ -133,6 +133,8 @@ enum class EventKind : std::uint8_t {
   PointSeen = 25,     ///< detail: its number in the tour
   PointProbed = 26,   ///< likewise
   Judged = 27,        ///< detail: procedure::Judgement
+  /// A wire would not go in: its shaft lies in soft tissue where a hand would hold it; detail: body
+  ShaftUnderSkin = 28,
 };
 
 struct Event {

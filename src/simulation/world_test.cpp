@@ -255,6 +255,30 @@ TEST(World, AFlatWireSkatesInsteadOfEngaging) {
   EXPECT_EQ(slips_in(Driver::Forward, 2), 1) << "and again when it is started anew";
 }
 
+/// Whoever holds a wire holds it outside the patient.
+TEST(World, AWireWhoseShaftLiesInTheForearmDoesNotGoIn) {
+  Operator op;
+  op.aim({});
+  const Vec3 along_forearm = normalized_or(Vec3{0.1, -0.3, 1.0}, {});
+  const auto drive = [&](const Vec3& shaft) {
+    op.hand().shaft_in_patient = shaft;
+    for (double away = 20.0; away > -0.5; away -= 0.05) {
+      op.hand().tip_in_patient = op.entry() + shaft * away;
+      op.hold(Driver::Off, 0.0, 1);
+    }
+    EXPECT_TRUE(op.now().hands[0].touching);
+    op.hold(Driver::Forward, 30.0, 1);
+    const bool is_told = has_event(op.now(), EventKind::ShaftUnderSkin);
+    op.hold(Driver::Forward, 30.0, 300);
+    return is_told;
+  };
+  EXPECT_TRUE(drive(along_forearm));
+  EXPECT_EQ(op.item().body, kNoBody);
+  op.hold(Driver::Off, 0.0, 1);
+  EXPECT_FALSE(drive(-op.inward()));
+  EXPECT_NE(op.item().body, kNoBody);
+}
+
 TEST(World, ASleeveInTheOtherHandLeadsTheWireAndKeepsItFromSkating) {
   Operator op;
   op.command(take("needle_sleeve_14g", 1));

@@ -222,7 +222,9 @@ void World::State::rest_or_engage(const Model& model, std::uint8_t hand) noexcep
   const bool is_led = other != nullptr && kind_of(model, *other).is_sleeve &&
                       distance(item.shaft, other->shaft) == 0.0;
   if (steepness >= instruments::kSkatingCosine || (is_led && steepness > 0.0)) {
-    engage(model, hand, surface);
+    if (is_shaft_out(model, item)) return engage(model, hand, surface);
+    if (!held.slip_is_told) emit(EventKind::ShaftUnderSkin, now.held[hand], body, 0.0);
+    held.slip_is_told = true;
     return;
   }
   // Too flat: the tip walks along the surface, the way it is pushed.

@@ -28,10 +28,29 @@ bool World::State::is_in_air(const Model& model,
                              double travel_mm) const noexcept {
   const Vec3 in_bone = item.origin_in_bone + item.direction_in_bone * travel_mm;
   const Vec3 point = (poses[item.body] * Point<frame::Bone>{in_bone}).v;
+  return is_air_at(model, point, in_bone);
+}
+
+/// @param far  where the point is in the CT when no bone is near that could carry the tissue.
+bool World::State::is_air_at(const Model& model,
+                             const Vec3& point,
+                             const Vec3& far) const noexcept {
   const Touched nearest = surface_at(point);
   const Vec3 scanned =
-      nearest.body == kNoBody ? in_bone : (inverses[nearest.body] * Point<frame::Patient>{point}).v;
+      nearest.body == kNoBody ? far : (inverses[nearest.body] * Point<frame::Patient>{point}).v;
   return sample_at(model.data.ct.view(), scanned, kOutsideHu) < kAirHu;
+}
+
+/// Whether a free wire's shaft is out of the skin from so far behind its tip on: whoever holds it
+/// there is no part of the forearm. Ways to either pole leave the skin within 30 mm (nine cases).
+bool World::State::is_shaft_out(const Model& model, const Item& item) const noexcept {
+  constexpr double kUnderSkinMm = 45.0;
+  constexpr double kStepMm = 10.0;
+  for (double back = kUnderSkinMm; back < item.length_mm; back += kStepMm) {
+    const Vec3 point = item.tip + item.shaft * back;
+    if (!is_air_at(model, point, point)) return false;
+  }
+  return true;
 }
 
 bool World::State::is_near_end_out(const Model& model, const Item& item) const noexcept {

@@ -117,6 +117,10 @@ struct World::State {
   void come_out_at_far_side(const Model& model, std::uint8_t hand) noexcept;
   [[nodiscard]] bool is_near_end_out(const Model& model, const detail::Item& item) const noexcept;
   [[nodiscard]] bool is_far_end_out(const Model& model, const detail::Item& item) const noexcept;
+  [[nodiscard]] bool is_air_at(const Model& model,
+                               const Vec3& point,
+                               const Vec3& far) const noexcept;
+  [[nodiscard]] bool is_shaft_out(const Model& model, const detail::Item& item) const noexcept;
   [[nodiscard]] bool is_in_air(const Model& model,
                                const detail::Item& item,
                                double travel_mm) const noexcept;
