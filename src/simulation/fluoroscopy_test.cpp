@@ -43,6 +43,7 @@ class Looker {
     world.step(input_);
     input_.command = {};
   }
+  void flex(double rad) { input_.wrist.flexion_rad = rad; }
   void pronate(double angle_rad) { input_.wrist.pronation_rad = angle_rad; }
   [[nodiscard]] std::vector<procedure::Shot> shots() const {
     return world.operation_record().shots;
@@ -130,6 +131,17 @@ TEST(Fluoroscopy, ForearmThatTurnsUnderTheLiveBeamIsSeenFromOtherSides) {
   const auto shots = looker.shots();
   ASSERT_EQ(shots.size(), 3U);
   EXPECT_NEAR(shots[2].rotation_deg - shots[0].rotation_deg, 40.0, 7.0);
+}
+
+TEST(Fluoroscopy, WristThatMovesUnderTheLiveBeamIsOnRecordByTenDegrees) {
+  Looker looker;
+  const double before = looker.world.now().wrist.flexion_rad;
+  looker.flex(before - 0.6);
+  looker.look(0, true, 4000);
+  const auto shots = looker.shots();
+  ASSERT_GE(shots.size(), 3U);
+  EXPECT_LE(shots.size(), 5U);
+  EXPECT_NEAR(shots.front().wrist.flexion_rad - shots.back().wrist.flexion_rad, 0.55, 0.12);
 }
 
 TEST(Fluoroscopy, SingleShotCostsWhatFiveSecondsOfLiveLookingDo) {

@@ -180,7 +180,7 @@ std::uint64_t hash_on_a_moving_wrist(const char* procedure) {
 /// simulation, a procedure or the script, review that the change is meant, then replace the
 /// constants and say why in the commit.
 TEST(EachProcedure, HasItsGoldenHashOnAMovingWrist) {
-  EXPECT_EQ(hash_on_a_moving_wrist("dorsal_scaphoid_fixation"), 18235709588733130913ULL);
+  EXPECT_EQ(hash_on_a_moving_wrist("dorsal_scaphoid_fixation"), 7076671020978351855ULL);
   EXPECT_EQ(hash_on_a_moving_wrist("volar_scaphoid_fixation"), 14421379825501221353ULL);
 }
 

@@ -89,6 +89,11 @@ OperationRecord perfect() {
       record.shots.push_back(shot_at(rotation, tilt, of_screw));
     }
   }
+  for (const double flexion : {-0.4, 0.4}) {
+    record.shots.push_back(shot_at(0, 0, true));
+    record.shots.back().look = procedure::Look::Live;
+    record.shots.back().wrist.flexion_rad = flexion;
+  }
   record.completed_steps = (1U << declared().steps.size()) - 1U;
   record.judgement = procedure::Judgement::Aligned;
   record.ticks = 300000;
@@ -317,6 +322,13 @@ TEST(Score, AWireThatIsOutAtOneEndAloneMayComeWithTheDrill) {
   EXPECT_EQ(*item_of(score(wrist(), record), "wire_held_while_reaming").value, 0.0);
   record.reamed_mm = 0.0;
   EXPECT_FALSE(item_of(score(wrist(), record), "wire_held_while_reaming").value.has_value());
+}
+
+TEST(Score, AScrewIsSeenInMotionByLivePicturesAlone) {
+  OperationRecord record = perfect();
+  EXPECT_GE(*item_of(score(wrist(), record), "seen_in_motion_deg").value, 40.0);
+  for (Shot& shot : record.shots) shot.look = procedure::Look::Single;
+  EXPECT_EQ(*item_of(score(wrist(), record), "seen_in_motion_deg").value, 0.0);
 }
 
 TEST(Score, AWayOutAtTheSideIsNoneAtThePole) {

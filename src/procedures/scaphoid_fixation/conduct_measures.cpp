@@ -96,6 +96,22 @@ Measure judgement_right(const Facts& facts) {
   return measure;
 }
 
+/// Flexion through which the wrist was moved under live pictures with the screw seated.
+Measure seen_in_motion(const Facts& facts) {
+  Measure measure{"seen_in_motion_deg", 0.0, "The screw was not looked at live."};
+  std::optional<anatomy::Interval> range;
+  for (const procedure::Shot& shot : facts.record.shots) {
+    if (shot.look == procedure::Look::Single || !shot.shows_screw) continue;
+    const double flexion = shot.wrist.flexion_rad;
+    range = range ? anatomy::Interval{std::min(range->low, flexion), std::max(range->high, flexion)}
+                  : anatomy::Interval{flexion, flexion};
+  }
+  if (!range) return measure;
+  measure.value = degrees_from_radians(range->high - range->low);
+  measure.finding = "Live pictures with the screw in, the wrist moved so far.";
+  return measure;
+}
+
 /// Wires, and what ran over them.
 Measure beyond_far_cortex(const Facts& facts) {
   Measure measure{"beyond_far_cortex_mm", std::nullopt, kNoWire};
@@ -271,6 +287,7 @@ std::vector<Measure> conduct_measures(const Facts& facts) {
       side_exits(facts),
       wire_held(facts),
       judgement_right(facts),
+      seen_in_motion(facts),
       beyond_far_cortex(facts),
       follower_beyond_far_cortex(facts),
       wire_bend(facts),

@@ -45,6 +45,13 @@ OperationRecord perfect() {
   record.reamed_mm = 25.0;
   record.compression_n = 70.0;
   record.judgement = procedure::Judgement::Aligned;
+  for (const double flexion : {-0.4, 0.4}) {
+    procedure::Shot live;
+    live.look = procedure::Look::Live;
+    live.shows_screw = true;
+    live.wrist.flexion_rad = flexion;
+    record.shots.push_back(live);
+  }
   Pass pass;
   pass.instrument = *instruments::instrument_of("guide_wire");
   pass.bodies_entered = bit_of(BoneId::Scaphoid);

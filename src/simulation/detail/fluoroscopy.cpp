@@ -20,6 +20,13 @@ namespace {
 
 constexpr std::uint32_t kPulseTicks = 1000 / procedure::kPulsesPerSecond;
 
+/// Since a look began the wrist has moved so far that another picture is seen.
+bool has_moved_far(const WristPose& now, const WristPose& then) noexcept {
+  constexpr double kFarRad = 0.175;  // 10 degrees
+  return absolute(now.flexion_rad - then.flexion_rad) > kFarRad ||
+         absolute(now.radial_deviation_rad - then.radial_deviation_rad) > kFarRad;
+}
+
 }  // namespace
 
 /// How far a beam of these angles [deg, in the room] runs along the line that the procedure is
@@ -96,7 +103,8 @@ void World::State::look_through(const Model& model, const CArmInput& raw) noexce
 }
 
 /// One flash of the tube. A new entry is made where it shows something that the last one did not:
-/// another view, or more that was done. When there is room for no more it counts with the last.
+/// another view, the wrist held otherwise, or more that was done. When there is room for no more it
+/// counts with the last.
 void World::State::pulse(const Model& model) noexcept {
   const CArmInput& stand = spent.c_arm;
   const bool is_first = spent.live_ticks == 0;
@@ -109,7 +117,7 @@ void World::State::pulse(const Model& model) noexcept {
     note_what_shows(model, seen);
     is_new = last.look == Look::Single || last.tube != spent.tube ||
              last.shows_wire != seen.shows_wire || last.shows_screw != seen.shows_screw ||
-             procedure::are_different_views(seen, last);
+             procedure::are_different_views(seen, last) || has_moved_far(spent.wrist, last.wrist);
   }
   if (is_new && spent.shot_count < kMaxShots) {
     note_look(model, stand.rotation_deg, stand.tilt_deg, is_first ? Look::Live : Look::LiveOn);
