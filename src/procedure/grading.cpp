@@ -85,7 +85,7 @@ double earned_share(const ScoreRule& rule, double value) {
   const double good = is_low ? rule.good.low : rule.good.high;
   const double fail = is_low ? rule.fail.low : rule.fail.high;
   if (!std::isfinite(fail)) return 1.0;  // nothing fails on this side
-  return (value - fail) / (good - fail);
+  return std::max(0.0, (value - fail) / (good - fail));  // never -0
 }
 
 void grade(ScoreReport& report, const ScoreRules& rules, std::span<const Measure> measures) {
