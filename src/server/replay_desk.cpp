@@ -47,7 +47,9 @@ ReplayDesk::~ReplayDesk() = default;
 ReplayDesk::Recorded ReplayDesk::decoded(const records::Attempt& attempt) const {
   Recorded made;
   if (attempt.summary.case_fingerprint != case_fingerprint_) {
-    made.problem = "This attempt was made on another case; open that case to see its replay.";
+    made.problem = "This attempt was made on another case, '" + attempt.summary.case_name +
+                   "': choose it at the start to see its replay. A case that was made anew is "
+                   "another one, too.";
     return made;
   }
   auto recording = simulation::decode(attempt.recording);
