@@ -18,6 +18,15 @@ struct FractureOffset {
   double cosine_angle = 1.0;  ///< of the angle between the faces
 };
 
+/// Displaced: 1 mm is [clinical: K, B1 step 1], and faces are found to half of that; 10 degrees
+/// [E].
+[[nodiscard]] constexpr bool lies_apart(const FractureOffset& offset) noexcept {
+  constexpr double kAlignedMm = 1.5;
+  constexpr double kAlignedCosine = 0.985;
+  return offset.gap_mm > kAlignedMm || offset.step_mm > kAlignedMm ||
+         offset.cosine_angle < kAlignedCosine;
+}
+
 /// The fracture's faces as scanned, frame Bone of both fragments (equal then) [mm].
 struct Reduction {
   Vec3 first_middle;   ///< of the first fragment's face

@@ -55,6 +55,12 @@ struct ScaphoidLandmarks {
   Vec3 waist;                    ///< point of the central axis where the bone is narrowest
 };
 
+/// A scaphoid whose pieces lie apart as scanned, put together again: its pieces' faces meet.
+struct ReducedScaphoid {
+  ScaphoidLandmarks marks;  ///< of the bone so, frame Bone of the proximal piece
+  Pose<frame::Bone, frame::Bone> proximal_from_distal;
+};
+
 /// Where a case comes from and how it was made.
 struct Provenance {
   bool simulated =
@@ -82,6 +88,8 @@ struct CaseData {
   MeshIn<frame::Patient>
       skin;  ///< as scanned [mm]; may be empty, may be open at the field of view's ends
   ScaphoidLandmarks scaphoid;
+  /// Where it is to be reduced first; found when a case is opened (reduced_scaphoid.hpp).
+  std::optional<ReducedScaphoid> reduced;
   std::optional<Lesson> lesson;  ///< from its own file; none where nobody wrote one
   /// Where the bones are for any way the hand is held; empty in a case of an older program until
   /// ensure_hand_motion (make_hand_motion.hpp).

@@ -12,6 +12,7 @@
 #include "case_io/case_folder.hpp"
 #include "case_io/soft_tissue_folder.hpp"
 #include "cases/make_hand_motion.hpp"
+#include "cases/reduced_scaphoid.hpp"
 #include "core/error.hpp"
 #include "procedures/built_in.hpp"
 #include "protocol/bodies.hpp"
@@ -44,6 +45,7 @@ cases::CaseData load_case(const std::filesystem::path& folder) {
   cases::CaseData data = case_io::read_case(folder);
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   cases::ensure_hand_motion(data);
+  data.reduced = cases::find_reduced_scaphoid(data);
   if (const auto tissue = case_io::read_soft_tissue(folder)) {
     data.arthroscopy =
         std::make_shared<const cases::ArthroscopicMap>(arthroscopy::make_map(data, *tissue));

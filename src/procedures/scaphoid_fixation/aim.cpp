@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedures/scaphoid_fixation/aim.hpp"
 
-#include <array>
-#include <optional>
 #include <vector>
 
-#include "anatomy/reduction.hpp"
-#include "cases/scaphoid_landmarks.hpp"
-#include "procedures/scaphoid_fixation/predicates.hpp"
 #include "procedures/scaphoid_fixation/screws.hpp"
 
 namespace carpus::procedures::scaphoid_fixation {
@@ -25,17 +20,15 @@ std::uint8_t piece_of(const cases::CaseData& data, BonePart part) {
   return found;
 }
 
-/// Of a bone whose pieces lie apart: as they lie once their faces meet, frame Bone of `near`.
-std::optional<cases::ScaphoidLandmarks> reduced(const cases::CaseData& data,
-                                                const cases::Bone& near,
-                                                const cases::Bone& far) {
-  const auto faces = anatomy::reduction_of(near.surface, far.surface);
-  if (!faces) return std::nullopt;
-  if (!lies_apart(procedure::facts_of(faces->offset({})))) return std::nullopt;
-  const MeshIn<frame::Bone> led = faces->first_from_second_reduced() * far.surface;
-  const std::array<const MeshIn<frame::Bone>*, 2> pieces{&near.surface, &led};
-  const cases::AxisSegment& scanned = data.scaphoid.central_axis;
-  return cases::find_scaphoid_landmarks(pieces, scanned.proximal - scanned.distal);
+/// Of the bone reduced, frame Bone of the piece with the entry; as scanned where nothing is to be
+/// reduced.
+cases::AxisSegment seen_from_piece(const cases::CaseData& data,
+                                   Approach approach,
+                                   const cases::AxisSegment& segment) {
+  if (!data.reduced || approach == Approach::FromProximal) return segment;
+  const auto back = data.reduced->proximal_from_distal.inverse();
+  return {(back * Point<frame::Bone>{segment.proximal}).v,
+          (back * Point<frame::Bone>{segment.distal}).v};
 }
 
 }  // namespace
@@ -47,14 +40,10 @@ procedure::Aim aim_of(const cases::CaseData& data,
   const bool from_proximal = approach == Approach::FromProximal;
   procedure::Aim aim;
   aim.body = piece_of(data, from_proximal ? BonePart::Proximal : BonePart::Distal);
-  const std::uint8_t far_piece =
-      piece_of(data, from_proximal ? BonePart::Distal : BonePart::Proximal);
-  cases::ScaphoidLandmarks marks = data.scaphoid;
-  if (aim.body != far_piece) {
-    marks = reduced(data, data.bones[aim.body], data.bones[far_piece]).value_or(marks);
-  }
-  const Vec3 near = from_proximal ? marks.central_axis.proximal : marks.central_axis.distal;
-  const Vec3 far = from_proximal ? marks.central_axis.distal : marks.central_axis.proximal;
+  const cases::ScaphoidLandmarks& marks = data.reduced ? data.reduced->marks : data.scaphoid;
+  const cases::AxisSegment axis = seen_from_piece(data, approach, marks.central_axis);
+  const Vec3 near = from_proximal ? axis.proximal : axis.distal;
+  const Vec3 far = from_proximal ? axis.distal : axis.proximal;
   aim.entry = near;
   aim.direction = normalized_or(far - near, {0, 0, 1});
   aim.length_mm = distance(marks.longest_line.proximal, marks.longest_line.distal);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cases/reduced_scaphoid.hpp"
 #include "cases/scaphoid_landmarks.hpp"
 #include "cases/synthetic_case_test_support.hpp"
 #include "procedures/built_in.hpp"
@@ -30,6 +31,7 @@ cases::CaseData broken(const Pose<frame::Bone, frame::Bone>& moved) {
   distal.surface = moved * cases::test::half_scaphoid(BonePart::Distal, 0.0);
   data.bones.insert(it + 1, std::move(distal));
   data.scaphoid = cases::find_scaphoid_landmarks(data);
+  data.reduced = cases::find_reduced_scaphoid(data);
   return data;
 }
 
@@ -69,6 +71,7 @@ TEST(Aim, OfABoneToBeReducedIsThatOfTheBoneReduced) {
 
 TEST(Aim, OfPiecesThatMeetIsThatOfTheBoneAsScanned) {
   const cases::CaseData data = broken(displaced(0.0, {}));
+  EXPECT_FALSE(data.reduced.has_value());
   const procedure::Aim aim = aim_of(data, Approach::FromProximal, tray());
   EXPECT_EQ(aim.entry, data.scaphoid.central_axis.proximal);
 }

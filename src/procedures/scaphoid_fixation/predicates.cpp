@@ -30,13 +30,10 @@ constexpr double kNextScrewMm = 2.6;    // to the next shorter screw of the tray
 constexpr double kBuriedLeastMm = 1.0;  // 2 are wanted [K, B1 step 9]
 constexpr double kBuriedMostMm = 4.0;
 constexpr double kTipCoverMm = 0.5;
-constexpr double kAlignedMm =
-    1.5;  // 1 is displaced [K, B1 step 1]; faces are found to half of that
-constexpr double kAlignedCosine = 0.985;  // 10 degrees [E]
-constexpr double kFlushMm = 1.0;          // a wire's near end, out of the bone …
-constexpr double kFlushDeepMm = 3.0;      // … or in it, when it is drawn through [K, B1 step 5]
-constexpr double kExtendedRad = 0.175;    // 10 degrees of flexion: the wrist is straight
-constexpr double kHeldAtMm = 20.0;        // of a wire out of the bone, to work over it
+constexpr double kFlushMm = 1.0;        // a wire's near end, out of the bone …
+constexpr double kFlushDeepMm = 3.0;    // … or in it, when it is drawn through [K, B1 step 5]
+constexpr double kExtendedRad = 0.175;  // 10 degrees of flexion: the wrist is straight
+constexpr double kHeldAtMm = 20.0;      // of a wire out of the bone, to work over it
 
 constexpr unsigned kPaAndLateral =
     1U << static_cast<unsigned>(View::Pa) | 1U << static_cast<unsigned>(View::Lateral);
@@ -91,8 +88,8 @@ bool is_surveyed(const Situation& now) noexcept {
 bool is_displaced(const Situation& now) noexcept { return lies_apart(now.fracture); }
 
 bool lies_apart(const procedure::FractureFacts& fracture) noexcept {
-  return fracture.is_apart && (fracture.gap_mm > kAlignedMm || fracture.step_mm > kAlignedMm ||
-                               fracture.cosine_angle < kAlignedCosine);
+  return fracture.is_apart &&
+         anatomy::lies_apart({fracture.gap_mm, fracture.step_mm, fracture.cosine_angle});
 }
 
 bool is_reduced(const Situation& now) noexcept {
