@@ -84,7 +84,7 @@ double earned_share(const ScoreRule& rule, double value) {
   const bool is_low = value < rule.good.low;
   const double good = is_low ? rule.good.low : rule.good.high;
   const double fail = is_low ? rule.fail.low : rule.fail.high;
-  if (!std::isfinite(fail)) return 1.0;  // nothing fails on this side
+  if (!std::isfinite(fail)) return 1.0;                  // nothing fails on this side
   return std::max(0.0, (value - fail) / (good - fail));  // never -0
 }
 

@@ -337,7 +337,7 @@ async function operate(page, station, problems) {
       await page.keyboard.press("f");
       await page.locator("dialog.confirm[open]").waitFor();
       const open = await page.textContent("dialog.confirm[open] .confirm-note");
-      expect(open.includes("Draw the wire through"), `what is open: '${open}'`);
+      expect(open.includes("Survey"), `what is open: '${open}'`);
       await page.keyboard.press("Enter");
       await page.locator(".score-table tbody tr").first().waitFor();
       const rows = await page.locator(".score-table tbody tr").count();
