@@ -237,8 +237,10 @@ function row(item: ScoreItem, report: ScoreReport): HTMLElement {
     item.points_possible === 0
       ? ""
       : `${item.points.toFixed(1)} / ${item.points_possible.toFixed(0)}`;
+  // Nothing is to be said against it: on paper a line without its reason.
+  const isPlain = item.grade === "good" || (points === "" && item.grade === "not_measured");
   return make(
-    "tr",
+    isPlain ? ("tr.plain" as "tr") : "tr",
     { "data-item": item.id },
     make("td.picture", {}, ...(picture === undefined ? [] : [picture])),
     make(
