@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.hpp"
+#include "simulation/permission.hpp"
 
 namespace carpus::session {
 namespace {
@@ -56,6 +57,32 @@ TEST(PageInput, AnAidIsNamed) {
   EXPECT_FALSE(command_of(message, {}));
   message.aid = protocol::Aid::Hint;
   EXPECT_EQ(command_of(message, {})->index, 2);
+}
+
+TEST(PageInput, AJudgementSaysWhich) {
+  protocol::Act message;
+  message.id = protocol::ActionId::Judge;
+  EXPECT_FALSE(command_of(message, {}));
+  message.displaced = true;
+  EXPECT_EQ(command_of(message, {})->index,
+            static_cast<std::uint8_t>(procedure::Judgement::Displaced));
+}
+
+/// What is asked for cannot be had by guessing, nor be changed once something was drilled.
+TEST(PageInput, AJudgementIsTakenWhereItIsAskedBeforeBoneIsEntered) {
+  procedure::Procedure procedure;
+  simulation::Snapshot now;
+  simulation::Command command{simulation::CommandKind::Judge, 0, 1, 0, 0};
+  EXPECT_EQ(why_not(procedure, now, command), simulation::Refusal::UnknownCommand);
+  procedure.judges_displacement = true;
+  EXPECT_EQ(why_not(procedure, now, command), simulation::Refusal::None);
+  for (const int unknown : {0, 3, 255}) {
+    command.index = static_cast<std::uint8_t>(unknown);
+    EXPECT_EQ(why_not(procedure, now, command), simulation::Refusal::UnknownCommand);
+  }
+  command.index = 2;
+  now.passes = 1;
+  EXPECT_EQ(why_not(procedure, now, command), simulation::Refusal::TooLateToJudge);
 }
 
 TEST(PageInput, WristIsTakenInRadians) {

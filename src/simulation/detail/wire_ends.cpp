@@ -42,7 +42,8 @@ bool World::State::is_air_at(const Model& model,
 }
 
 /// Whether a free wire's shaft is out of the skin from so far behind its tip on: whoever holds it
-/// there is no part of the forearm. Ways to either pole leave the skin within 30 mm (nine cases).
+/// there is no part of the forearm. Scripted ways to either pole left the skin within 30 mm
+/// (docs/scoring.md).
 bool World::State::is_shaft_out(const Model& model, const Item& item) const noexcept {
   constexpr double kUnderSkinMm = 45.0;
   constexpr double kStepMm = 10.0;
