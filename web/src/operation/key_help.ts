@@ -98,7 +98,7 @@ export const HELP: readonly HelpGroup[] = [
     lines: [
       { keys: "{KeyZ}", text: "undo: back to the last checkpoint" },
       { keys: "{KeyF}", text: "finish (asks first)" },
-      { keys: "{Comma} / {Period}", text: "say: the fracture is aligned / displaced" },
+      { keys: "Home / End", text: "say: the fracture is aligned / displaced" },
       { keys: "Del", text: "decline to operate (asks for the reasons)" },
       { keys: "{KeyP}", text: "pause" },
       { keys: "{Backquote}", text: "sound on or off" },
@@ -152,7 +152,7 @@ const KEYS_OF: Readonly<Record<string, string>> = {
   approach: "{KeyA} / {KeyD}",
   drive: "Hold Space",
   reverse: "{KeyR} reverses",
-  judge: "{Comma} aligned, {Period} displaced",
+  judge: "Home aligned, End displaced",
   move_wrist: "{KeyJ} {KeyU}, {KeyK} {KeyO}, {KeyN} {KeyB}, {KeyW} {KeyS}",
   switch_hand: "{KeyH}",
   shot: "1 … 6, {KeyX}, hold {KeyE}",

@@ -58,6 +58,8 @@ describe("onceAction", () => {
 
   it("turns the C-arm by comma and full stop, tilts with Shift", () => {
     expect(onceAction(press(",", "Comma"))).toMatchObject({ rotationDeg: -5, tiltDeg: 0 });
+    expect(onceAction(press("Home", "Home"))).toEqual({ kind: "judge", displaced: false });
+    expect(onceAction(press("End", "End"))).toEqual({ kind: "judge", displaced: true });
     expect(onceAction(press(">", "Period", { shift: true }))).toMatchObject({ tiltDeg: 5 });
   });
 
