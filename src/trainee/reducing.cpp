@@ -3,7 +3,6 @@
 #include "trainee/reducing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -79,25 +78,29 @@ Reducing::Reducing(const cases::CaseData& data, const procedure::Procedure& proc
   for (const auto index : procedure.tray) {
     if (instruments::catalogue()[index].is_joystick) joystick_ = index;
   }
-  std::vector<std::size_t> fragments;
-  for (std::size_t b = 0; b < data.bones.size(); ++b) {
-    if (data.bones[b].bone == procedure.target) fragments.push_back(b);
-  }
-  if (joystick_ == instruments::kNoInstrument || fragments.size() != 2) return;
-  first_ = fragments[0];
-  second_ = fragments[1];
+  const auto body_of = [&](BonePart part) -> std::optional<std::size_t> {
+    for (std::size_t b = 0; b < data.bones.size(); ++b) {
+      if (data.bones[b].bone == procedure.target && data.bones[b].part == part) return b;
+    }
+    return std::nullopt;
+  };
+  const auto proximal = body_of(BonePart::Proximal);
+  const auto distal = body_of(BonePart::Distal);
+  if (joystick_ == instruments::kNoInstrument || !proximal || !distal) return;
+  first_ = *proximal;
+  second_ = *distal;
   faces_ = anatomy::reduction_of(data.bones[first_].surface, data.bones[second_].surface);
   if (faces_) plan_axis();
 }
 
-/// Where the screw will run once the faces meet.
+/// Where the screw will run once the faces meet: the case knows where they are to meet; where it
+/// calls the bone whole enough, as it was scanned.
 void Reducing::plan_axis() {
-  first_from_second_ = faces_->first_from_second_reduced();
-  const MeshIn<frame::Bone> second = first_from_second_ * case_.bones[second_].surface;
-  const std::array<const MeshIn<frame::Bone>*, 2> parts{&case_.bones[first_].surface, &second};
-  const auto& scanned = case_.scaphoid.central_axis;
-  const auto found = find_central_axis(BoneSolid(parts), scanned.proximal - scanned.distal);
-  first_axis_ = found ? found->axis : BoneLine{scanned.proximal, scanned.distal};
+  const auto& reduced = case_.reduced;
+  first_from_second_ =
+      reduced ? reduced->proximal_from_distal : faces_->first_from_second_reduced();
+  const auto& axis = reduced ? reduced->marks.central_axis : case_.scaphoid.central_axis;
+  first_axis_ = {axis.proximal, axis.distal};
   const auto back = first_from_second_.inverse();
   second_axis_ = {(back * Point<frame::Bone>{first_axis_.start}).v,
                   (back * Point<frame::Bone>{first_axis_.end}).v};

@@ -167,6 +167,7 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
   next_shot_ = 0;
   lean_n_ = 0.0;
   last_depth_mm_ = -1e9;
+  if (phase == Phase::LookReduced) plan_on_reduced_bone(now);
   plan_shots(now);
   if (phase == Phase::PlaceSleeve) {
     start_move({planned_entry_ - planned_direction_ * kBehindSleeveMm, -planned_direction_});
@@ -182,8 +183,6 @@ void ScriptedTrainee::enter(Phase phase, const Snapshot& now) {
     reducing_.begin(now, second_hand(), turned(now, random_error(profile_.reduction_error_mm)));
   } else if (phase == Phase::FreeFragment) {
     reducing_.begin_taking_out();
-  } else if (phase == Phase::LookReduced) {
-    plan_on_reduced_bone(now);
   } else if (phase == Phase::Insert) {
     bury_mm_ = draw(profile_.bury_mm);
   }
@@ -215,7 +214,6 @@ void ScriptedTrainee::plan_shots(const Snapshot& now) {
   shots_.clear();
   if (phase_ == Phase::Survey) {
     shots_ = {{0, 0}, {90, 0}};
-    if (profile_.finds_ring) shots_.push_back(down_the_bone(now));
   }
   if (phase_ == Phase::LookReduced || phase_ == Phase::Check || phase_ == Phase::LookExtended ||
       phase_ == Phase::Verify) {
@@ -223,6 +221,9 @@ void ScriptedTrainee::plan_shots(const Snapshot& now) {
     const bool is_quick = phase_ == Phase::LookReduced || phase_ == Phase::LookExtended;
     if (!is_quick && profile_.checks_oblique) shots_.insert(shots_.end(), {{45, 0}, {0, 30}});
   }
+  // Reduced, the bone points elsewhere, and the ring is to be looked for again.
+  const bool looks_for_ring = phase_ == Phase::Survey || phase_ == Phase::LookReduced;
+  if (looks_for_ring && profile_.finds_ring) shots_.push_back(down_the_bone(now));
   if (shots_.empty()) return;
   for (int i = 0; i < profile_.repeated_shots; ++i) {
     shots_.push_back({rng_.uniform(-10, 10), 0});
