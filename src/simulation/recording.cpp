@@ -140,12 +140,13 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   }
   const auto format = in.get(2);
   if (in.is_spoilt()) return carpus::Refusal{"recording: cut off in the header"};
-  if (format >= 1 && format <= 4) {
+  if (format >= 1 && format <= 5) {
     return carpus::Refusal{"recording: format " + std::to_string(format) +
                            (format == 1   ? ", of a wrist that did not move"
                             : format == 2 ? ", of a C-arm without a pedal"
                             : format == 3 ? ", of a world that knew one way to operate"
-                                          : ", of wires that did not bend") +
+                            : format == 4 ? ", of wires that did not bend"
+                                          : ", of fractures that were not judged") +
                            "; it cannot be replayed, its stored score can be shown"};
   }
   if (format != kRecordingFormat) {

@@ -31,7 +31,7 @@ namespace carpus::simulation {
 
 /// 1 was of a world of one wire, 2 of a C-arm without a pedal, 3 of one way to operate; such
 /// recordings show their stored score only.
-inline constexpr std::uint16_t kRecordingFormat = 5;
+inline constexpr std::uint16_t kRecordingFormat = 6;
 
 /// A keyframe stands this often.
 inline constexpr Tick kKeyframeTicks = 10'000;
