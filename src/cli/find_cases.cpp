@@ -73,7 +73,8 @@ server::ShelvedCase shelved_case(const fs::path& folder) {
   server::ShelvedCase result;
   result.id = id_of(folder);
   result.folder = folder;
-  result.title = case_io::read_pseudonym(folder).value_or(result.id);
+  result.name = case_io::read_pseudonym(folder).value_or(result.id);
+  result.title = result.name;
   result.flagged = flagged_in(folder);
   if (std::optional<std::string> preview = case_io::read_preview(folder)) {
     result.preview = std::make_shared<const std::string>(std::move(*preview));

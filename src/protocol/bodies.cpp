@@ -103,7 +103,7 @@ void write(FieldWriter& out, const PictureTruth& in) {
 void read(FieldReader& in, ViewDebrief& out) {
   out.screw = in.string("screw", 128);
   out.revealed_mm = in.number("revealed_mm", 0.0, 10.0);
-  in.records("faults", 0, 3, out.faults);
+  in.records("faults", 0, 5, out.faults);
 }
 
 void write(FieldWriter& out, const ViewDebrief& in) {
@@ -115,6 +115,7 @@ void write(FieldWriter& out, const ViewDebrief& in) {
 void read(FieldReader& in, Attempt& out) {
   read(in, static_cast<AttemptSummary&>(out));
   out.case_is_open = in.boolean("case_is_open");
+  out.case_here = in.string("case_here", 64);
   if (in.has("score")) in.record("score", out.score.emplace());
   if (in.has("events")) in.records("events", 0, 50000, out.events.emplace());
   out.recording_bytes = in.integer("recording_bytes", 0, 9007199254740991);
@@ -123,6 +124,7 @@ void read(FieldReader& in, Attempt& out) {
 void write(FieldWriter& out, const Attempt& in) {
   write(out, static_cast<const AttemptSummary&>(in));
   out.value("case_is_open", in.case_is_open);
+  out.text("case_here", in.case_here, 64);
   if (in.score) {
     out.record("score", *in.score);
   } else {

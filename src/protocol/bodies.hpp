@@ -138,7 +138,7 @@ struct PictureTruth {
 [[nodiscard]] std::string serialize(const PictureTruth& body, int indent = -1);
 
 /// Most `faults` of one ViewDebrief.
-inline constexpr std::size_t kMaxViewDebriefFaults = 3;
+inline constexpr std::size_t kMaxViewDebriefFaults = 5;
 /// GET /api/attempts/<id>/replay/views. What is wrong with the screw as it lies at the end, and
 /// which views would have shown it.
 struct ViewDebrief {
@@ -146,7 +146,7 @@ struct ViewDebrief {
   std::string screw;
   /// [mm] 0 to 10
   double revealed_mm = 0.0;
-  /// worst first
+  /// of the screw, the worst first; then of the fracture
   std::vector<PlacementFault> faults;
   bool operator==(const ViewDebrief&) const = default;
 };
@@ -162,6 +162,9 @@ struct Attempt : AttemptSummary {
   /// made on the case that the host serves now, by the fingerprint: only then do its `placement`
   /// and /api/scene.glb belong together
   bool case_is_open = false;
+  /// id of the case of GET /api/cases that bears the name of the attempt's and is not open; empty
+  /// where there is none, or several
+  std::string case_here;
   /// none when unfinished, or where what is stored cannot be read
   std::optional<ScoreReport> score;
   /// none where what is stored cannot be read

@@ -71,6 +71,7 @@ void write(FieldWriter& out, const FaultSeen& in) {
 }
 
 void read(FieldReader& in, PlacementFault& out) {
+  out.kind = static_cast<FaultKind>(in.choice("kind", kFaultKindNames));
   out.place = static_cast<ScrewPlace>(in.choice("place", kScrewPlaceNames));
   out.depth_mm = in.number("depth_mm", 0.0, 100.0);
   out.towards = in.string("towards", 64);
@@ -78,6 +79,7 @@ void read(FieldReader& in, PlacementFault& out) {
 }
 
 void write(FieldWriter& out, const PlacementFault& in) {
+  out.name("kind", name_of(in.kind));
   out.name("place", name_of(in.place));
   out.value("depth_mm", in.depth_mm);
   out.text("towards", in.towards, 64);

@@ -136,6 +136,13 @@ inline constexpr std::array<std::string_view, 4> kScrewPlaceNames{"inside", "dis
   return kScrewPlaceNames[static_cast<std::size_t>(value)];
 }
 
+/// What is wrong with a fixation.
+enum class FaultKind : std::uint8_t { ScrewOut, Gap, Step };
+inline constexpr std::array<std::string_view, 3> kFaultKindNames{"screw_out", "gap", "step"};
+[[nodiscard]] constexpr std::string_view name_of(FaultKind value) noexcept {
+  return kFaultKindNames[static_cast<std::size_t>(value)];
+}
+
 /// How something that is wrong in a joint shows.
 enum class LesionLook : std::uint8_t { Stain, Tear, Worn, Soft, Fissured, Frayed, Bare, Loose };
 inline constexpr std::array<std::string_view, 8> kLesionLookNames{
@@ -246,18 +253,21 @@ struct FaultSeen {
   double rotation_deg = 0.0;
   /// [deg] -90 to 90
   double tilt_deg = 0.0;
-  /// of the metal that is out beyond the bone's true outline, in the plane of the bone; negative:
-  /// so far inside it [mm] -100 to 100
+  /// in the plane of the bone. Of the metal that is out: beyond the bone's true outline; of a gap:
+  /// clear between the pieces; of a step: between their edges. Negative: hidden by so much [mm]
+  /// -100 to 100
   double overhang_mm = 0.0;
   /// that is at least revealed_mm
   bool reveals = false;
   bool operator==(const FaultSeen&) const = default;
 };
 
-/// A part of a screw that is out of the bone.
+/// A part of a screw that is out of the bone, or pieces of it that do not meet.
 struct PlacementFault {
+  FaultKind kind = FaultKind::ScrewOut;
+  /// of what is out; inside for a gap or a step
   ScrewPlace place = ScrewPlace::Inside;
-  /// how far, by the bone's own surface [mm] 0 to 100
+  /// how far out, by the bone's own surface; how wide the gap, how high the step [mm] 0 to 100
   double depth_mm = 0.0;
   /// the bone beside that place; empty where none is near
   std::string towards;

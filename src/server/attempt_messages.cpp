@@ -106,9 +106,13 @@ protocol::QuizAnswerList quiz_answer_list(const records::QuizAnswerPage& page) {
 }
 
 protocol::Attempt attempt_message(const records::Attempt& attempt,
-                                  const std::string& open_case_fingerprint) {
-  protocol::Attempt message{summary_message(attempt.summary), false, {}, {}, 0};
+                                  const std::string& open_case_fingerprint,
+                                  const CaseShelf& cases) {
+  protocol::Attempt message{summary_message(attempt.summary), false, {}, {}, {}, 0};
   message.case_is_open = attempt.summary.case_fingerprint == open_case_fingerprint;
+  message.case_here = cases.id_of_named(attempt.summary.case_name);
+  // Open, it is either the attempt's or was made anew since: there is nothing to open.
+  if (message.case_here == cases.open) message.case_here.clear();
   message.score = readable(protocol::parse_stored_score(attempt.score_json));
   message.events = readable(protocol::parse_stored_events(attempt.events_json));
   if (message.events && !is_truth_open(attempt)) {

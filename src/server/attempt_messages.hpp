@@ -10,6 +10,7 @@
 #include "protocol/bodies.hpp"
 #include "records/attempt.hpp"
 #include "records/attempt_store.hpp"
+#include "server/case_shelf.hpp"
 
 namespace carpus::server {
 
@@ -26,7 +27,9 @@ namespace carpus::server {
 /// stays locked the log holds what was told while it ran.
 /// @param open_case_fingerprint  of the case that is served: places of an attempt mean nothing in
 /// another patient's bones.
+/// @param cases  among which its own may be
 [[nodiscard]] protocol::Attempt attempt_message(const records::Attempt& attempt,
-                                                const std::string& open_case_fingerprint);
+                                                const std::string& open_case_fingerprint,
+                                                const CaseShelf& cases);
 
 }  // namespace carpus::server

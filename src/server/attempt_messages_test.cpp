@@ -21,7 +21,7 @@ TEST(AttemptMessage, HoldsScoreAndLogAsTheyWereStored) {
   attempt.summary.outcome = records::Outcome::Finished;
   attempt.score_json = fixture("stored_score_from_records.json");
   attempt.events_json = R"([{"tick":5,"kind":"touched_bone","text":"Touched the scaphoid"}])";
-  const protocol::Attempt message = attempt_message(attempt, "");
+  const protocol::Attempt message = attempt_message(attempt, "", {});
   EXPECT_EQ(message.duration_s, 61.5);
   EXPECT_EQ(message.outcome, protocol::Outcome::Finished);
   ASSERT_TRUE(message.score.has_value());
@@ -38,12 +38,12 @@ TEST(AttemptMessage, OfALockedAttemptTellsNoMoreThanWhileItRan) {
   attempt.events_json = R"([{"tick":5,"kind":"touched_bone","text":"Touched the scaphoid"},)"
                         R"({"tick":6,"kind":"wrong_bone","text":"The capitate was entered"},)"
                         R"({"tick":7,"kind":"shot_taken","text":"Shot 1"}])";
-  const protocol::Attempt locked = attempt_message(attempt, "");
+  const protocol::Attempt locked = attempt_message(attempt, "", {});
   ASSERT_EQ(locked.events->size(), 2U);
   EXPECT_EQ(locked.events->at(0), (protocol::LoggedEvent{5, "touched_bone", "Touches bone"}));
   EXPECT_EQ(locked.events->at(1), (protocol::LoggedEvent{7, "shot_taken", "Shot 1"}));
   attempt.summary.mode = "practice";
-  EXPECT_EQ(attempt_message(attempt, "").events->size(), 3U);
+  EXPECT_EQ(attempt_message(attempt, "", {}).events->size(), 3U);
 }
 
 TEST(AttemptMessage, LeavesOutWhatCannotBeReadAndKeepsTheRest) {
@@ -51,7 +51,7 @@ TEST(AttemptMessage, LeavesOutWhatCannotBeReadAndKeepsTheRest) {
   attempt.summary.id = 3;
   attempt.score_json = R"({"overall":87.25})";
   attempt.events_json = R"([{"tick":5)";
-  const protocol::Attempt message = attempt_message(attempt, "");
+  const protocol::Attempt message = attempt_message(attempt, "", {});
   EXPECT_EQ(message.id, 3);
   EXPECT_EQ(message.score, std::nullopt);
   EXPECT_EQ(message.events, std::nullopt);

@@ -4,6 +4,16 @@
 
 namespace carpus::server {
 
+std::string CaseShelf::id_of_named(std::string_view name) const {
+  const ShelvedCase* found = nullptr;
+  for (const ShelvedCase& each : cases) {
+    if (each.name != name) continue;
+    if (found != nullptr) return {};
+    found = &each;
+  }
+  return found == nullptr ? std::string{} : found->id;
+}
+
 protocol::CaseList message_of(const CaseShelf& shelf) {
   protocol::CaseList list;
   list.open = shelf.open;

@@ -23,6 +23,7 @@ namespace carpus::server {
 
 struct ShelvedCase {
   std::string id;     ///< of its folder
+  std::string name;   ///< its pseudonym, by which attempts name it
   std::string title;  ///< of its lesson, else what the case calls itself
   std::string history;
   std::string goal;
@@ -42,6 +43,9 @@ struct CaseShelf {
     }
     return nullptr;
   }
+
+  /// Id of the only case with this pseudonym; empty where there is none, or several.
+  [[nodiscard]] std::string id_of_named(std::string_view name) const;
 };
 
 /// The shelf that all look at while cases are put on it. From any thread.

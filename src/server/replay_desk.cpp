@@ -48,8 +48,8 @@ ReplayDesk::Recorded ReplayDesk::decoded(const records::Attempt& attempt) const 
   Recorded made;
   if (attempt.summary.case_fingerprint != case_fingerprint_) {
     made.problem = "This attempt was made on another case, '" + attempt.summary.case_name +
-                   "': choose it at the start to see its replay. A case that was made anew is "
-                   "another one, too.";
+                   "': its replay is shown once that is open. A case that was made anew is another "
+                   "one, too.";
     return made;
   }
   auto recording = simulation::decode(attempt.recording);

@@ -147,7 +147,7 @@ HttpResponse StationHttp::answer_attempt(std::string_view rest, const HttpReques
   const auto attempt = records_.find(id);
   if (!attempt) return no_such_attempt();
   if (what.empty()) {
-    return make_json(serialize(attempt_message(*attempt, case_fingerprint_)));
+    return make_json(serialize(attempt_message(*attempt, case_fingerprint_, *shelf_->now())));
   }
   // With the case at hand it would tell all that a replay keeps to itself.
   if (!is_truth_open(*attempt)) {

@@ -44,9 +44,9 @@ class StationHttpTest : public ::testing::Test {
   }
 
   static CaseShelf shelf() {
-    return {{{"easy", "An easy one", "Fell.", "Find it.", 20.0,
+    return {{{"easy", "first wrist", "An easy one", "Fell.", "Find it.", 20.0,
               std::make_shared<const std::string>("PNG")},
-             {"plain", "plain", "", "", {}, nullptr}},
+             {"plain", "plain wrist", "plain", "", "", {}, nullptr}},
             "easy"};
   }
   static std::filesystem::path new_folder() {
@@ -132,6 +132,20 @@ TEST_F(StationHttpTest, TellsWhetherAnAttemptWasMadeOnTheOpenCase) {
   (void)records_.save(elsewhere);
   EXPECT_EQ(get("/api/attempts/1")["case_is_open"], true);
   EXPECT_EQ(get("/api/attempts/2")["case_is_open"], false);
+}
+
+TEST_F(StationHttpTest, TellsWhereTheCaseOfAnAttemptIs) {
+  for (const char* name : {"plain wrist", "a wrist from elsewhere", "first wrist"}) {
+    records::Attempt attempt;
+    attempt.summary.case_name = name;
+    (void)records_.save(attempt);
+  }
+  EXPECT_EQ(get("/api/attempts/1")["case_here"], "plain");
+  EXPECT_EQ(get("/api/attempts/2")["case_here"], "");
+  EXPECT_EQ(get("/api/attempts/3")["case_here"], "") << "it is open";
+  CaseShelf twins = shelf();
+  twins.cases[0].name = twins.cases[1].name;
+  EXPECT_EQ(twins.id_of_named("plain wrist"), "");
 }
 
 TEST_F(StationHttpTest, TraineeSeesTheAttemptsOfTheirOwnBrowserAlone) {

@@ -11,6 +11,7 @@
 #include "session/exercise_pictures.hpp"
 #include "session/metal_in_beam.hpp"
 #include "simulation/c_arm_angles.hpp"
+#include "view_trainer/fracture_fault.hpp"
 #include "view_trainer/outline_message.hpp"
 #include "view_trainer/placement_fault.hpp"
 #include "view_trainer/silhouette.hpp"
@@ -118,6 +119,12 @@ protocol::ScrewPlace place_of(view_trainer::Region region) {
   return protocol::ScrewPlace::Side;
 }
 
+/// From the focal spot to the waist, unit, in the frame of the scaphoid's first piece.
+Vec3 ray_of(const PosedView& posed, const Vec3& waist) {
+  const auto source = posed.patient_from_scaphoid.inverse() * posed.c_arm.source_in_patient();
+  return normalized_or(waist - source.v, {0, 0, 1});
+}
+
 std::vector<view_trainer::StandardView> all_presets() {
   const auto views = view_trainer::standard_views();
   return {views.begin(), views.end()};
@@ -134,8 +141,12 @@ struct ViewDebrief::Lying {
 };
 
 ViewDebrief::ViewDebrief(const cases::CaseData& data) : data_(data) {
-  if (cases::scaphoid_parts(data).empty()) {
+  const std::vector<const cases::Bone*> pieces = cases::scaphoid_parts(data);
+  if (pieces.empty()) {
     throw InvalidInput("views are judged for the scaphoid, and the case has none");
+  }
+  if (pieces.size() == 2) {
+    faces_ = anatomy::reduction_of(pieces[0]->surface, pieces[1]->surface);
   }
 }
 
@@ -223,14 +234,10 @@ protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
     view_trainer::OutlineMap bone = silhouette_of(scaphoid, posed);
     looked.push_back({&shot, std::move(posed), std::move(bone)});
   }
-  for (const view_trainer::PlacementFault& fault : faults_of(scaphoid, *screw)) {
-    protocol::PlacementFault& told = message.faults.emplace_back();
-    told.place = place_of(fault.region);
-    told.depth_mm = fault.depth_mm;
-    told.towards = fault.towards;
-    const auto add = [&](protocol::FaultSeen seen, double overhang_mm) {
-      seen.overhang_mm = overhang_mm;
-      seen.reveals = overhang_mm >= view_trainer::kRevealedMm;
+  const auto tell = [&](protocol::PlacementFault told, const auto& shown_mm) {
+    const auto add = [&](protocol::FaultSeen seen, double mm) {
+      seen.overhang_mm = mm;
+      seen.reveals = mm >= view_trainer::kRevealedMm;
       told.seen.push_back(std::move(seen));
     };
     for (std::size_t i = 0; i < presets.views().size(); ++i) {
@@ -240,7 +247,7 @@ protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
       seen.label = view.label;
       seen.rotation_deg = view.angles.rotation_deg;
       seen.tilt_deg = view.angles.tilt_deg;
-      add(std::move(seen), overhang_of(fault, *screw, presets.at(i).truth, presets.at(i).posed));
+      add(std::move(seen), shown_mm(presets.at(i).truth, presets.at(i).posed));
     }
     for (const Looked& one : looked) {
       protocol::FaultSeen seen;
@@ -249,9 +256,36 @@ protocol::ViewDebrief ViewDebrief::debrief(const simulation::Snapshot& end,
       seen.rotation_deg = simulation::held_rotation_deg(one.shot->rotation_deg,
                                                         one.shot->snapshot.wrist.pronation_rad);
       seen.tilt_deg = one.shot->tilt_deg;
-      add(std::move(seen), overhang_of(fault, *screw, one.bone, one.posed));
+      add(std::move(seen), shown_mm(one.bone, one.posed));
     }
+    message.faults.push_back(std::move(told));
+  };
+  for (const view_trainer::PlacementFault& fault : faults_of(scaphoid, *screw)) {
+    protocol::PlacementFault told;
+    told.kind = protocol::FaultKind::ScrewOut;
+    told.place = place_of(fault.region);
+    told.depth_mm = fault.depth_mm;
+    told.towards = fault.towards;
+    tell(std::move(told), [&](const view_trainer::OutlineMap& bone, const PosedView& posed) {
+      return overhang_of(fault, *screw, bone, posed);
+    });
   }
+  if (!faces_ || !lies_apart(faces_->offset(places[1]))) return message;
+  const view_trainer::FractureFault fracture{
+      faces_->first_normal,
+      (places[1] * Point<frame::Bone>{faces_->second_middle}).v - faces_->first_middle};
+  const auto tell_of_fracture = [&](protocol::FaultKind kind, double mm, auto shown_mm) {
+    if (mm < view_trainer::kRevealedMm) return;
+    protocol::PlacementFault told;
+    told.kind = kind;
+    told.place = protocol::ScrewPlace::Inside;
+    told.depth_mm = mm;
+    tell(std::move(told), [&](const view_trainer::OutlineMap&, const PosedView& posed) {
+      return shown_mm(fracture, ray_of(posed, faces_->first_middle));
+    });
+  };
+  tell_of_fracture(protocol::FaultKind::Gap, fracture.gap_mm(), view_trainer::clear_gap_mm);
+  tell_of_fracture(protocol::FaultKind::Step, length(fracture.step()), view_trainer::seen_step_mm);
   return message;
 }
 

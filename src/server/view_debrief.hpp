@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The truth about pictures: what bone and metal were on one that was taken, and which views would
-// have shown what is wrong with the screw at the end.
+// have shown what is wrong with the screw and the fracture at the end.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "anatomy/reduction.hpp"
 #include "cases/case_data.hpp"
 #include "protocol/bodies.hpp"
 #include "server/exercise.hpp"
@@ -44,6 +45,7 @@ class ViewDebrief {
   const Lying& lying_at(const simulation::Snapshot& now);
 
   const cases::CaseData& data_;
+  std::optional<anatomy::Reduction> faces_;    ///< of a scaphoid in two pieces
   std::vector<std::unique_ptr<Lying>> lying_;  ///< the newest last
 };
 

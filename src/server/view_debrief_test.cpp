@@ -61,10 +61,13 @@ TEST(ViewDebrief, JudgesThePiecesAsTheyLie) {
   ViewDebrief debrief(data);
   const Operated as_scanned(data, 0);
   const Operated beside(data, 4);
-  EXPECT_TRUE(debrief.debrief(as_scanned.shot.snapshot, {}).faults.empty());
+  for (const auto& fault : debrief.debrief(as_scanned.shot.snapshot, {}).faults) {
+    EXPECT_EQ(fault.kind, protocol::FaultKind::Gap) << "of the fracture, as it was scanned";
+  }
   // The piece beside it no longer covers the screw that goes into it.
   const auto faults = debrief.debrief(beside.shot.snapshot, {}).faults;
   ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.front().kind, protocol::FaultKind::ScrewOut);
   EXPECT_GT(faults.front().depth_mm, 0.5);
 }
 
@@ -88,6 +91,26 @@ TEST(ViewDebrief, TellsOnlyPicturesOnWhichThePiecesLieAsAtTheEnd) {
   };
   EXPECT_EQ(pictures(end.shot), 1);
   EXPECT_EQ(pictures(before.shot), 0);
+}
+
+TEST(ViewDebrief, TellsWhichViewsShowAStep) {
+  const cases::CaseData data = broken_wrist();
+  ViewDebrief debrief(data);
+  const auto step_of = [&](double across_mm) -> std::optional<protocol::PlacementFault> {
+    for (auto& fault : debrief.debrief(Operated(data, across_mm).shot.snapshot, {}).faults) {
+      if (fault.kind == protocol::FaultKind::Step) return std::move(fault);
+    }
+    return std::nullopt;
+  };
+  EXPECT_FALSE(step_of(0).has_value());
+  const auto step = step_of(4);
+  ASSERT_TRUE(step.has_value());
+  EXPECT_NEAR(step->depth_mm, 4.0, 0.5);
+  const auto by_mm = [](const auto& a, const auto& b) { return a.overhang_mm < b.overhang_mm; };
+  const auto [least, most] = std::minmax_element(step->seen.begin(), step->seen.end(), by_mm);
+  EXPECT_LE(most->overhang_mm, step->depth_mm + 1e-9);
+  EXPECT_GT(most->overhang_mm, 0.8 * step->depth_mm) << "one view looks across it";
+  EXPECT_LT(least->overhang_mm, 0.8 * most->overhang_mm) << "and another along it";
 }
 
 TEST(ViewDebrief, AScrewInTheSecondPieceIsSeenFromTheFirst) {

@@ -42,6 +42,15 @@ function doubt(caseFolder, bone, why) {
   writeFileSync(file, JSON.stringify(trust));
 }
 
+/** The demo again is another wrist, by its name and by as much as tells cases apart. */
+function makeAnother(caseFolder, pseudonym) {
+  const file = join(caseFolder, "case.json");
+  const described = JSON.parse(readFileSync(file, "utf8"));
+  described.pseudonym = pseudonym;
+  described.scaphoid.waist_mm[0] += 0.01;
+  writeFileSync(file, JSON.stringify(described));
+}
+
 function twoCases() {
   const folder = mkdtempSync(join(tmpdir(), "carpus-cases-"));
   const put = (name, what) => {
@@ -57,6 +66,7 @@ function twoCases() {
       decline_for: ["flexed", "bone_lost"],
     }),
   );
+  makeAnother(join(folder, "humpback"), "old wrist");
   return folder;
 }
 
@@ -135,6 +145,23 @@ async function chooseAndDecline(page, station) {
     const verdict = await page.locator(".verdict").innerText();
     expect(verdict.startsWith("100"), `the verdict says '${verdict}'`);
     expect(verdict.includes("Because it is"), "the lesson is not told afterwards");
+  });
+  await check(page, "an attempt of a case that is not open leads to it, and to its replay", async () => {
+    const attempt = /#\/attempts\/(\d+)$/.exec(page.url())[1];
+    await page.goto(`${station.url}/#/`);
+    await ready(page);
+    await card("easy").click();
+    await page.locator(".case-card[data-case=easy][aria-current=true]").waitFor();
+    await ready(page);
+    await page.goto(`${station.url}/#/attempts/${attempt}`);
+    await page.getByRole("link", { name: "Open its case" }).waitFor();
+    await page.goto(`${station.url}/#/replay/${attempt}`);
+    await page.locator("[role=alert]", { hasText: "made on another case" }).waitFor();
+    await page.getByRole("link", { name: "Open its case, old wrist" }).click();
+    await page.waitForURL(`**/#/replay/${attempt}`);
+    await page.waitForFunction(() => window.carpusReplay?.ticks()[0] !== undefined);
+    const { open } = await (await fetch(`${station.url}/api/cases`)).json();
+    expect(open === "humpback", `'${open}' is open`);
   });
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Entry of the page: which room the address names.
-//   #/               operate
+//   #/               operate; #/?case=easy&then=replay/12 on that case, and then there
 //   #/attempts       past attempts
 //   #/attempts/12    the score of one
 //   #/replay/12      an attempt looked at again; #/replay/12/15 two; ?t=93.5 from that second

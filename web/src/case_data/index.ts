@@ -3,3 +3,4 @@
 //
 // What the host tells about the case, its procedures and past attempts over HTTP.
 export * from "./case_client";
+export * from "./wanted_case_model";

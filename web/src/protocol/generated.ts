@@ -50,6 +50,9 @@ export type Drive = "none" | "powered" | "by_hand";
 /** Where a screw is out of the scaphoid, farthest; or that it is inside. */
 export type ScrewPlace = "inside" | "distal" | "proximal" | "side";
 
+/** What is wrong with a fixation. */
+export type FaultKind = "screw_out" | "gap" | "step";
+
 /** How something that is wrong in a joint shows. */
 export type LesionLook = "stain" | "tear" | "worn" | "soft" | "fissured" | "frayed" | "bare" | "loose";
 
@@ -115,16 +118,18 @@ export interface FaultSeen {
   readonly rotation_deg: number;
   /** [deg] -90 to 90 */
   readonly tilt_deg: number;
-  /** of the metal that is out beyond the bone's true outline, in the plane of the bone; negative: so far inside it [mm] -100 to 100 */
+  /** in the plane of the bone. Of the metal that is out: beyond the bone's true outline; of a gap: clear between the pieces; of a step: between their edges. Negative: hidden by so much [mm] -100 to 100 */
   readonly overhang_mm: number;
   /** that is at least revealed_mm */
   readonly reveals: boolean;
 }
 
-/** A part of a screw that is out of the bone. */
+/** A part of a screw that is out of the bone, or pieces of it that do not meet. */
 export interface PlacementFault {
+  readonly kind: FaultKind;
+  /** of what is out; inside for a gap or a step */
   readonly place: ScrewPlace;
-  /** how far, by the bone's own surface [mm] 0 to 100 */
+  /** how far out, by the bone's own surface; how wide the gap, how high the step [mm] 0 to 100 */
   readonly depth_mm: number;
   /** the bone beside that place; empty where none is near */
   readonly towards: string;
@@ -1248,7 +1253,7 @@ export interface ViewDebrief {
   readonly screw: string;
   /** [mm] 0 to 10 */
   readonly revealed_mm: number;
-  /** worst first */
+  /** of the screw, the worst first; then of the fracture */
   readonly faults: readonly PlacementFault[];
 }
 
@@ -1256,6 +1261,8 @@ export interface ViewDebrief {
 export interface Attempt extends AttemptSummary {
   /** made on the case that the host serves now, by the fingerprint: only then do its `placement` and /api/scene.glb belong together */
   readonly case_is_open: boolean;
+  /** id of the case of GET /api/cases that bears the name of the attempt's and is not open; empty where there is none, or several */
+  readonly case_here: string;
   /** none when unfinished, or where what is stored cannot be read */
   readonly score: ScoreReport | null;
   /** none where what is stored cannot be read */

@@ -21,6 +21,7 @@ export const SCHEMA: Schema = {
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
     screw_place: { values: ["inside", "distal", "proximal", "side"] },
+    fault_kind: { values: ["screw_out", "gap", "step"] },
     lesion_look: { values: ["stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"] },
     device_health: { values: ["closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"] },
     calibration_step: { values: ["begin", "take", "cancel"] },
@@ -56,6 +57,7 @@ export const SCHEMA: Schema = {
       reveals: {"type": "boolean"},
     } },
     placement_fault: { fields: {
+      kind: {"type": "fault_kind"},
       place: {"type": "screw_place"},
       depth_mm: {"type": "number", "min": 0, "max": 100},
       towards: {"type": "string", "max_length": 64},
@@ -674,7 +676,7 @@ export const PICTURE_TRUTH: Rules = {
 export const VIEW_DEBRIEF: Rules = {
   screw: {"type": "string", "max_length": 128},
   revealed_mm: {"type": "number", "min": 0, "max": 10},
-  faults: {"type": "array", "of": {"type": "placement_fault"}, "max_items": 3},
+  faults: {"type": "array", "of": {"type": "placement_fault"}, "max_items": 5},
 };
 
 export const ATTEMPT: Rules = {
@@ -693,6 +695,7 @@ export const ATTEMPT: Rules = {
   duration_s: {"type": "number", "min": 0, "max": 10000000000000},
   state_hash: {"type": "string", "max_length": 16},
   case_is_open: {"type": "boolean"},
+  case_here: {"type": "string", "max_length": 64},
   score: {"type": "score_report", "optional": true},
   events: {"type": "array", "of": {"type": "logged_event"}, "max_items": 50000, "optional": true},
   recording_bytes: {"type": "integer", "min": 0, "max": 9007199254740991},

@@ -3,7 +3,13 @@
 //
 // The room where one or two attempts are looked at again: play, pause, any moment, any speed.
 import { dateText, procedureText } from "../attempts_list";
-import { fetchAttempt, fetchAttempts, fetchCase, fetchProcedures } from "../case_data";
+import {
+  addressOfCase,
+  fetchAttempt,
+  fetchAttempts,
+  fetchCase,
+  fetchProcedures,
+} from "../case_data";
 import { button, make, setText } from "../dom";
 import { tickText } from "../operation";
 import type { Attempt, AttemptSummary, CaseDescription, ProcedureSummary } from "../protocol";
@@ -38,6 +44,7 @@ declare global {
 export function mountReplay(app: HTMLElement, ids: readonly number[], from: number): () => void {
   let left = false;
   let page: ReplayPage | undefined;
+  let elsewhere: Attempt | undefined;
   const waiting = make("main.waiting", {}, make("p", { role: "status" }, "Loading the replay…"));
   app.replaceChildren(waiting);
   void (async () => {
@@ -48,6 +55,7 @@ export function mountReplay(app: HTMLElement, ids: readonly number[], from: numb
         Promise.all(ids.map(fetchAttempt)),
         fetchAttempts(),
       ]);
+      elsewhere = attempts.find((one) => one.case_here !== "");
       const stages = await Promise.all(
         attempts.map(async (attempt) => ({
           attempt,
@@ -64,6 +72,7 @@ export function mountReplay(app: HTMLElement, ids: readonly number[], from: numb
       waiting.replaceChildren(
         make("h1", {}, "The replay cannot be shown"),
         make("p", { role: "alert" }, why),
+        ...(elsewhere === undefined ? [] : [wayToCase(elsewhere)]),
         make("p", {}, make("a", { href: "#/attempts" }, "All past attempts")),
       );
     }
@@ -72,6 +81,12 @@ export function mountReplay(app: HTMLElement, ids: readonly number[], from: numb
     left = true;
     page?.dispose();
   };
+}
+
+/** Opens the case of an attempt, and its replay then. */
+function wayToCase(attempt: Attempt): HTMLElement {
+  const href = addressOfCase(attempt.case_here, `replay/${attempt.id}`);
+  return make("p", {}, make("a.button-link.primary", { href }, `Open its case, ${attempt.case}`));
 }
 
 interface Shown {

@@ -97,7 +97,9 @@ function show(
       make("a.button-link", { href: "#/review" }, "Learning curve"),
       ...(attempt.case_is_open
         ? [make("a.button-link", { href: `#/replay/${attempt.id}` }, "Replay")]
-        : []),
+        : operated.way === ""
+          ? []
+          : [make("a.button-link", { href: operated.way }, "Open its case")]),
       make("a.button-link", { href: "#/attempts" }, "Past attempts"),
       make("a.button-link.primary", { href: "#/" }, "Operate again"),
     ),

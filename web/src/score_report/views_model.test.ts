@@ -15,6 +15,7 @@ const seen = (view: string, shot: number, overhang_mm: number): FaultSeen => ({
   reveals: overhang_mm >= 0.5,
 });
 const fault = (...all: FaultSeen[]): PlacementFault => ({
+  kind: "screw_out",
   place: "distal",
   depth_mm: 1.24,
   towards: "trapezium",
@@ -36,13 +37,22 @@ describe("what a view shows of a fault", () => {
       "Shot 4 showed it. None of the preset views shows it enough.",
     );
     expect(verdictText(fault(seen("pa", 0, 0.7)))).toBe(
-      "No picture was taken of the screw as it lies. PA shows it best: 0.7 mm beyond the bone.",
+      "No picture was taken of it as it lies. PA shows it best: 0.7 mm beyond the bone.",
     );
   });
   it("is called hidden or too little where it is", () => {
-    expect(shownText(seen("pa", 0, -0.3))).toBe("hidden by the bone");
-    expect(shownText(seen("pa", 0, 0.3))).toBe("0.3 mm beyond the bone: too little to see");
-    expect(shownText(seen("pa", 0, 0.9))).toBe("0.9 mm beyond the bone");
+    expect(shownText("screw_out", seen("pa", 0, -0.3))).toBe("hidden by the bone");
+    expect(shownText("screw_out", seen("pa", 0, 0.3))).toBe(
+      "0.3 mm beyond the bone: too little to see",
+    );
+    expect(shownText("screw_out", seen("pa", 0, 0.9))).toBe("0.9 mm beyond the bone");
+  });
+  it("is told of pieces that do not meet", () => {
+    const step = { ...fault(seen("pa", 0, 1.8)), kind: "step" as const, depth_mm: 1.9 };
+    expect(faultText(step)).toBe("The fracture has a step of 1.9 mm.");
+    expect(verdictText(step)).toContain("PA shows it best: 1.8 mm between their edges.");
+    expect(faultText({ ...step, kind: "gap" })).toBe("The pieces lie 1.9 mm apart.");
+    expect(shownText("gap", seen("pa", 0, 1.2))).toBe("1.2 mm clear between the pieces");
   });
   it("speaks of a wire too", () => {
     const truth = { bone: [], screws: [], wires: [], wire_out_mm: 9.03, wire_shown_mm: 6.2 };

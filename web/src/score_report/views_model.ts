@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which view would have told, in words.
-import type { FaultSeen, PictureTruth, PlacementFault, ScrewPlace } from "../protocol";
+import type { FaultKind, FaultSeen, PictureTruth, PlacementFault, ScrewPlace } from "../protocol";
 
 const PLACES: Readonly<Record<ScrewPlace, string>> = {
   inside: "inside",
@@ -11,8 +11,18 @@ const PLACES: Readonly<Record<ScrewPlace, string>> = {
   side: "at its side",
 };
 
+const WHERE_SEEN: Readonly<Record<FaultKind, string>> = {
+  screw_out: "beyond the bone",
+  gap: "clear between the pieces",
+  step: "between their edges",
+};
+
 /** "The screw is 1.2 mm out at its distal end, towards the trapezium." */
 export function faultText(fault: PlacementFault): string {
+  if (fault.kind === "gap") return `The pieces lie ${fault.depth_mm.toFixed(1)} mm apart.`;
+  if (fault.kind === "step") {
+    return `The fracture has a step of ${fault.depth_mm.toFixed(1)} mm.`;
+  }
   const towards = fault.towards === "" ? "" : `, towards the ${fault.towards}`;
   // The score looks at the middle of its rounded ends, an X-ray shows their rim.
   const part = fault.place === "side" ? "The screw" : "The rim of the screw";
@@ -31,8 +41,8 @@ export function verdictText(fault: PlacementFault): string {
   const would =
     best === undefined || !best.reveals
       ? "None of the preset views shows it enough."
-      : `${best.label} shows it best: ${best.overhang_mm.toFixed(1)} mm beyond the bone.`;
-  if (taken.length === 0) return `No picture was taken of the screw as it lies. ${would}`;
+      : `${best.label} shows it best: ${best.overhang_mm.toFixed(1)} mm ${WHERE_SEEN[fault.kind]}.`;
+  if (taken.length === 0) return `No picture was taken of it as it lies. ${would}`;
   const shots = showed.map((seen) => seen.shot);
   if (showed.length > 0) {
     return `Shot ${shots.join(", ")} showed it. ${would}`;
@@ -51,10 +61,10 @@ export function bestPreset(fault: PlacementFault): FaultSeen | undefined {
     );
 }
 
-/** "1.2 mm", or that nothing of it is seen beyond the bone. */
-export function shownText(seen: FaultSeen): string {
+/** "1.2 mm", or that nothing of it is seen. */
+export function shownText(kind: FaultKind, seen: FaultSeen): string {
   if (seen.overhang_mm <= 0) return "hidden by the bone";
-  const mm = `${seen.overhang_mm.toFixed(1)} mm beyond the bone`;
+  const mm = `${seen.overhang_mm.toFixed(1)} mm ${WHERE_SEEN[kind]}`;
   return seen.reveals ? mm : `${mm}: too little to see`;
 }
 

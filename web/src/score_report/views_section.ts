@@ -50,14 +50,21 @@ function faultBlocks(debrief: ViewDebrief): HTMLElement[] {
     return [make("p.secondary", {}, "No screw lay in the scaphoid at the end.")];
   }
   if (debrief.faults.length === 0) {
-    return [make("p.good", {}, `✓ ${debrief.screw}: nothing of it is out of the bone.`)];
+    return [
+      make(
+        "p.good",
+        {},
+        `✓ ${debrief.screw}: none of it is out of the bone, and there is no gap or step.`,
+      ),
+    ];
   }
+  const seen = debrief.revealed_mm.toFixed(1);
   return [
     ...debrief.faults.map(faultBlock),
     make(
       "p.secondary",
       {},
-      `A view shows metal that is at least ${debrief.revealed_mm.toFixed(1)} mm beyond the bone's outline.`,
+      `A view shows metal that is at least ${seen} mm beyond the bone's outline, and pieces at least ${seen} mm from each other.`,
     ),
   ];
 }
@@ -72,7 +79,7 @@ function faultBlock(fault: PlacementFault): HTMLElement {
       make(
         `td.${seen.reveals ? "good" : "secondary"}` as "td",
         {},
-        `${seen.reveals ? "✓" : "–"} ${shownText(seen)}`,
+        `${seen.reveals ? "✓" : "–"} ${shownText(fault.kind, seen)}`,
       ),
     );
   const presets = fault.seen.filter((seen) => !isTaken(seen));
@@ -90,7 +97,7 @@ function faultBlock(fault: PlacementFault): HTMLElement {
       "div.view-columns",
       {},
       ...column("Preset views", presets),
-      ...column("Taken of the screw", taken),
+      ...column("Taken of it", taken),
     ),
   );
 }

@@ -3,7 +3,6 @@
 //
 // The room Train: joins panels, theatre, hand and the line to the host. The host owns the truth.
 import { AppearancePanel } from "../appearance";
-import { fetchCases } from "../case_data";
 import { lostText } from "../devices";
 import { setText } from "../dom";
 import { faceNames, makeFrameMap, type FrameMap } from "../frames";
@@ -21,6 +20,7 @@ import { jointWallOf, ScopeDesk } from "../scope";
 import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
+import { CaseChoice } from "./case_choice";
 import { Connection } from "./connection";
 import { DeviceHands } from "./device_hands";
 import { startFrameLoop } from "./frame_loop";
@@ -37,8 +37,6 @@ import "./train.css";
 import { whatIsDone } from "./what_is_done";
 import { whatIsHeard } from "./what_is_heard";
 import { WhatIsSeen } from "./what_is_seen";
-
-const OPENING = "Opening the case…";
 
 export class TrainPage {
   private readonly panels: Panels;
@@ -58,10 +56,7 @@ export class TrainPage {
   private readonly connection: Connection;
   private readonly abort = new AbortController();
   private readonly stops: (() => void)[];
-  /** Id of the case that is shown; unknown until offerCases. */
-  private openCase: string | undefined;
-  /** Another was asked for, and the host is away to open it. */
-  private isOpening = false;
+  private readonly cases: CaseChoice;
 
   constructor(
     app: HTMLElement,
@@ -108,6 +103,7 @@ export class TrainPage {
     followLayout(this.abort.signal);
     this.panels.start.setReady(false, "Connecting to the host…");
     this.panels.start.open();
+    this.cases = new CaseChoice(this.panels.start, (message) => this.connection.tell(message));
     this.connection = this.connect();
     this.stops = [showToTests(this.theatre, this.seen, this.sound, this.headset), this.startLoop()];
   }
@@ -124,27 +120,8 @@ export class TrainPage {
     return appearance;
   }
 
-  /** Lets another case be chosen, and goes with the host where it has opened another. */
   offerCases(list: CaseList): void {
-    this.openCase = list.open;
-    this.panels.start.showCases(list, (id) => {
-      if (this.isOpening || !this.connection.tell({ type: "choose_case", case: id })) return;
-      this.isOpening = true;
-      this.panels.start.setReady(false, OPENING);
-    });
-  }
-
-  private async followCase(): Promise<void> {
-    let open: string;
-    try {
-      ({ open } = await fetchCases());
-    } catch {
-      return; // the host goes and comes; its next welcome asks again
-    }
-    if (this.openCase !== undefined && open !== this.openCase) return location.reload();
-    if (!this.isOpening) return;
-    this.isOpening = false;
-    this.panels.start.setReady(true, "That case could not be opened; this one stays.");
+    this.cases.offer(list);
   }
 
   dispose(): void {
@@ -439,7 +416,7 @@ export class TrainPage {
   private connect(): Connection {
     return new Connection({
       onLink: (state, text) => {
-        this.part.showLink(state, this.isOpening && state !== "open" ? OPENING : text);
+        this.part.showLink(state, state === "open" ? text : this.cases.whyAway(text));
       },
       onMessage: (message) => {
         this.receive(message);
@@ -529,7 +506,7 @@ export class TrainPage {
         );
         break;
       case "welcome":
-        void this.followCase();
+        void this.cases.follow(message.exercise !== 0);
         this.part.arrive(message.exercise, {
           trainee: message.trainee,
           startedAt: message.started_at,

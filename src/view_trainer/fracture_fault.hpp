@@ -1,0 +1,30 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a view shows of two pieces of a bone that do not meet.
+#pragma once
+
+#include "geometry/vec3.hpp"
+
+namespace carpus::view_trainer {
+
+/// Across a waist of 70 mm2, the smallest that is reported [mm] [clinical: S47].
+inline constexpr double kFaceMm = 9.4;
+
+/// How far the pieces lie from each other: from the middle of one fracture face to the other's.
+struct FractureFault {
+  Vec3 normal;  ///< unit, of the first face
+  Vec3 way;     ///< between the middles [mm], same frame
+
+  [[nodiscard]] double gap_mm() const noexcept { return dot(way, normal); }
+  [[nodiscard]] Vec3 step() const noexcept { return way - normal * gap_mm(); }
+};
+
+/// Clear between the faces, seen along `ray` (unit), in the plane of the bone [mm]: of a plane slot
+/// as wide as the gap and kFaceMm deep. Negative where one piece hides the gap by so much.
+[[nodiscard]] double clear_gap_mm(const FractureFault& fault, const Vec3& ray) noexcept;
+
+/// Between the pieces' edges, seen along `ray` (unit), in the plane of the bone [mm].
+[[nodiscard]] double seen_step_mm(const FractureFault& fault, const Vec3& ray) noexcept;
+
+}  // namespace carpus::view_trainer
