@@ -114,6 +114,7 @@ HttpResponse ReplayDesk::exercise(std::int64_t id) {
   if (!recorded->problem.empty()) return cannot_be_shown(recorded->problem);
   simulation::Snapshot opening;
   opening.mode = recorded->recording->mode;
+  opening.seed = recorded->recording->seed;  // what is wrong in an examined wrist follows from it
   const session::Session session(data_, *recorded->procedure, opening);
   return make_json(serialize(protocol::HostMessage(session.exercise())));
 }

@@ -114,6 +114,7 @@ export async function examination(browser, station) {
   const page = await newPage(browser);
   const operator = new Operator(page);
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  let lesions;
   const picture = async (name) => {
     if (pictures === undefined) return;
     await page.waitForTimeout(600);
@@ -121,6 +122,7 @@ export async function examination(browser, station) {
   };
   await check(page, "the scope goes from one joint to the other", async () => {
     await operator.start(station.url, TRAINEE, "arthroscopic_examination");
+    ({ lesions } = (await operator.exercise()).arthroscopy);
     await bringInScope(page, operator);
     await picture("radiocarpal");
     await holdUntil(page, "d", "Scope outside", "the scope, out again");
@@ -179,6 +181,13 @@ export async function examination(browser, station) {
       const attempt = await (
         await fetch(`${station.url}/api/attempts/${id}`)
       ).json();
+      const again = await (
+        await fetch(`${station.url}/api/attempts/${id}/replay/exercise`)
+      ).json();
+      expect(
+        JSON.stringify(again.arthroscopy.lesions) === JSON.stringify(lesions),
+        "other lesions than those of then are shown",
+      );
       const length = Math.round(attempt.duration_s * 1000);
       await page.goto(`${station.url}/#/replay/${id}?t=${length / 1000}`);
       await page.waitForFunction(
