@@ -117,7 +117,10 @@ void main() {
   float strand = noise(across * 2.6 + f * dot(p, f) * 0.25);
   float strand2 = noise(across * 5.2 + f * dot(p, f) * 0.4 + 3.7);
   float bundle = 0.6 * strand + 0.4 * strand2;
-  // Between fibres of two ways there is none.
+  // Where they turn within a facet the pattern would run through it many times: there is none.
+  float turning = length(fwidth(across)) / max(length(fwidth(vAt)), 1e-6);
+  bundle = mix(bundle, 0.5, smoothstep(1.1, 1.6, turning));
+  // Nor between fibres of two ways.
   bundle = mix(0.5, bundle, smoothstep(0.7, 0.97, length(vFibre)));
   bundle = mix(bundle, 0.5, smoothstep(0.05, 0.18, length(fwidth(vAt))));
   vec3 ligament = mix(vec3(0.70, 0.56, 0.43), vec3(0.94, 0.88, 0.78), smoothstep(0.2, 0.75, bundle));
@@ -142,7 +145,7 @@ void main() {
   float fine = 1.0 - smoothstep(0.03, 0.12, pointMm);
   // Relief: shallow bumps of synovium and fibres tilt the normal.
   float relief = red * 0.55 * (villi - 0.5) + w.z * 0.28 * (bundle - 0.5);
-  relief *= fine;
+  relief *= fine * (1.0 - isMetal);
   vec3 dx = dFdx(vAt), dy = dFdy(vAt);
   float hx = dFdx(relief), hy = dFdy(relief);
   vec3 r1 = cross(dy, n), r2 = cross(n, dx);
