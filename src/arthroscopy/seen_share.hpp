@@ -47,4 +47,25 @@ class SeenCartilage {
   std::vector<bool> seen_;
 };
 
+/// What all these looks showed.
+/// @param looks         a range of procedure::ScopeLook
+/// @param least_cosine  of half the scope's field
+template <typename Looks>
+[[nodiscard]] SeenCartilage seen_by(const cases::CaseData& data,
+                                    const cases::ArthroscopicMap& map,
+                                    const Looks& looks,
+                                    double least_cosine) {
+  SeenCartilage seen(data, map);
+  for (const auto& look : looks) {
+    Sight sight;
+    sight.eye = look.eye;
+    sight.axis = look.axis;
+    sight.least_cosine = least_cosine;
+    seen.look(sight,
+              {look.flexion_rad, look.radial_deviation_rad, look.pronation_rad, look.traction_n},
+              look.joint);
+  }
+  return seen;
+}
+
 }  // namespace carpus::arthroscopy

@@ -112,6 +112,16 @@ void write(FieldWriter& out, const ViewDebrief& in) {
   out.records("faults", in.faults);
 }
 
+void read(FieldReader& in, SeenCartilage& out) {
+  out.share = in.number("share", 0.0, 100.0);
+  in.records("bones", 0, 16, out.bones);
+}
+
+void write(FieldWriter& out, const SeenCartilage& in) {
+  out.value("share", in.share);
+  out.records("bones", in.bones);
+}
+
 void read(FieldReader& in, Attempt& out) {
   read(in, static_cast<AttemptSummary&>(out));
   out.case_is_open = in.boolean("case_is_open");
@@ -270,6 +280,23 @@ Result<ViewDebrief> parse_view_debrief(std::string_view text) {
 }
 
 std::string serialize(const ViewDebrief& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<SeenCartilage> parse_seen_cartilage(std::string_view text) {
+  JsonText json(text, 16777216);
+  FieldReader in(json);
+  SeenCartilage out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const SeenCartilage& body, int indent) {
   JsonWriter json;
   FieldWriter out = json.root();
   write(out, body);

@@ -155,6 +155,21 @@ struct ViewDebrief {
 /// @param indent  spaces a level; negative writes one line.
 [[nodiscard]] std::string serialize(const ViewDebrief& body, int indent = -1);
 
+/// Most `bones` of one SeenCartilage.
+inline constexpr std::size_t kMaxSeenCartilageBones = 16;
+/// GET /api/attempts/<id>/replay/cartilage. What of the joints' cartilage the scope truly showed:
+/// near enough, steep enough, nothing before it. Generated, not seen in the CT.
+struct SeenCartilage {
+  /// by area [%] 0 to 100
+  double share = 0.0;
+  std::vector<CartilageOfBone> bones;
+  bool operator==(const SeenCartilage&) const = default;
+};
+
+[[nodiscard]] Result<SeenCartilage> parse_seen_cartilage(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const SeenCartilage& body, int indent = -1);
+
 /// Most `events` of one Attempt.
 inline constexpr std::size_t kMaxAttemptEvents = 50000;
 /// GET /api/attempts/<id>.

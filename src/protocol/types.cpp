@@ -86,6 +86,20 @@ void write(FieldWriter& out, const PlacementFault& in) {
   out.records("seen", in.seen);
 }
 
+void read(FieldReader& in, CartilageOfBone& out) {
+  out.bone = in.string("bone", 32);
+  out.seen_share = in.number("seen_share", 0.0, 100.0);
+  in.list("at_mm", 0, 8000, 10000.0, 0.0, out.at_mm);
+  in.list("seen", 0, 8000, 0, 1, out.seen);
+}
+
+void write(FieldWriter& out, const CartilageOfBone& in) {
+  out.text("bone", in.bone, 32);
+  out.value("seen_share", in.seen_share);
+  out.list("at_mm", in.at_mm);
+  out.list("seen", in.seen);
+}
+
 void read(FieldReader& in, QuizTally& out) {
   out.answers = in.integer("answers", 0, 4294967295);
   out.right_places = in.integer("right_places", 0, 4294967295);

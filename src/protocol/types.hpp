@@ -276,6 +276,19 @@ struct PlacementFault {
   bool operator==(const PlacementFault&) const = default;
 };
 
+/// A bone's cartilage in the joints that a scope enters, facet by facet.
+struct CartilageOfBone {
+  /// its name in GET /api/scene.glb
+  std::string bone;
+  /// by area [%] 0 to 100
+  double seen_share = 0.0;
+  /// the facets' middles, as scanned
+  std::vector<Vec3> at_mm;
+  /// by facet
+  std::vector<std::int64_t> seen;
+  bool operator==(const CartilageOfBone&) const = default;
+};
+
 /// Answers since the quiz began.
 struct QuizTally {
   /// 0 to 4294967295

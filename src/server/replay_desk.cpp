@@ -8,6 +8,7 @@
 #include "core/hexadecimal.hpp"
 #include "protocol/bodies.hpp"
 #include "server/attempt_messages.hpp"
+#include "server/cartilage_debrief.hpp"
 #include "server/picture_worker.hpp"
 #include "session/session.hpp"
 
@@ -200,6 +201,25 @@ std::optional<HttpResponse> ReplayDesk::locked(const std::shared_ptr<const Recor
     return cannot_be_shown("Views are judged for the scaphoid alone.");
   }
   return std::nullopt;
+}
+
+HttpResponse ReplayDesk::cartilage(std::int64_t id) {
+  const auto recorded = recorded_of(id);
+  if (!recorded) return no_such_attempt();
+  if (!recorded->problem.empty()) return cannot_be_shown(recorded->problem);
+  if (!recorded->tells_truth) {
+    return cannot_be_shown(
+        "Of an assessed arthroscopy that does not count the truth stays closed.");
+  }
+  const std::lock_guard lock(for_pictures_.mutex);
+  simulation::ReplayPlayer& player = *open(for_pictures_, id, recorded).player;
+  const auto reached = player.seek(player.length());
+  if (!reached) return cannot_be_shown("The replay cannot be shown: " + reached.error() + ".");
+  const procedure::OperationRecord record = player.operation_record();
+  if (!record.scope || data_.arthroscopy == nullptr) {
+    return make_problem(404, "This operation looked into no joint.");
+  }
+  return make_json(serialize(seen_cartilage(data_, *record.scope)));
 }
 
 ViewDebrief& ReplayDesk::debrief() {

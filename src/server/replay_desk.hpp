@@ -54,6 +54,8 @@ class ReplayDesk {
   [[nodiscard]] HttpResponse truth(std::int64_t id, std::int64_t tick);
   /// `view_debrief` of the attempt.
   [[nodiscard]] HttpResponse views(std::int64_t id);
+  /// `seen_cartilage` of an arthroscopy.
+  [[nodiscard]] HttpResponse cartilage(std::int64_t id);
 
  private:
   struct Recorded {

@@ -196,6 +196,14 @@ TEST_F(ReplayDeskTest, SaysWhyAnAttemptCannotBeShown) {
   EXPECT_NE(elsewhere.body->find("another case"), std::string::npos);
 }
 
+TEST_F(ReplayDeskTest, PaintsNoCartilageWhereNobodyLookedIntoAJoint) {
+  EXPECT_EQ(desk_.cartilage(2).status, 404U);
+  EXPECT_EQ(desk_.cartilage(1).status, 404U);
+  become_assessed(true);
+  ReplayDesk closed(wrist(), list_, [this](std::int64_t) { return attempt_; });
+  EXPECT_EQ(closed.cartilage(1).status, 409U) << "the truth of what does not count";
+}
+
 TEST_F(ReplayDeskTest, SaysThatARecordingIsDamaged) {
   attempt_.recording.resize(attempt_.recording.size() / 2);
   EXPECT_EQ(desk_.exercise(1).status, 409U);

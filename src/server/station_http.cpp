@@ -174,7 +174,9 @@ HttpResponse StationHttp::answer_replay(std::int64_t id,
   if (what == "/picture") return replays_->picture(id, std::max<std::int64_t>(number("at"), 0));
   if (what == "/truth") return replays_->truth(id, std::max<std::int64_t>(number("at"), 0));
   if (what == "/views") return replays_->views(id);
-  return make_problem(404, "Of a replay there are exercise, states, picture, truth and views.");
+  if (what == "/cartilage") return replays_->cartilage(id);
+  return make_problem(
+      404, "Of a replay there are exercise, states, picture, truth, views and cartilage.");
 }
 
 }  // namespace carpus::server

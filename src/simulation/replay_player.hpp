@@ -33,6 +33,10 @@ class ReplayPlayer {
   [[nodiscard]] Result<bool> seek_with_events(Tick tick);
 
   [[nodiscard]] const Snapshot& now() const noexcept { return world_.now(); }
+  /// What is to be judged of it so far.
+  [[nodiscard]] procedure::OperationRecord operation_record() const {
+    return world_.operation_record();
+  }
   /// What led to it; nothing at the beginning and at a keyframe.
   [[nodiscard]] const Input& input() const noexcept { return input_; }
 

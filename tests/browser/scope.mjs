@@ -106,6 +106,17 @@ export async function arthroscopy(browser, station) {
     await page.getByText("Cartilage seen").first().waitFor();
     await picture("score");
   });
+  await check(page, "what was seen of the cartilage is painted on the bones, as it was scored", async () => {
+    const shares = page.locator(".cartilage-shares tr");
+    await shares.first().waitFor();
+    await page.locator(".cartilage canvas").waitFor();
+    const told = await shares.first().locator("td").innerText();
+    const id = /attempts\/(\d+)/.exec(page.url())[1];
+    const { score } = await (await fetch(`${station.url}/api/attempts/${id}`)).json();
+    const scored = score.items.find((item) => item.id === "cartilage_seen_share").value;
+    expect(told === `${Math.round(scored)} %`, `${told} are told, ${scored} were scored`);
+    expect((await shares.count()) >= 6, `${await shares.count()} shares`);
+  });
   await page.context().close();
 }
 

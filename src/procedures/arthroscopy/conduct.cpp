@@ -29,16 +29,8 @@ std::string missing(const cases::ArthroscopicMap& map, std::uint32_t bits) {
 }
 
 Measure cartilage(const cases::CaseData& data, const procedure::ScopeRecord& scope) {
-  carpus::arthroscopy::SeenCartilage seen(data, *data.arthroscopy);
-  for (const procedure::ScopeLook& look : scope.looks) {
-    carpus::arthroscopy::Sight sight;
-    sight.eye = look.eye;
-    sight.axis = look.axis;
-    sight.least_cosine = scope.least_cosine;
-    seen.look(sight,
-              {look.flexion_rad, look.radial_deviation_rad, look.pronation_rad, look.traction_n},
-              look.joint);
-  }
+  const carpus::arthroscopy::SeenCartilage seen =
+      carpus::arthroscopy::seen_by(data, *data.arthroscopy, scope.looks, scope.least_cosine);
   std::string finding;
   for (std::size_t b = 0; b < data.bones.size(); ++b) {
     const double share = seen.share_of(static_cast<std::uint8_t>(b));

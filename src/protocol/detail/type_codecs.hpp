@@ -26,6 +26,9 @@ void write(FieldWriter& out, const FaultSeen& in);
 void read(FieldReader& in, PlacementFault& out);
 void write(FieldWriter& out, const PlacementFault& in);
 
+void read(FieldReader& in, CartilageOfBone& out);
+void write(FieldWriter& out, const CartilageOfBone& in);
+
 void read(FieldReader& in, QuizTally& out);
 void write(FieldWriter& out, const QuizTally& in);
 

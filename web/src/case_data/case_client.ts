@@ -11,6 +11,7 @@ import {
   parsePictureTruth,
   parseProcedureList,
   parseQuizAnswerList,
+  parseSeenCartilage,
   parseViewDebrief,
   type Attempt,
   type AttemptList,
@@ -21,6 +22,7 @@ import {
   type PictureTruth,
   type ProcedureSummary,
   type QuizAnswerList,
+  type SeenCartilage,
   type ViewDebrief,
 } from "../protocol";
 
@@ -92,6 +94,11 @@ export async function fetchReplayPicture(id: number, tick: number): Promise<CArm
 
 export function fetchPictureTruth(id: number, tick: number): Promise<PictureTruth> {
   return ask(`/api/attempts/${id}/replay/truth?at=${tick}`, parsePictureTruth);
+}
+
+/** What an arthroscopy truly saw of the joints' cartilage. */
+export function fetchSeenCartilage(id: number): Promise<SeenCartilage> {
+  return ask(`/api/attempts/${id}/replay/cartilage`, parseSeenCartilage);
 }
 
 export function fetchViewDebrief(id: number): Promise<ViewDebrief> {

@@ -137,6 +137,18 @@ export interface PlacementFault {
   readonly seen: readonly FaultSeen[];
 }
 
+/** A bone's cartilage in the joints that a scope enters, facet by facet. */
+export interface CartilageOfBone {
+  /** its name in GET /api/scene.glb */
+  readonly bone: string;
+  /** by area [%] 0 to 100 */
+  readonly seen_share: number;
+  /** the facets' middles, as scanned */
+  readonly at_mm: readonly Vec3[];
+  /** by facet */
+  readonly seen: readonly number[];
+}
+
 /** Answers since the quiz began. */
 export interface QuizTally {
   /** 0 to 4294967295 */
@@ -1257,6 +1269,13 @@ export interface ViewDebrief {
   readonly faults: readonly PlacementFault[];
 }
 
+/** GET /api/attempts/<id>/replay/cartilage. What of the joints' cartilage the scope truly showed: near enough, steep enough, nothing before it. Generated, not seen in the CT. */
+export interface SeenCartilage {
+  /** by area [%] 0 to 100 */
+  readonly share: number;
+  readonly bones: readonly CartilageOfBone[];
+}
+
 /** GET /api/attempts/<id>. */
 export interface Attempt extends AttemptSummary {
   /** made on the case that the host serves now, by the fingerprint: only then do its `placement` and /api/scene.glb belong together */
@@ -1319,6 +1338,11 @@ export function parsePictureTruth(text: string): Parsed<PictureTruth> {
 /** Validates the body of an HTTP answer; never throws. */
 export function parseViewDebrief(text: string): Parsed<ViewDebrief> {
   return parseBody(text, rules.VIEW_DEBRIEF, 131072, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseSeenCartilage(text: string): Parsed<SeenCartilage> {
+  return parseBody(text, rules.SEEN_CARTILAGE, 16777216, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

@@ -63,6 +63,12 @@ export const SCHEMA: Schema = {
       towards: {"type": "string", "max_length": 64},
       seen: {"type": "array", "of": {"type": "fault_seen"}, "max_items": 32},
     } },
+    cartilage_of_bone: { fields: {
+      bone: {"type": "string", "max_length": 32},
+      seen_share: {"type": "number", "min": 0, "max": 100},
+      at_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 8000},
+      seen: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 8000},
+    } },
     quiz_tally: { fields: {
       answers: {"type": "integer", "min": 0, "max": 4294967295},
       right_places: {"type": "integer", "min": 0, "max": 4294967295},
@@ -677,6 +683,11 @@ export const VIEW_DEBRIEF: Rules = {
   screw: {"type": "string", "max_length": 128},
   revealed_mm: {"type": "number", "min": 0, "max": 10},
   faults: {"type": "array", "of": {"type": "placement_fault"}, "max_items": 5},
+};
+
+export const SEEN_CARTILAGE: Rules = {
+  share: {"type": "number", "min": 0, "max": 100},
+  bones: {"type": "array", "of": {"type": "cartilage_of_bone"}, "max_items": 16},
 };
 
 export const ATTEMPT: Rules = {

@@ -34,6 +34,7 @@ declare global {
     /** For tests: what is shown. */
     carpusReplay?: {
       ticks(): (number | undefined)[];
+      goTo(tick: number): void;
       hashes(): (string | undefined)[];
       pagePoint(which: number, mm: readonly [number, number, number]): { x: number; y: number };
     };
@@ -190,6 +191,9 @@ class ReplayPage {
     );
     window.carpusReplay = {
       ticks: () => this.stages.map((stage) => stage.shownTick),
+      goTo: (tick) => {
+        this.goTo(tick);
+      },
       hashes: () => this.stages.map((stage) => stage.shownState?.snapshot.state_hash),
       pagePoint: (which, mm) => this.stages[which]?.pagePoint(mm) ?? { x: 0, y: 0 },
     };

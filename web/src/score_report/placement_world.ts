@@ -15,20 +15,16 @@ import {
 } from "../theatre";
 import { normalized, subtract } from "../tool_placement";
 import { placedScrewParts, placedWireParts } from "./placed_parts";
+import type { TurnedWorld } from "./turning_view";
 
 const AXIS_COLOR = "#5cc8ff";
 const ENTRY_COLOR = "#f0c36a";
 const TIP_COLOR = "#ffffff";
 const MARK_RADIUS_MM = 0.55;
 
-export interface PlacementWorld {
-  readonly world: THREE.Scene;
-  readonly light: ReturnType<typeof studioLight>;
+/** Of the scaphoid; marks are entry and tip of what was placed, none where nothing was. */
+export interface PlacementWorld extends TurnedWorld {
   readonly frames: FrameMap;
-  /** Of the scaphoid [m]. */
-  readonly box: THREE.Box3;
-  /** Entry and tip of what was placed, in the renderer's metres; none where nothing was. */
-  readonly marks: readonly { readonly name: string; readonly at: THREE.Vector3 }[];
 }
 
 export async function makePlacementWorld(

@@ -11,11 +11,22 @@ import { attemptedCase, type AttemptedCase } from "./attempted_case_model";
 import { eventList } from "./event_list";
 import { itemPicture } from "./item_picture";
 import { placementPictures } from "./placement_pictures";
-import { TurningPlacement } from "./turning_placement";
+import { cartilageSection } from "./cartilage_section";
+import { makePlacementWorld } from "./placement_world";
+import { TurningView } from "./turning_view";
 import { viewsSection } from "./views_section";
 import { GRADE_SIGNS, GRADE_WORDS, longestLineText, valueText } from "./score_model";
-import { answerText, isDeclined, isFixation, mustHaveWords, verdictText } from "./verdict_model";
+import {
+  answerText,
+  isDeclined,
+  isFixation,
+  looksIntoJoints,
+  mustHaveWords,
+  verdictText,
+} from "./verdict_model";
 import "./score.css";
+
+const PLACEMENT_DISTANCE_M = 0.085;
 
 export function mountScore(app: HTMLElement, attemptId: number): () => void {
   let left = false;
@@ -122,6 +133,17 @@ function show(
     ...(attempt.case_is_open && report.is_void !== true && isFixation(report)
       ? [viewsSection(attempt)]
       : []),
+    ...(attempt.case_is_open && report.is_void !== true && looksIntoJoints(report)
+      ? [
+          cartilageSection(attempt, description, (view) => {
+            if (isLeft()) view.dispose();
+            else
+              onLeave(() => {
+                view.dispose();
+              });
+          }),
+        ]
+      : []),
     eventList(attempt.events),
     make(
       "p.secondary.score-foot",
@@ -138,7 +160,12 @@ function show(
     return;
   }
   pictures.append(make("p.secondary", { role: "status" }, "Drawing the placement…"));
-  TurningPlacement.make(description, report.placement).then(
+  TurningView.make(
+    description,
+    (renderer) => makePlacementWorld(renderer, description, report.placement),
+    { side: "Radial", distanceM: PLACEMENT_DISTANCE_M },
+    { label: "Placement in the scaphoid", caption: "Yellow: entry, white: tip." },
+  ).then(
     (placed) => {
       if (isLeft()) placed.dispose();
       else {

@@ -14,6 +14,11 @@ export function isFixation(report: Pick<ScoreReport, "central_axis_length_mm">):
   return report.central_axis_length_mm > 0;
 }
 
+/** An arthroscopy. */
+export function looksIntoJoints(report: Pick<ScoreReport, "items">): boolean {
+  return report.items.some(({ id }) => id === "cartilage_seen_share");
+}
+
 export function isDeclined(report: Pick<ScoreReport, "declined_for">): boolean {
   return (report.declined_for ?? []).length > 0;
 }

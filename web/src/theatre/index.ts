@@ -8,5 +8,5 @@ export type { WornStage } from "./worn_stage";
 export { VIEWS, type ViewId } from "./sight";
 export { loadCaseScene, type CaseScene } from "./case_scene";
 export { glassBoneMaterial } from "./materials";
-export { studioLight } from "./light";
+export { studioLight, type StudioLight } from "./light";
 export { alignShaft, drawInstrument } from "./instruments";

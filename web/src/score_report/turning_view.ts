@@ -1,19 +1,39 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The placement to be turned by hand: drawn when it is turned, and at no other time.
+// Something of the case to be turned by hand: drawn when it is turned, and at no other time.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { make } from "../dom";
-import { faceNames, towards } from "../frames";
-import type { CaseDescription, Placement } from "../protocol";
-import { makePlacementWorld, type PlacementWorld } from "./placement_world";
+import { faceNames, towards, type AnatomicalSide } from "../frames";
+import type { CaseDescription } from "../protocol";
+import type { StudioLight } from "../theatre";
 
 const FIELD_OF_VIEW_DEG = 24;
-const DISTANCE_M = 0.085;
 const KEY_RAD = Math.PI / 24;
 
-export class TurningPlacement {
+export interface TurnedWorld {
+  readonly world: THREE.Scene;
+  readonly light: StudioLight;
+  /** Of what is looked at [m]. */
+  readonly box: THREE.Box3;
+  /** Places with names, in the renderer's metres. */
+  readonly marks: readonly { readonly name: string; readonly at: THREE.Vector3 }[];
+}
+
+/** From where it is looked at at first. */
+export interface TurnedFrom {
+  readonly side: AnatomicalSide;
+  readonly distanceM: number;
+}
+
+export interface TurningWords {
+  /** For who does not see it. */
+  readonly label: string;
+  readonly caption: string;
+}
+
+export class TurningView {
   readonly element: HTMLElement;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.01, 1);
@@ -22,11 +42,16 @@ export class TurningPlacement {
   private readonly sizes: ResizeObserver;
   private readonly centre: THREE.Vector3;
 
-  static async make(description: CaseDescription, placement: Placement): Promise<TurningPlacement> {
+  static async make(
+    description: CaseDescription,
+    makeWorld: (renderer: THREE.WebGLRenderer) => Promise<TurnedWorld>,
+    from: TurnedFrom,
+    words: TurningWords,
+  ): Promise<TurningView> {
     const turning = new THREE.WebGLRenderer({ antialias: true });
     try {
-      const placed = await makePlacementWorld(turning, description, placement);
-      return new TurningPlacement(turning, placed, description);
+      const placed = await makeWorld(turning);
+      return new TurningView(turning, placed, description, from, words);
     } catch (error) {
       turning.dispose();
       throw error;
@@ -35,8 +60,10 @@ export class TurningPlacement {
 
   private constructor(
     renderer: THREE.WebGLRenderer,
-    private readonly placed: PlacementWorld,
+    private readonly placed: TurnedWorld,
     description: CaseDescription,
+    { side, distanceM }: TurnedFrom,
+    words: TurningWords,
   ) {
     this.renderer = renderer;
     renderer.setPixelRatio(Math.min(2, devicePixelRatio));
@@ -45,12 +72,12 @@ export class TurningPlacement {
     const canvas = renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", "Placement in the scaphoid; drag, or arrow keys, turn it");
+    canvas.setAttribute("aria-label", `${words.label}; drag, or arrow keys, turn it`);
     this.centre = placed.box.getCenter(new THREE.Vector3());
     const names = faceNames(description.side);
-    const from = new THREE.Vector3(...towards("Radial", names));
+    const from = new THREE.Vector3(...towards(side, names));
     this.camera.up.set(...towards("Distal", names));
-    this.camera.position.copy(this.centre).addScaledVector(from, DISTANCE_M);
+    this.camera.position.copy(this.centre).addScaledVector(from, distanceM);
     this.labels = placed.marks.map(({ name }) =>
       make("span.turning-label", { "aria-hidden": "true" }, name),
     );
@@ -58,13 +85,13 @@ export class TurningPlacement {
       "figure.turning",
       {},
       make("div.turning-frame", {}, canvas, ...this.labels),
-      make("figcaption", {}, "Drag to turn, wheel nears. Yellow: entry, white: tip."),
+      make("figcaption", {}, `Drag to turn, wheel nears. ${words.caption}`),
     );
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.copy(this.centre);
     this.controls.enablePan = false;
-    this.controls.minDistance = 0.03;
-    this.controls.maxDistance = 0.2;
+    this.controls.minDistance = 0.35 * distanceM;
+    this.controls.maxDistance = 2.4 * distanceM;
     this.controls.addEventListener("change", () => {
       this.draw();
     });
