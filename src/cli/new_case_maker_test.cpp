@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 TEST(NewCaseMaker, IdsAreFreePlainAndCountOn) {
   const server::CaseShelf shelf{
-      {{"demo", "", "", "", {}, nullptr}, {"demo-2", "", "", "", {}, nullptr}}, "demo"};
+      {{"demo", "", "", "", "", {}, nullptr}, {"demo-2", "", "", "", "", {}, nullptr}}, "demo"};
   const fs::path none = "/nonexistent";
   EXPECT_EQ(free_id("demo", shelf, none), "demo-3");
   EXPECT_EQ(free_id("demo-2", shelf, none), "demo-3");
