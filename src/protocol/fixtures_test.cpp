@@ -60,6 +60,7 @@ const std::map<std::string, RoundTrip>& readers() {
       {"http/quiz_answer_list", round_trip(&parse_quiz_answer_list, kSerialize)},
       {"http/picture_truth", round_trip(&parse_picture_truth, kSerialize)},
       {"http/view_debrief", round_trip(&parse_view_debrief, kSerialize)},
+      {"http/seen_cartilage", round_trip(&parse_seen_cartilage, kSerialize)},
       {"stored/stored_score",
        round_trip(&parse_stored_score,
                   [](const ScoreReport& report) { return serialize_stored_score(report); })},

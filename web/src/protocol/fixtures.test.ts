@@ -17,6 +17,7 @@ import {
   parsePictureTruth,
   parseProcedureList,
   parseQuizAnswerList,
+  parseSeenCartilage,
   parseViewDebrief,
 } from "./generated";
 import type { Parsed } from "./validator";
@@ -34,6 +35,7 @@ const READERS: readonly (readonly [string, (text: string) => Parsed<unknown>])[]
   ["http/case_list", parseCaseList],
   ["http/picture_truth", parsePictureTruth],
   ["http/view_debrief", parseViewDebrief],
+  ["http/seen_cartilage", parseSeenCartilage],
   ["http/attempt", parseAttempt],
 ];
 const DIRECTIONS = ["page_to_host", "host_to_page", "http"];
