@@ -12,7 +12,7 @@
 namespace carpus::server {
 namespace {
 
-constexpr std::size_t kMostFacets = 8000;  // of a bone, as protocol.json has it
+constexpr std::size_t kMostFacets = 8000;  // as protocol.json has it
 
 }  // namespace
 
@@ -25,7 +25,7 @@ protocol::SeenCartilage seen_cartilage(const cases::CaseData& data,
   std::vector<protocol::CartilageOfBone> bones(data.bones.size());
   for (std::size_t i = 0; i < map.cartilage.size(); ++i) {
     protocol::CartilageOfBone& bone = bones[map.cartilage[i].body];
-    if (bone.at_mm.size() >= kMostFacets) continue;  // twice what the largest bone has
+    if (bone.at_mm.size() >= kMostFacets) continue;
     bone.at_mm.push_back(map.cartilage[i].at);
     bone.seen.push_back(seen.seen()[i] ? 1 : 0);
   }

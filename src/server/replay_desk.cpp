@@ -191,11 +191,18 @@ std::string ReplayDesk::frame_of(const procedure::Procedure& procedure,
   return encode_picture(shot, pictures_->take_live(view_of(shot), shot.snapshot));
 }
 
-std::optional<HttpResponse> ReplayDesk::locked(const std::shared_ptr<const Recorded>& recorded) {
+std::optional<HttpResponse> ReplayDesk::closed(const std::shared_ptr<const Recorded>& recorded,
+                                               const std::string& why) {
   if (!recorded) return no_such_attempt();
   if (!recorded->problem.empty()) return cannot_be_shown(recorded->problem);
-  if (!recorded->tells_truth) {
-    return cannot_be_shown("Of an assessed operation without a screw the truth stays closed.");
+  if (!recorded->tells_truth) return cannot_be_shown(why);
+  return std::nullopt;
+}
+
+std::optional<HttpResponse> ReplayDesk::locked(const std::shared_ptr<const Recorded>& recorded) {
+  if (auto refused =
+          closed(recorded, "Of an assessed operation without a screw the truth stays closed.")) {
+    return refused;
   }
   if (recorded->procedure->target != BoneId::Scaphoid) {
     return cannot_be_shown("Views are judged for the scaphoid alone.");
@@ -205,17 +212,18 @@ std::optional<HttpResponse> ReplayDesk::locked(const std::shared_ptr<const Recor
 
 HttpResponse ReplayDesk::cartilage(std::int64_t id) {
   const auto recorded = recorded_of(id);
-  if (!recorded) return no_such_attempt();
-  if (!recorded->problem.empty()) return cannot_be_shown(recorded->problem);
-  if (!recorded->tells_truth) {
-    return cannot_be_shown(
-        "Of an assessed arthroscopy that does not count the truth stays closed.");
+  if (auto refused = closed(
+          recorded, "Of an assessed arthroscopy that does not count the truth stays closed.")) {
+    return *refused;
   }
-  const std::lock_guard lock(for_pictures_.mutex);
-  simulation::ReplayPlayer& player = *open(for_pictures_, id, recorded).player;
-  const auto reached = player.seek(player.length());
-  if (!reached) return cannot_be_shown("The replay cannot be shown: " + reached.error() + ".");
-  const procedure::OperationRecord record = player.operation_record();
+  procedure::OperationRecord record;
+  {
+    const std::lock_guard lock(for_pictures_.mutex);
+    simulation::ReplayPlayer& player = *open(for_pictures_, id, recorded).player;
+    const auto reached = player.seek(player.length());
+    if (!reached) return cannot_be_shown("The replay cannot be shown: " + reached.error() + ".");
+    record = player.operation_record();
+  }
   if (!record.scope || data_.arthroscopy == nullptr) {
     return make_problem(404, "This operation looked into no joint.");
   }

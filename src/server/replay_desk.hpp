@@ -85,6 +85,10 @@ class ReplayDesk {
                              std::int64_t id,
                              const std::shared_ptr<const Recorded>& recorded) const;
   /// Why this attempt has no truth to be told; nothing where it has.
+  /// What is refused where it cannot be shown. @param why  the truth stays locked
+  [[nodiscard]] static std::optional<HttpResponse> closed(
+      const std::shared_ptr<const Recorded>& recorded,
+      const std::string& why);
   [[nodiscard]] static std::optional<HttpResponse> locked(
       const std::shared_ptr<const Recorded>& recorded);
   [[nodiscard]] ViewDebrief& debrief();

@@ -61,9 +61,12 @@ TEST(ViewDebrief, JudgesThePiecesAsTheyLie) {
   ViewDebrief debrief(data);
   const Operated as_scanned(data, 0);
   const Operated beside(data, 4);
-  for (const auto& fault : debrief.debrief(as_scanned.shot.snapshot, {}).faults) {
-    EXPECT_EQ(fault.kind, protocol::FaultKind::Gap) << "of the fracture, as it was scanned";
-  }
+  const auto scanned = debrief.debrief(as_scanned.shot.snapshot, {}).faults;
+  ASSERT_EQ(scanned.size(), 1U);
+  EXPECT_EQ(scanned[0].kind, protocol::FaultKind::Gap) << "of the fracture, as it was scanned";
+  const auto shows = [](const auto& seen) { return seen.reveals; };
+  EXPECT_TRUE(std::ranges::any_of(scanned[0].seen, shows));
+  EXPECT_FALSE(std::ranges::all_of(scanned[0].seen, shows)) << "one piece hides it from some";
   // The piece beside it no longer covers the screw that goes into it.
   const auto faults = debrief.debrief(beside.shot.snapshot, {}).faults;
   ASSERT_FALSE(faults.empty());

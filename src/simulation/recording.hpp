@@ -29,8 +29,7 @@
 
 namespace carpus::simulation {
 
-/// 1 was of a world of one wire, 2 of a C-arm without a pedal, 3 of one way to operate; such
-/// recordings show their stored score only.
+/// Recordings of older formats show their stored score only; decode() says why of each.
 inline constexpr std::uint16_t kRecordingFormat = 6;
 
 /// A keyframe stands this often.

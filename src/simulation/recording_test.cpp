@@ -148,13 +148,15 @@ TEST(Recording, RandomBytesAreRefused) {
   }
 }
 
-TEST(Recording, OfTheVersionBeforeIsRefusedByName) {
-  std::vector<std::byte> bytes = encode(short_recorder().finished(1));
-  bytes[8] = std::byte{1};
-  const Result<Recording> decoded = decode(bytes);
-  ASSERT_FALSE(decoded.has_value());
-  EXPECT_NE(decoded.error().find("format 1"), std::string::npos);
-  EXPECT_NE(decoded.error().find("stored score"), std::string::npos);
+TEST(Recording, OfEveryVersionBeforeIsRefusedByName) {
+  for (std::uint8_t older = 1; older < kRecordingFormat; ++older) {
+    std::vector<std::byte> bytes = encode(short_recorder().finished(1));
+    bytes[8] = std::byte{older};
+    const Result<Recording> decoded = decode(bytes);
+    ASSERT_FALSE(decoded.has_value());
+    EXPECT_NE(decoded.error().find("format " + std::to_string(older)), std::string::npos);
+    EXPECT_NE(decoded.error().find("stored score"), std::string::npos) << decoded.error();
+  }
 }
 
 TEST(Recording, OfOtherInstrumentsIsRefusedByName) {

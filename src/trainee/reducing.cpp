@@ -93,8 +93,8 @@ Reducing::Reducing(const cases::CaseData& data, const procedure::Procedure& proc
   if (faces_) plan_axis();
 }
 
-/// Where the screw will run once the faces meet: the case knows where they are to meet; where it
-/// calls the bone whole enough, as it was scanned.
+/// Where the screw will run once the faces meet. The case knows it of a displaced bone; of one that
+/// it calls aligned the axis is the scanned one.
 void Reducing::plan_axis() {
   const auto& reduced = case_.reduced;
   first_from_second_ =

@@ -9,7 +9,7 @@ namespace carpus::view_trainer {
 
 double clear_gap_mm(const FractureFault& fault, const Vec3& ray) noexcept {
   const double along = std::min(1.0, std::abs(dot(fault.normal, ray)));
-  return fault.gap_mm() * std::sqrt(1.0 - along * along) - kFaceMm * along;
+  return fault.gap_mm() * std::sqrt(1.0 - along * along) - kFaceAcrossMm * along;
 }
 
 double seen_step_mm(const FractureFault& fault, const Vec3& ray) noexcept {

@@ -8,8 +8,9 @@
 
 namespace carpus::view_trainer {
 
-/// Across a waist of 70 mm2, the smallest that is reported [mm] [clinical: S47].
-inline constexpr double kFaceMm = 9.4;
+/// Across a fracture's face [mm]: the mean of a waist's two widths [clinical: B13, S47: 11.3
+/// by 8.7]. A wider one hides a gap from more views than is told, a narrower one from fewer.
+inline constexpr double kFaceAcrossMm = 10.0;
 
 /// How far the pieces lie from each other: from the middle of one fracture face to the other's.
 struct FractureFault {
@@ -21,7 +22,7 @@ struct FractureFault {
 };
 
 /// Clear between the faces, seen along `ray` (unit), in the plane of the bone [mm]: of a plane slot
-/// as wide as the gap and kFaceMm deep. Negative where one piece hides the gap by so much.
+/// as wide as the gap and kFaceAcrossMm deep. Negative where one piece hides the gap by so much.
 [[nodiscard]] double clear_gap_mm(const FractureFault& fault, const Vec3& ray) noexcept;
 
 /// Between the pieces' edges, seen along `ray` (unit), in the plane of the bone [mm].

@@ -15,9 +15,9 @@ constexpr FractureFault kFault{{0, 0, 1}, {1.5, 0, 2}};
 TEST(FractureFault, GapIsClearAlongItsFacesAndHiddenFromBesideThem) {
   EXPECT_DOUBLE_EQ(clear_gap_mm(kFault, {1, 0, 0}), 2.0);
   EXPECT_DOUBLE_EQ(clear_gap_mm(kFault, {0, 1, 0}), 2.0);
-  EXPECT_DOUBLE_EQ(clear_gap_mm(kFault, {0, 0, -1}), -kFaceMm);
-  // A slot of 2 mm by kFaceMm closes at the angle whose tangent is their ratio.
-  const double closes = std::atan2(2.0, kFaceMm);
+  EXPECT_DOUBLE_EQ(clear_gap_mm(kFault, {0, 0, -1}), -kFaceAcrossMm);
+  // A slot of 2 mm by kFaceAcrossMm closes at the angle whose tangent is their ratio.
+  const double closes = std::atan2(2.0, kFaceAcrossMm);
   EXPECT_NEAR(clear_gap_mm(kFault, {std::cos(closes), 0, std::sin(closes)}), 0.0, 1e-12);
 }
 

@@ -56,7 +56,7 @@ export function mountReplay(app: HTMLElement, ids: readonly number[], from: numb
         Promise.all(ids.map(fetchAttempt)),
         fetchAttempts(),
       ]);
-      elsewhere = attempts.find((one) => one.case_here !== "");
+      elsewhere = attempts.find((one) => !one.case_is_open && one.case_here !== "");
       const stages = await Promise.all(
         attempts.map(async (attempt) => ({
           attempt,
@@ -73,7 +73,7 @@ export function mountReplay(app: HTMLElement, ids: readonly number[], from: numb
       waiting.replaceChildren(
         make("h1", {}, "The replay cannot be shown"),
         make("p", { role: "alert" }, why),
-        ...(elsewhere === undefined ? [] : [wayToCase(elsewhere)]),
+        ...(elsewhere === undefined ? [] : [wayToCase(elsewhere, ids)]),
         make("p", {}, make("a", { href: "#/attempts" }, "All past attempts")),
       );
     }
@@ -84,9 +84,9 @@ export function mountReplay(app: HTMLElement, ids: readonly number[], from: numb
   };
 }
 
-/** Opens the case of an attempt, and its replay then. */
-function wayToCase(attempt: Attempt): HTMLElement {
-  const href = addressOfCase(attempt.case_here, `replay/${attempt.id}`);
+/** Opens the case of an attempt, and then the replay of what was asked for. */
+function wayToCase(attempt: Attempt, ids: readonly number[]): HTMLElement {
+  const href = addressOfCase(attempt.case_here, `replay/${ids.join("/")}`);
   return make("p", {}, make("a.button-link.primary", { href }, `Open its case, ${attempt.case}`));
 }
 

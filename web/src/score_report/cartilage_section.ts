@@ -10,11 +10,11 @@ import { TurningView } from "./turning_view";
 
 const DISTANCE_M = 0.19;
 
-/** @param onView  is given what is to be disposed of when the page is left */
+/** @param staying  the view is to be disposed of when the page is left */
 export function cartilageSection(
   attempt: Attempt,
   description: CaseDescription,
-  onView: (view: TurningView) => void,
+  staying: { isLeft(): boolean; onLeave(done: () => void): void },
 ): HTMLElement {
   const place = make("div.cartilage-place", {}, make("p.secondary", {}, "Painting what was seen…"));
   const section = make(
@@ -26,6 +26,7 @@ export function cartilageSection(
   void (async () => {
     try {
       const seen = await fetchSeenCartilage(attempt.id);
+      if (staying.isLeft()) return;
       const view = await TurningView.make(
         description,
         (renderer) => makeCartilageWorld(renderer, description, seen),
@@ -36,8 +37,14 @@ export function cartilageSection(
             "Rows are drawn apart. Green: seen near and steep enough, nothing before it; brown: not.",
         },
       );
+      if (staying.isLeft()) {
+        view.dispose();
+        return;
+      }
+      staying.onLeave(() => {
+        view.dispose();
+      });
       place.replaceChildren(view.element, shares(seen));
-      onView(view);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
       place.replaceChildren(make("p.secondary", {}, why));

@@ -134,15 +134,7 @@ function show(
       ? [viewsSection(attempt)]
       : []),
     ...(attempt.case_is_open && report.is_void !== true && looksIntoJoints(report)
-      ? [
-          cartilageSection(attempt, description, (view) => {
-            if (isLeft()) view.dispose();
-            else
-              onLeave(() => {
-                view.dispose();
-              });
-          }),
-        ]
+      ? [cartilageSection(attempt, description, { isLeft, onLeave })]
       : []),
     eventList(attempt.events),
     make(

@@ -54,6 +54,7 @@ export class TurningView {
       return new TurningView(turning, placed, description, from, words);
     } catch (error) {
       turning.dispose();
+      turning.forceContextLoss();
       throw error;
     }
   }

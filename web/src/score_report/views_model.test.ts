@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { FaultSeen, PlacementFault } from "../protocol";
-import { faultText, shownText, verdictText, wireText } from "./views_model";
+import { faultText, shownText, shownWhen, verdictText, wireText } from "./views_model";
 
 const seen = (view: string, shot: number, overhang_mm: number): FaultSeen => ({
   view,
@@ -53,6 +53,15 @@ describe("what a view shows of a fault", () => {
     expect(verdictText(step)).toContain("PA shows it best: 1.8 mm between their edges.");
     expect(faultText({ ...step, kind: "gap" })).toBe("The pieces lie 1.9 mm apart.");
     expect(shownText("gap", seen("pa", 0, 1.2))).toBe("1.2 mm clear between the pieces");
+  });
+  it("says of what there is alone when a view shows it", () => {
+    const out = fault(seen("pa", 0, 1.8));
+    const gap = { ...out, kind: "gap" as const };
+    const told = (...faults: PlacementFault[]) =>
+      shownWhen({ screw: "a screw", revealed_mm: 0.5, faults }).join(" ");
+    expect(told(out)).toBe("A view shows metal that is at least 0.5 mm beyond the bone's outline.");
+    expect(told(gap)).not.toContain("metal");
+    expect(told(out, gap)).toContain("a step that is at least 0.5 mm high");
   });
   it("speaks of a wire too", () => {
     const truth = { bone: [], screws: [], wires: [], wire_out_mm: 9.03, wire_shown_mm: 6.2 };

@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which view would have told, in words.
-import type { FaultKind, FaultSeen, PictureTruth, PlacementFault, ScrewPlace } from "../protocol";
+import type {
+  FaultKind,
+  FaultSeen,
+  PictureTruth,
+  PlacementFault,
+  ScrewPlace,
+  ViewDebrief,
+} from "../protocol";
 
 const PLACES: Readonly<Record<ScrewPlace, string>> = {
   inside: "inside",
@@ -27,6 +34,17 @@ export function faultText(fault: PlacementFault): string {
   // The score looks at the middle of its rounded ends, an X-ray shows their rim.
   const part = fault.place === "side" ? "The screw" : "The rim of the screw";
   return `${part} is ${fault.depth_mm.toFixed(1)} mm out ${PLACES[fault.place]}${towards}.`;
+}
+
+/** When a view counts as one that shows these faults. */
+export function shownWhen({ faults, revealed_mm }: ViewDebrief): string[] {
+  const least = `at least ${revealed_mm.toFixed(1)} mm`;
+  const isOut = faults.some(({ kind }) => kind === "screw_out");
+  const isApart = faults.some(({ kind }) => kind !== "screw_out");
+  return [
+    ...(isOut ? [`A view shows metal that is ${least} beyond the bone's outline.`] : []),
+    ...(isApart ? [`It shows a gap that is clear by ${least}, a step that is ${least} high.`] : []),
+  ];
 }
 
 export function isTaken(seen: FaultSeen): boolean {

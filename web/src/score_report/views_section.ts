@@ -18,7 +18,15 @@ import type {
   ViewDebrief,
 } from "../protocol";
 import { polygonPoints } from "../view_quiz";
-import { bestPreset, faultText, isTaken, shownText, verdictText, wireText } from "./views_model";
+import {
+  bestPreset,
+  faultText,
+  isTaken,
+  shownText,
+  shownWhen,
+  verdictText,
+  wireText,
+} from "./views_model";
 
 /** Pictures of an operation; who took more sees the last. */
 const MOST_PICTURES = 24;
@@ -50,22 +58,11 @@ function faultBlocks(debrief: ViewDebrief): HTMLElement[] {
     return [make("p.secondary", {}, "No screw lay in the scaphoid at the end.")];
   }
   if (debrief.faults.length === 0) {
-    return [
-      make(
-        "p.good",
-        {},
-        `✓ ${debrief.screw}: none of it is out of the bone, and there is no gap or step.`,
-      ),
-    ];
+    return [make("p.good", {}, `✓ ${debrief.screw}: none of it is out of the bone.`)];
   }
-  const seen = debrief.revealed_mm.toFixed(1);
   return [
     ...debrief.faults.map(faultBlock),
-    make(
-      "p.secondary",
-      {},
-      `A view shows metal that is at least ${seen} mm beyond the bone's outline, and pieces at least ${seen} mm from each other.`,
-    ),
+    ...shownWhen(debrief).map((text) => make("p.secondary", {}, text)),
   ];
 }
 

@@ -3,34 +3,39 @@
 //
 // Lets another case be chosen, or takes the one that the address wants, and goes with the host where
 // it has opened another.
-import { fetchCases, wantedCase } from "../case_data";
+import { fetchCases, nextForWanted, wantedCase } from "../case_data";
 import type { CaseList, PageMessage } from "../protocol";
 import type { StartDialog } from "../start_dialog";
 
 const OPENING = "Opening the case…";
+const NOT_OPENED = "That case could not be opened; this one stays.";
+
+export interface CaseChoiceRoom {
+  readonly start: StartDialog;
+  tell(message: PageMessage): boolean;
+  /** An operation does, or waits, which another case would end. */
+  runs(): boolean;
+  say(text: string): void;
+}
 
 export class CaseChoice {
   /** Id of the case that is shown; unknown until `offer`. */
   private open: string | undefined;
   /** Another was asked for, and the host is away to open it. */
   private isOpening = false;
-  /** What the address wants is asked for once: a case that cannot be opened is no loop. */
-  private hasAskedForWanted = false;
 
-  constructor(
-    private readonly start: StartDialog,
-    private readonly tell: (message: PageMessage) => boolean,
-  ) {}
+  constructor(private readonly room: CaseChoiceRoom) {}
 
   offer(list: CaseList): void {
     this.open = list.open;
-    this.start.showCases(list, (id) => {
+    this.room.start.showCases(list, (id) => {
+      forgetWanted(); // who chooses by hand wants nothing else any more
       this.choose(id);
     });
   }
 
-  /** The host is there, maybe again. @param runs  an exercise does, which another case would end */
-  async follow(runs: boolean): Promise<void> {
+  /** The host is there, maybe again. */
+  async follow(): Promise<void> {
     let list: CaseList;
     try {
       list = await fetchCases();
@@ -38,11 +43,8 @@ export class CaseChoice {
       return; // the host goes and comes; its next welcome asks again
     }
     if (this.open !== undefined && list.open !== this.open) return location.reload();
-    if (this.isOpening) {
-      this.isOpening = false;
-      this.start.setReady(true, "That case could not be opened; this one stays.");
-    }
-    this.followAddress(list, runs);
+    if (this.isOpening) return this.refuse(NOT_OPENED);
+    this.followAddress(list);
   }
 
   /** Why the host does not answer. @param why  where it is for no case */
@@ -50,21 +52,43 @@ export class CaseChoice {
     return this.isOpening ? OPENING : why;
   }
 
-  private followAddress(list: CaseList, runs: boolean): void {
-    const wanted = wantedCase(location.hash);
-    if (wanted === undefined || this.hasAskedForWanted) return;
-    if (list.open === wanted.id) {
-      if (wanted.then !== "") location.replace(wanted.then);
-      return;
+  /** The host refused something: if it was the case, it stays where it is. */
+  refused(): void {
+    if (this.isOpening) this.refuse(NOT_OPENED);
+  }
+
+  private followAddress(list: CaseList): void {
+    const next = nextForWanted(list, wantedCase(location.hash), this.room.runs());
+    switch (next.what) {
+      case "nothing":
+        return;
+      case "go":
+        if (next.hash === "") forgetWanted();
+        else location.replace(next.hash);
+        return;
+      case "choose":
+        this.choose(next.id);
+        return;
+      case "say":
+        forgetWanted();
+        this.room.say(next.text);
     }
-    if (runs) return; // what is being done here is not ended by an address
-    this.hasAskedForWanted = true;
-    this.choose(wanted.id);
   }
 
   private choose(id: string): void {
-    if (this.isOpening || !this.tell({ type: "choose_case", case: id })) return;
+    if (this.isOpening || !this.room.tell({ type: "choose_case", case: id })) return;
     this.isOpening = true;
-    this.start.setReady(false, OPENING);
+    this.room.start.setReady(false, OPENING);
   }
+
+  private refuse(why: string): void {
+    this.isOpening = false;
+    forgetWanted();
+    this.room.start.setReady(true, why);
+  }
+}
+
+/** What the address wanted is done, or given up: a reload does not want it again. */
+function forgetWanted(): void {
+  if (wantedCase(location.hash) !== undefined) history.replaceState(null, "", "#/");
 }

@@ -57,6 +57,8 @@ export class TrainPage {
   private readonly abort = new AbortController();
   private readonly stops: (() => void)[];
   private readonly cases: CaseChoice;
+  /** An exercise ran when the host last said welcome. */
+  private isBusyHere = false;
 
   constructor(
     app: HTMLElement,
@@ -103,9 +105,20 @@ export class TrainPage {
     followLayout(this.abort.signal);
     this.panels.start.setReady(false, "Connecting to the host…");
     this.panels.start.open();
-    this.cases = new CaseChoice(this.panels.start, (message) => this.connection.tell(message));
+    this.cases = this.makeCaseChoice();
     this.connection = this.connect();
     this.stops = [showToTests(this.theatre, this.seen, this.sound, this.headset), this.startLoop()];
+  }
+
+  private makeCaseChoice(): CaseChoice {
+    return new CaseChoice({
+      start: this.panels.start,
+      tell: (message) => this.connection.tell(message),
+      runs: () => this.isBusyHere || this.part.operates,
+      say: (text) => {
+        this.panels.notice.say(text);
+      },
+    });
   }
 
   private makeAppearance(stage: HTMLElement): AppearancePanel {
@@ -501,12 +514,14 @@ export class TrainPage {
         location.hash = `#/attempts/${message.attempt_id}`;
         break;
       case "error":
+        this.cases.refused();
         notice.say(
           message.what_to_do === "" ? message.reason : `${message.reason} ${message.what_to_do}`,
         );
         break;
       case "welcome":
-        void this.cases.follow(message.exercise !== 0);
+        this.isBusyHere = message.exercise !== 0;
+        void this.cases.follow();
         this.part.arrive(message.exercise, {
           trainee: message.trainee,
           startedAt: message.started_at,
