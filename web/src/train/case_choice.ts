@@ -15,7 +15,6 @@ export interface CaseChoiceRoom {
   tell(message: PageMessage): boolean;
   /** An operation does, or waits, which another case would end. */
   runs(): boolean;
-  say(text: string): void;
 }
 
 export class CaseChoice {
@@ -71,7 +70,7 @@ export class CaseChoice {
         return;
       case "say":
         forgetWanted();
-        this.room.say(next.text);
+        this.room.start.setReady(true, next.text);
     }
   }
 

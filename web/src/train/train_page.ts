@@ -115,9 +115,6 @@ export class TrainPage {
       start: this.panels.start,
       tell: (message) => this.connection.tell(message),
       runs: () => this.isBusyHere || this.part.operates,
-      say: (text) => {
-        this.panels.notice.say(text);
-      },
     });
   }
 
