@@ -4,70 +4,84 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <utility>
+#include <numeric>
+#include <span>
+#include <vector>
 
 namespace carpus {
 namespace {
 
 /// One directed edge with the facet it came from.
 struct HalfEdge {
-  std::uint32_t from;
   std::uint32_t to;
   std::uint32_t facet;
 };
 
-std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(mesh.facets.size() * 3);
-  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
-    const Triangle& t = mesh.facets[f];
-    for (std::size_t i = 0; i < 3; ++i) edges.push_back({t[i], t[(i + 1) % 3], f});
+/// The directed edges of a mesh by the vertex they leave, then by the one they lead to. Linear in
+/// the facets where no vertex has many.
+class HalfEdges {
+ public:
+  explicit HalfEdges(const TriangleMesh& mesh)
+      : first_(mesh.vertices.size() + 1), edges_(mesh.facets.size() * 3) {
+    for (const Triangle& t : mesh.facets) {
+      for (const std::uint32_t v : t) ++first_[v + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
+      const Triangle& t = mesh.facets[f];
+      for (std::size_t i = 0; i < 3; ++i) edges_[next[t[i]]++] = {t[(i + 1) % 3], f};
+    }
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+      std::sort(edges_.begin() + offset(v), edges_.begin() + offset(v + 1), leads_before);
+    }
   }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::pair(a.from, a.to) < std::pair(b.from, b.to);
-  });
-  return edges;
-}
 
-bool each_edge_has_one_twin(const std::vector<HalfEdge>& edges) {
-  const auto before = [](const HalfEdge& a, const std::pair<std::uint32_t, std::uint32_t>& key) {
-    return std::pair(a.from, a.to) < key;
-  };
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const HalfEdge& e = edges[i];
-    if (i > 0 && edges[i - 1].from == e.from && edges[i - 1].to == e.to) return false;
-    const auto twin = std::lower_bound(edges.begin(), edges.end(), std::pair(e.to, e.from), before);
-    if (twin == edges.end() || twin->from != e.to || twin->to != e.from) return false;
+  [[nodiscard]] std::span<const HalfEdge> out_of(std::uint32_t v) const {
+    return {edges_.begin() + offset(v), edges_.begin() + offset(v + 1)};
+  }
+  [[nodiscard]] const HalfEdge* find(std::uint32_t from, std::uint32_t to) const {
+    const auto edges = out_of(from);
+    const auto it = std::lower_bound(edges.begin(), edges.end(), HalfEdge{to, 0}, leads_before);
+    return it != edges.end() && it->to == to ? &*it : nullptr;
+  }
+
+ private:
+  static bool leads_before(const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; }
+  [[nodiscard]] std::ptrdiff_t offset(std::uint32_t v) const {
+    return static_cast<std::ptrdiff_t>(first_[v]);
+  }
+
+  std::vector<std::size_t> first_;
+  std::vector<HalfEdge> edges_;
+};
+
+bool each_edge_has_one_twin(const TriangleMesh& mesh, const HalfEdges& edges) {
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto out = edges.out_of(v);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (i > 0 && out[i - 1].to == out[i].to) return false;
+      if (edges.find(out[i].to, v) == nullptr) return false;
+    }
   }
   return true;
 }
 
 /// In a closed oriented mesh the edges out of a vertex are one per incident facet; walking from
 /// facet to facet about the vertex must visit all of them before it returns.
-bool each_vertex_has_one_fan(const TriangleMesh& mesh, const std::vector<HalfEdge>& edges) {
-  const auto facet_of = [&](std::uint32_t from, std::uint32_t to) {
-    const auto it =
-        std::lower_bound(edges.begin(), edges.end(), std::pair(from, to),
-                         [](const HalfEdge& a, const std::pair<std::uint32_t, std::uint32_t>& key) {
-                           return std::pair(a.from, a.to) < key;
-                         });
-    return it->facet;
-  };
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::size_t end = begin;
-    while (end < edges.size() && edges[end].from == edges[begin].from) ++end;
-    const std::uint32_t v = edges[begin].from;
-    std::uint32_t to = edges[begin].to;
+bool each_vertex_has_one_fan(const TriangleMesh& mesh, const HalfEdges& edges) {
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto out = edges.out_of(v);
+    if (out.empty()) continue;
+    std::uint32_t to = out.front().to;
     std::size_t steps = 0;
     do {
-      const Triangle& t = mesh.facets[facet_of(v, to)];
+      const Triangle& t = mesh.facets[edges.find(v, to)->facet];
       const std::size_t i = t[0] == v ? 0 : (t[1] == v ? 1 : 2);
       to = t[(i + 2) % 3];
       ++steps;
-    } while (to != edges[begin].to && steps <= end - begin);
-    if (steps != end - begin) return false;
-    begin = end;
+    } while (to != out.front().to && steps <= out.size());
+    if (steps != out.size()) return false;
   }
   return true;
 }
@@ -84,8 +98,8 @@ SurfaceStatus check_surface(const TriangleMesh& mesh) {
   }
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), is_finite))
     return SurfaceStatus::NotFinite;
-  const std::vector<HalfEdge> edges = sorted_half_edges(mesh);
-  if (!each_edge_has_one_twin(edges)) return SurfaceStatus::OpenOrNonManifold;
+  const HalfEdges edges(mesh);
+  if (!each_edge_has_one_twin(mesh, edges)) return SurfaceStatus::OpenOrNonManifold;
   if (!each_vertex_has_one_fan(mesh, edges)) return SurfaceStatus::PinchedVertex;
   return SurfaceStatus::Ok;
 }
