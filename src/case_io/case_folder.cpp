@@ -23,6 +23,7 @@
 #include "case_io/ply.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace carpus::case_io {
 namespace fs = std::filesystem;
@@ -130,6 +131,29 @@ void write_bone(const fs::path& folder,
   write_volume<float>(folder / field_file(bone), bone.distance_field.view());
 }
 
+void write_volumes(const cases::CaseData& data, const fs::path& folder) {
+  write_volume<std::int16_t>(folder / "ct.nii.gz", data.ct.view());
+  write_volume<std::uint8_t>(folder / "labels.nii.gz", data.labels.view());
+}
+
+/// Surfaces, hulls, fields and what else the case has beside its volumes.
+void write_shapes(const cases::CaseData& data, const fs::path& folder, const Progress& progress) {
+  const double steps = static_cast<double>(data.bones.size()) + 1;
+  double done = 0;
+  for (const cases::Bone& bone : data.bones) {
+    write_bone(folder, bone, data.ct.view());
+    progress("saving", ++done / steps);
+  }
+  if (!data.skin.facets.empty()) write_ply(folder / "skin.ply", data.skin);
+  if (!data.hand_motion.is_empty()) {
+    write_text(folder / kHandMotionFile, hand_motion_text(data.hand_motion));
+  }
+  if (!data.structures.empty()) {
+    write_text(folder / kStructuresFile, structures_text(data.structures));
+  }
+  write_text(folder / "bones.glb", make_case_glb(data));
+}
+
 }  // namespace
 
 void write_case(const cases::CaseData& data,
@@ -144,23 +168,10 @@ void write_case(const cases::CaseData& data,
     fs::create_directory(out.staging() / part, error);
     if (error) throw_cannot_write(out.staging() / part);
   }
-  const double steps = static_cast<double>(data.bones.size()) + 3;
-  double done = 0;
-  for (const cases::Bone& bone : data.bones) {
-    write_bone(out.staging(), bone, data.ct.view());
-    progress("saving", ++done / steps);
-  }
-  if (!data.skin.facets.empty()) write_ply(out.staging() / "skin.ply", data.skin);
-  if (!data.hand_motion.is_empty()) {
-    write_text(out.staging() / kHandMotionFile, hand_motion_text(data.hand_motion));
-  }
-  if (!data.structures.empty()) {
-    write_text(out.staging() / kStructuresFile, structures_text(data.structures));
-  }
-  write_text(out.staging() / "bones.glb", make_case_glb(data));
-  write_volume<std::int16_t>(out.staging() / "ct.nii.gz", data.ct.view());
-  progress("saving", ++done / steps);
-  write_volume<std::uint8_t>(out.staging() / "labels.nii.gz", data.labels.view());
+  // Side by side: packing the CT takes as long as all the rest. NIfTI's library is asked by one of
+  // the two only, NRRD's by the other.
+  side_by_side({[&] { write_volumes(data, out.staging()); },
+                [&] { write_shapes(data, out.staging(), progress); }});
   write_text(out.staging() / "case.json", case_json_text(data));
   out.commit();
   progress("saving", 1.0);

@@ -12,7 +12,7 @@
 #include <type_traits>
 
 #include "case_io/detail/disk_space.hpp"
-#include "case_io/detail/nifti_description.hpp"
+#include "case_io/detail/nifti_copy.hpp"
 #include "case_io/detail/volume_file.hpp"
 #include "core/error.hpp"
 
@@ -83,7 +83,7 @@ void write_by_itk(const fs::path& file,
     if (!description.empty()) {
       itk::EncapsulateMetaData(io->GetMetaDataDictionary(), itk::ITK_FileNotes, description);
     }
-    io->SetUseCompression(file.string().ends_with(".gz"));
+    io->SetUseCompression(false);
     io->Write(volume.values().data());
   } catch (const itk::ExceptionObject&) {
     throw_cannot_write(file);
@@ -92,19 +92,19 @@ void write_by_itk(const fs::path& file,
 
 /// By way of a file beside it, which vanishes.
 template <typename T>
-void write_described_nifti(const fs::path& file,
-                           const GridView<const T>& volume,
-                           const std::string& description) {
-  struct Undescribed {
+void write_nifti(const fs::path& file,
+                 const GridView<const T>& volume,
+                 const std::string& description) {
+  struct Plain {
     fs::path file;
-    ~Undescribed() {
+    ~Plain() {
       std::error_code ignored;
       fs::remove(file, ignored);
     }
   };
-  const Undescribed first{file.parent_path() / ("undescribed_" + file.filename().string())};
+  const Plain first{file.parent_path() / ("plain_" + file.stem().stem().string() + ".nii")};
   write_by_itk(first.file, volume, {});
-  copy_nifti_with_description(first.file, file, description);
+  copy_nifti(first.file, file, description);
 }
 
 }  // namespace
@@ -120,8 +120,8 @@ void write_volume(const fs::path& file,
                   const GridView<const T>& volume,
                   const std::string& description) {
   itk::Object::SetGlobalWarningDisplay(false);
-  if (!description.empty() && is_nifti(file)) {
-    write_described_nifti(file, volume, description);
+  if (is_nifti(file)) {
+    write_nifti(file, volume, description);
   } else {
     write_by_itk(file, volume, description);
   }

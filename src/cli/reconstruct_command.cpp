@@ -25,6 +25,7 @@
 #include "cli/simulated_scan.hpp"
 #include "cli/soft_tissue_report.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/person_name.hpp"
 #include "core/version.hpp"
 #include "reconstruct/given_labels_file.hpp"
@@ -199,13 +200,18 @@ void run(const Arguments& a) {
   std::vector<reconstruct::LabelDice> dice;
   if (!a.truth.empty()) dice = reconstruct::compare_labels(result.data.labels.view(), truth);
   const auto writing = reconstruct::StageClock::Clock::now();
-  case_io::write_case(result.data, a.out,
+  std::string picture;
+  side_by_side({[&] {
+                  case_io::write_case(
+                      result.data, a.out,
                       a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
+                },
+                [&] { picture = stock::case_picture(result.data); }});
   records::write_file_atomically(
       a.out / case_io::kTrustFile,
       case_io::trust_text(trust_lines(result), result.data.provenance.made_by));
   // After what is flagged: a disk that fills up costs the picture first.
-  records::write_file_atomically(a.out / case_io::kPreviewFile, stock::case_picture(result.data));
+  records::write_file_atomically(a.out / case_io::kPreviewFile, picture);
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
   const auto generating = reconstruct::StageClock::Clock::now();

@@ -27,6 +27,12 @@ void parallel_for(std::size_t count,
   body(0, count);
 }
 
+void side_by_side(std::initializer_list<std::function<void()>> works) {
+  parallel_for(works.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) works.begin()[i]();
+  });
+}
+
 void install_parallel_executor(ParallelExecutor executor) {
   installed_executor() = std::move(executor);
 }

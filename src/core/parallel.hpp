@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 
 namespace carpus {
 
@@ -17,6 +18,9 @@ namespace carpus {
 void parallel_for(std::size_t count,
                   std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Runs pieces of work that do not touch what another writes, as parallel_for runs a loop.
+void side_by_side(std::initializer_list<std::function<void()>> works);
 
 /// What parallel_for hands the loop to.
 using ParallelExecutor =

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "case_io/detail/nifti_description.hpp"
+#include "case_io/detail/nifti_copy.hpp"
 
 #include <zlib.h>
 
@@ -25,11 +25,11 @@ GzFile open(const std::filesystem::path& file, const char* mode) {
 
 }  // namespace
 
-void copy_nifti_with_description(const std::filesystem::path& from,
-                                 const std::filesystem::path& file,
-                                 const std::string& description) {
+void copy_nifti(const std::filesystem::path& from,
+                const std::filesystem::path& file,
+                const std::string& description) {
   const GzFile in = open(from, "rb");
-  GzFile out = open(file, file.string().ends_with(".gz") ? "wb" : "wbT");  // T: not compressed
+  GzFile out = open(file, file.string().ends_with(".gz") ? "wb1" : "wbT");  // T: not packed
   if (!in || !out) throw_cannot_write(file);
   std::vector<char> block(1U << 18U);
   bool is_header = true;
