@@ -14,6 +14,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "core/rng.hpp"
 
 namespace carpus {
@@ -174,13 +175,16 @@ BoneLine find_longest_line(const BoneSolid& bone) {
       if (squared > 0.25 * longest) pairs.push_back({squared, i, j});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
-    return x.squared != y.squared ? x.squared > y.squared : (x.a != y.a ? x.a < y.a : x.b < y.b);
-  });
+  // Longest first; of millions few are asked for.
+  const auto is_later = [](const Pair& x, const Pair& y) {
+    return x.squared != y.squared ? x.squared < y.squared : (x.a != y.a ? x.a > y.a : x.b > y.b);
+  };
+  std::make_heap(pairs.begin(), pairs.end(), is_later);
   BoneLine line{points.front(), points.front()};
-  for (const Pair& pair : pairs) {
-    if (lies_inside(bone, points[pair.a], points[pair.b])) {
-      line = {points[pair.a], points[pair.b]};
+  for (auto end = pairs.end(); end != pairs.begin();) {
+    std::pop_heap(pairs.begin(), end--, is_later);
+    if (lies_inside(bone, points[end->a], points[end->b])) {
+      line = {points[end->a], points[end->b]};
       break;
     }
   }
@@ -228,22 +232,32 @@ Cylinder find_widest_cylinder(const BoneSolid& bone, const BoneLine& longest_lin
   centroid = centroid / area;
   const Vec3 along = normalized_or(longest_line.end - longest_line.start, {0, 0, 1});
 
-  ClearanceSearch coarse(bone, every_nth(bone.outer_points(), 900), half_length);
   std::vector<Cylinder> found;
   for (const Vec3& direction : directions_about(along)) {
     for (const Vec3& centre : {centroid, (longest_line.start + longest_line.end) * 0.5}) {
-      found.push_back(
-          coarse.climb({.centre = centre, .direction = direction}, 1.6, 0.2, 3, Rng(kSearchSeed)));
+      found.push_back({.centre = centre, .direction = direction});
     }
   }
+  const ClearanceSearch coarse(bone, every_nth(bone.outer_points(), 900), half_length);
+  parallel_for(found.size(), 4, [&](std::size_t begin, std::size_t end) {
+    ClearanceSearch search = coarse;
+    for (std::size_t i = begin; i < end; ++i) {
+      found[i] = search.climb(found[i], 1.6, 0.2, 3, Rng(kSearchSeed));
+    }
+  });
   std::stable_sort(found.begin(), found.end(),
                    [](const Cylinder& a, const Cylinder& b) { return a.clearance > b.clearance; });
-  ClearanceSearch fine(bone, bone.outer_points(), half_length);
-  Cylinder best;
   constexpr std::size_t kRefined = 4;
-  for (std::size_t i = 0; i < std::min(kRefined, found.size()); ++i) {
-    if (found[i].clearance <= kOutside) break;
-    const Cylinder refined = fine.climb(found[i], 0.4, 0.001, 5, Rng(kSearchSeed + i));
+  found.resize(std::min(kRefined, found.size()));
+  const ClearanceSearch fine(bone, bone.outer_points(), half_length);
+  parallel_for(found.size(), 1, [&](std::size_t begin, std::size_t end) {
+    ClearanceSearch search = fine;
+    for (std::size_t i = begin; i < end; ++i) {
+      found[i] = search.climb(found[i], 0.4, 0.001, 5, Rng(kSearchSeed + i));
+    }
+  });
+  Cylinder best;
+  for (const Cylinder& refined : found) {
     if (refined.clearance > best.clearance) best = refined;
   }
   return best;

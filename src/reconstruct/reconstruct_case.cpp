@@ -222,19 +222,18 @@ void build_case(Grid<std::int16_t> ct,
   warn_of_flagged(result);
   stage("hulls", 0.6);
   for_each_bone(result, [](cases::Bone& bone, BoneFigures& f) { build_hull(bone, f); });
-  stage("distance fields", 0.65);
-  for (cases::Bone& bone : data.bones) {
-    bone.distance_field = fields::build_distance_field(bone.surface);
-  }
-  stage("skin", 0.85);
-  data.skin = build_skin_surface(ct.view());
+  stage("distance fields, axis, skin", 0.65);
+  side_by_side({[&] { data.scaphoid = cases::find_scaphoid_landmarks(data); },
+                [&] { data.skin = build_skin_surface(ct.view()); },
+                [&] {
+                  for_each_bone(result, [](cases::Bone& bone, BoneFigures&) {
+                    bone.distance_field = fields::build_distance_field(bone.surface);
+                  });
+                }});
   data.ct = std::move(ct);
-  stage("scaphoid axis", 0.9);
-  data.scaphoid = cases::find_scaphoid_landmarks(data);
-  stage("structures", 0.94);
-  generate_structures(result);
-  stage("hand motion", 0.98);
-  data.hand_motion = cases::make_hand_motion(data);
+  stage("structures, hand motion", 0.9);
+  side_by_side({[&] { data.hand_motion = cases::make_hand_motion(data); },
+                [&] { generate_structures(result); }});
 }
 
 }  // namespace

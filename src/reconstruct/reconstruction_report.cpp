@@ -169,12 +169,13 @@ std::string text_of(const ReconstructionReport& report) {
   if (report.structures > 0) append_structures(report, text);
   double total = 0;
   for (const StageTime& stage : report.stages) total += stage.seconds;
-  append(text, "\n%-18s %8s %6s\n", "stage", "seconds", "share");
+  append(text, "\n%-28s %8s %6s %7s\n", "stage", "seconds", "share", "so far");
+  double so_far = 0;
   for (const StageTime& stage : report.stages) {
-    append(text, "%-18s %8.2f %5.1f%%\n", stage.name.c_str(), stage.seconds,
-           total > 0 ? 100 * stage.seconds / total : 0.0);
+    so_far += stage.seconds;
+    append(text, "%-28s %8.2f %5.1f%% %7.2f\n", stage.name.c_str(), stage.seconds,
+           total > 0 ? 100 * stage.seconds / total : 0.0, so_far);
   }
-  append(text, "%-18s %8.2f\n", "total", total);
   return text;
 }
 

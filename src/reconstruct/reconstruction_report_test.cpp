@@ -50,6 +50,9 @@ TEST(ReconstructionReport, WritesTheDocumentedJson) {
   EXPECT_EQ(json["conventions"][0], "values are stored x 1 + -1024");
   EXPECT_EQ(json.size(), 6U);
   EXPECT_NE(text_of(report).find("by convention: values are stored"), std::string::npos);
+  EXPECT_NE(text_of(report).find("names                            3.00  75.0%    4.00"),
+            std::string::npos)
+      << text_of(report);
 }
 
 TEST(ReconstructionReport, SaysWhichBonesToCheckAndWhy) {

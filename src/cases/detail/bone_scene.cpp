@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fields/distance_field.hpp"
 
@@ -12,6 +13,9 @@ namespace {
 
 using anatomy::CarpalGroup;
 using Relative = Pose<frame::Bone, frame::Bone>;
+
+/// More than a moved box may miss of a moved point.
+constexpr double kRoundingMm = 1e-6;
 
 const Pose<frame::Patient, frame::Bone>& pose_of(const GroupPoses& poses, CarpalGroup group) {
   return poses[static_cast<std::size_t>(group)];
@@ -37,14 +41,17 @@ Aabb moved(const Aabb& box, const Relative& motion) {
 BoneScene::BoneScene(const CaseData& data) {
   std::array<double, anatomy::kCarpalGroupCount> counts{};
   for (const Bone& bone : data.bones) {
-    Body body{anatomy::group_of(bone.bone), &bone, {}};
+    Body body{anatomy::group_of(bone.bone), &bone, {}, {}};
     const auto g = static_cast<std::size_t>(body.group);
-    for (const Vec3& v : bone.surface.vertices) {
+    for (std::size_t i = 0; i < bone.surface.vertices.size(); ++i) {
+      const Vec3& v = bone.surface.vertices[i];
+      if (i % kRunVertices == 0) body.runs.emplace_back();
+      body.runs.back().include(v);
       body.box.include(v);
       middles_[g] += v;
       counts[g] += 1;
     }
-    if (!bone.surface.vertices.empty()) bodies_.push_back(body);
+    if (!bone.surface.vertices.empty()) bodies_.push_back(std::move(body));
   }
   for (std::size_t g = 0; g < middles_.size(); ++g) {
     if (counts[g] > 0) middles_[g] = middles_[g] / counts[g];
@@ -72,13 +79,19 @@ void BoneScene::visit_near(const GroupPoses& poses, double margin_mm, const Visi
       if (on.group == to.group) continue;
       const Relative relative = pose_of(poses, to.group).inverse() * pose_of(poses, on.group);
       const Aabb reach = to.box.grown(margin_mm);
-      if (!moved(on.box, relative).overlaps(reach)) continue;
-      for (const Vec3& v : on.bone->surface.vertices) {
-        const Vec3 p = (relative * Point<frame::Bone>{v}).v;
-        if (!reach.contains(p)) continue;
-        const auto sample = fields::sample_distance(to.bone->distance_field, p);
-        if (sample.is_inside_grid && sample.distance_mm < margin_mm) {
-          visit(a, b, v, sample.distance_mm);
+      const Aabb with_slack = reach.grown(kRoundingMm);
+      if (!moved(on.box, relative).overlaps(with_slack)) continue;
+      const std::vector<Vec3>& vertices = on.bone->surface.vertices;
+      for (std::size_t run = 0; run < on.runs.size(); ++run) {
+        if (!moved(on.runs[run], relative).overlaps(with_slack)) continue;
+        const std::size_t end = std::min(vertices.size(), (run + 1) * kRunVertices);
+        for (std::size_t i = run * kRunVertices; i < end; ++i) {
+          const Vec3 p = (relative * Point<frame::Bone>{vertices[i]}).v;
+          if (!reach.contains(p)) continue;
+          const auto sample = fields::sample_distance(to.bone->distance_field, p);
+          if (sample.is_inside_grid && sample.distance_mm < margin_mm) {
+            visit(a, b, vertices[i], sample.distance_mm);
+          }
         }
       }
     }

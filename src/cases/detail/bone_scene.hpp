@@ -67,10 +67,13 @@ class BoneScene {
   static constexpr double kFarMm = 3.0;
 
  private:
+  /// Vertices that follow each other lie beside each other.
+  static constexpr std::size_t kRunVertices = 32;
   struct Body {
     anatomy::CarpalGroup group = anatomy::CarpalGroup::Ulna;
     const Bone* bone = nullptr;
     Aabb box;
+    std::vector<Aabb> runs;  ///< of kRunVertices vertices each, in the surface's order
   };
   template <typename Visit>
   void visit_near(const GroupPoses& poses, double margin_mm, const Visit& visit) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.hpp"
 
@@ -27,9 +28,18 @@ Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, dou
                 (b * 3.0 - a - c * 3.0 + d) * t3);
 }
 
-Vec3 out_of_bone(const Vec3& p, double radius_mm, const WristSurfaces& surfaces) {
-  const WristSurfaces::Near near = surfaces.bone_near(p);
+/// Where a point was when bone was asked for, and how far bone was from there: as far as it moved
+/// since, bone can have come nearer.
+struct BoneAsked {
+  Vec3 at;
+  double bone_mm = -std::numeric_limits<double>::infinity();
+};
+
+Vec3 out_of_bone(const Vec3& p, double radius_mm, const WristSurfaces& surfaces, BoneAsked& asked) {
   const double room = radius_mm + kFromBoneMm;
+  if (asked.bone_mm - distance(p, asked.at) >= room) return p;
+  const WristSurfaces::Near near = surfaces.bone_near(p);
+  asked = {p, near.distance_mm};
   return near.distance_mm < room ? near.point + near.outwards * room : p;
 }
 
@@ -101,12 +111,15 @@ LaidTube through(const std::vector<Vec3>& given, double radius_mm) {
 }
 
 void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces) {
+  std::vector<std::vector<BoneAsked>> asked;
+  for (const LaidTube& tube : tubes) asked.emplace_back(tube.line.size());
   const auto push = [&](bool skin_too) {
     parallel_for(tubes.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        for (Vec3& p : tubes[i].line) {
+        for (std::size_t k = 0; k < tubes[i].line.size(); ++k) {
+          Vec3& p = tubes[i].line[k];
           if (skin_too) p = under_skin(p, tubes[i].radius_mm, surfaces);
-          p = out_of_bone(p, tubes[i].radius_mm, surfaces);
+          p = out_of_bone(p, tubes[i].radius_mm, surfaces, asked[i][k]);
         }
       }
     });
