@@ -112,16 +112,15 @@ class Cells {
   std::vector<std::vector<std::uint32_t>> facets_;
 };
 
-}  // namespace
-
-std::size_t count_self_intersections(const TriangleMesh& mesh) {
-  if (mesh.facets.empty()) return 0;
+/// Calls `act` for each pair of facets that cross.
+template <typename Act>
+void visit_crossings(const TriangleMesh& mesh, const Act& act) {
+  if (mesh.facets.empty()) return;
   std::vector<Aabb> boxes;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) boxes.push_back(box_of(mesh, f));
   Cells cells(mesh, boxes);
-  std::size_t count = 0;
   std::vector<std::uint32_t> near;
-  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+  for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
     near.clear();
     cells.visit(boxes[f], [&](const std::vector<std::uint32_t>& cell) {
       for (const std::uint32_t other : cell) {
@@ -130,12 +129,29 @@ std::size_t count_self_intersections(const TriangleMesh& mesh) {
     });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    count +=
-        static_cast<std::size_t>(std::count_if(near.begin(), near.end(), [&](std::uint32_t other) {
-          return facets_cross(mesh, mesh.facets[f], mesh.facets[other]);
-        }));
+    for (const std::uint32_t other : near) {
+      if (facets_cross(mesh, mesh.facets[f], mesh.facets[other])) act(f, other);
+    }
   }
+}
+
+}  // namespace
+
+std::size_t count_self_intersections(const TriangleMesh& mesh) {
+  std::size_t count = 0;
+  visit_crossings(mesh, [&](std::uint32_t, std::uint32_t) { ++count; });
   return count;
+}
+
+std::vector<std::uint32_t> crossing_facets(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> facets;
+  visit_crossings(mesh, [&](std::uint32_t a, std::uint32_t b) {
+    facets.push_back(a);
+    facets.push_back(b);
+  });
+  std::sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  return facets;
 }
 
 }  // namespace carpus::mesh

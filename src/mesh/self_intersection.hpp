@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -17,5 +19,8 @@ namespace carpus::mesh {
 /// (geometry/predicates.hpp); candidates come from a grid of cells, so that the cost is about O(n).
 /// @pre every vertex is finite, every facet's indices lie within the vertices
 [[nodiscard]] std::size_t count_self_intersections(const TriangleMesh& mesh);
+
+/// The facets of those pairs, each once, rising.
+[[nodiscard]] std::vector<std::uint32_t> crossing_facets(const TriangleMesh& mesh);
 
 }  // namespace carpus::mesh

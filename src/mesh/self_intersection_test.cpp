@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/rng.hpp"
@@ -46,6 +47,12 @@ TEST(SelfIntersection, ABallHasNoneAndTwoThatOverlapCrossAlongACircle) {
   // A circle of 36 mm over facets of 1 mm.
   EXPECT_GT(crossing, 36U);
   EXPECT_LT(crossing, 400U);
+  const std::vector<std::uint32_t> facets =
+      crossing_facets(together(one, ball({9.1, 0.2, 0.3}, 7.3)));
+  EXPECT_GT(facets.size(), 20U);
+  EXPECT_LE(facets.size(), 2 * crossing);
+  EXPECT_TRUE(std::is_sorted(facets.begin(), facets.end()));
+  EXPECT_TRUE(crossing_facets(one).empty());
 }
 
 TEST(SelfIntersection, AVertexDrawnThroughTheOtherSideIsFound) {

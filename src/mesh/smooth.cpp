@@ -9,31 +9,10 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "mesh/neighbours.hpp"
 
 namespace carpus::mesh {
 namespace {
-
-/// Successors of each vertex, one list after the other. In a closed mesh the edges that leave a
-/// vertex reach each neighbour once.
-struct Neighbours {
-  std::vector<std::size_t> first;  ///< of vertex v: [first[v], first[v + 1])
-  std::vector<std::uint32_t> list;
-};
-
-Neighbours neighbours_of(const TriangleMesh& mesh) {
-  Neighbours result;
-  result.first.assign(mesh.vertices.size() + 1, 0);
-  for (const Triangle& t : mesh.facets) {
-    for (const std::uint32_t v : t) ++result.first[v + 1];
-  }
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) result.first[v + 1] += result.first[v];
-  result.list.resize(mesh.facets.size() * 3);
-  std::vector<std::size_t> next(result.first.begin(), result.first.end() - 1);
-  for (const Triangle& t : mesh.facets) {
-    for (std::size_t i = 0; i < 3; ++i) result.list[next[t[i]]++] = t[(i + 1) % 3];
-  }
-  return result;
-}
 
 /// v += factor * (mean of neighbours - v), from the old positions of all.
 void step(std::vector<Vec3>& vertices,
@@ -41,13 +20,12 @@ void step(std::vector<Vec3>& vertices,
           const Neighbours& neighbours,
           double factor) {
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const std::size_t begin = neighbours.first[v];
-    const std::size_t end = neighbours.first[v + 1];
     moved[v] = vertices[v];
-    if (begin == end) continue;
+    const auto around = neighbours.of(v);
+    if (around.empty()) continue;
     Vec3 sum{};
-    for (std::size_t i = begin; i < end; ++i) sum += vertices[neighbours.list[i]];
-    moved[v] += (sum / static_cast<double>(end - begin) - vertices[v]) * factor;
+    for (const std::uint32_t other : around) sum += vertices[other];
+    moved[v] += (sum / static_cast<double>(around.size()) - vertices[v]) * factor;
   }
   std::swap(vertices, moved);
 }
@@ -67,7 +45,7 @@ TriangleMesh smooth(TriangleMesh mesh, const SmoothOptions& options) {
         options.mu < -options.lambda && options.mu > -1)) {
     throw InvalidInput("smooth: iterations >= 0 and 0 < lambda < -mu < 1 are required");
   }
-  const Neighbours neighbours = neighbours_of(mesh);
+  const Neighbours neighbours(mesh);
   const double volume_mm3 = options.restores_volume ? volume_of(mesh) : 0.0;
   const std::vector<Vec3> before =
       options.max_displacement_mm > 0 ? mesh.vertices : std::vector<Vec3>{};
