@@ -44,6 +44,7 @@ struct Arguments {
   fs::path input;
   fs::path out;
   fs::path truth;
+  fs::path true_surfaces;
   fs::path labels;
   fs::path names;
   fs::path json;
@@ -182,6 +183,10 @@ void run(const Arguments& a) {
     truth = reconstruct::read_ground_truth(a.truth);
     reconstruct::require_same_grid(ct.geometry(), truth);
   }
+  std::vector<reconstruct::TrueSurface> true_surfaces;
+  if (!a.true_surfaces.empty()) {
+    true_surfaces = reconstruct::read_true_surfaces(a.true_surfaces);
+  }
   const double reading_seconds = reconstruct::StageClock::seconds_since(started);
 
   reconstruct::ReconstructOptions options;
@@ -197,6 +202,10 @@ void run(const Arguments& a) {
   reconstruct::Reconstruction result = make_case(a, std::move(ct), options);
   for (const std::string& text : result.warnings) warn(text);
 
+  std::vector<reconstruct::SurfaceDistance> surfaces;
+  if (!true_surfaces.empty()) {
+    surfaces = reconstruct::compare_surfaces(result.data, true_surfaces);
+  }
   std::vector<reconstruct::LabelDice> dice;
   if (!a.truth.empty()) dice = reconstruct::compare_labels(result.data.labels.view(), truth);
   const auto writing = reconstruct::StageClock::Clock::now();
@@ -217,7 +226,7 @@ void run(const Arguments& a) {
   const auto generating = reconstruct::StageClock::Clock::now();
   const std::string soft_tissue = generate_soft_tissue(result.data, a.out);
   result.stages.push_back({"soft tissue", reconstruct::StageClock::seconds_since(generating)});
-  const reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice);
+  const reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice, surfaces);
   std::fputs(reconstruct::text_of(report).c_str(), stdout);
   std::printf("soft tissue (generated, not seen in the CT): %s\n", soft_tissue.c_str());
   std::printf("case: %s%s\n", a.out.string().c_str(),
@@ -241,6 +250,9 @@ void add_reconstruct_command(CLI::App& app) {
   command->add_option("--out", a->out, "Folder for the case")->required();
   command->add_option("--truth", a->truth,
                       "Label volume to compare with; its numbers in labels.json beside it");
+  command->add_option("--truth-surfaces", a->true_surfaces,
+                      "Folder with a surface of each bone to compare with (radius.ply, ...), in "
+                      "the scan's frame (LPS) in mm");
   command->add_option("--labels", a->labels,
                       "Bones as outlined elsewhere, instead of segmenting: a label volume or a "
                       "DICOM segmentation (.dcm) on the scan's grid");

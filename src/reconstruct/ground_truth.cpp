@@ -28,14 +28,6 @@ LabelMap standard_map() {
   return map;
 }
 
-std::uint8_t label_of(const std::string& name) {
-  if (name == "scaphoid_distal_fragment") return kScaphoidDistalLabel;
-  const std::optional<NamedBone> bone = bone_of(name);
-  if (!bone) return kBackgroundLabel;
-  return bone->part == BonePart::Distal ? kScaphoidDistalLabel
-                                        : static_cast<std::uint8_t>(bone->bone);
-}
-
 LabelMap read_map(const fs::path& file) {
   if (!fs::is_regular_file(file)) {  // a pipe would wait for whoever writes into it
     throw IoError(file.string() + ": is no regular file; give one, or remove it");
@@ -53,7 +45,7 @@ LabelMap read_map(const fs::path& file) {
       throw InvalidInput(file.string() + ": label of " + name + " is " + std::to_string(number) +
                          ", expected 0 to 255");
     }
-    map[static_cast<std::size_t>(number)] = label_of(name);
+    map[static_cast<std::size_t>(number)] = label_of_true_bone(name);
   }
   return map;
 }
@@ -73,6 +65,14 @@ bool lie_on_one_grid(const GridGeometry& a, const GridGeometry& b) {
 }
 
 }  // namespace
+
+std::uint8_t label_of_true_bone(std::string_view name) {
+  if (name == "scaphoid_distal_fragment") return kScaphoidDistalLabel;
+  const std::optional<NamedBone> bone = bone_of(name);
+  if (!bone) return kBackgroundLabel;
+  return bone->part == BonePart::Distal ? kScaphoidDistalLabel
+                                        : static_cast<std::uint8_t>(bone->bone);
+}
 
 GroundTruth read_ground_truth(const fs::path& file) {
   GroundTruth truth{case_io::read_labels(file)};

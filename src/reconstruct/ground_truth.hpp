@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "anatomy/bone_id.hpp"
@@ -20,6 +21,10 @@ namespace carpus::reconstruct {
 struct GroundTruth {
   Grid<std::uint8_t> labels;
 };
+
+/// The label of a bone as truths name it: as name_of() does, and "scaphoid_distal_fragment";
+/// kBackgroundLabel for what is no bone.
+[[nodiscard]] std::uint8_t label_of_true_bone(std::string_view name);
 
 /// Reads `file` and the numbers in labels.json beside it, {"radius": 1, ...}; without that file the
 /// numbers of anatomy/bone_id.hpp hold. Names are those of name_of(); "scaphoid_distal_fragment"

@@ -18,7 +18,9 @@
 #include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
 #include "reconstruct/given_labels.hpp"
+#include "reconstruct/label_by_surfaces.hpp"
 #include "reconstruct/named_segmentation.hpp"
+#include "reconstruct/sharpen_surface.hpp"
 #include "reconstruct/skin_surface.hpp"
 
 namespace carpus::reconstruct {
@@ -131,7 +133,7 @@ void build_surfaces(const BoneSegmentation& s,
                     Grid<std::uint16_t> labels,
                     const BoneSurfaceOptions& options,
                     const BoneNaming& naming,
-                    const GridGeometry& whole,
+                    const GridView<const std::int16_t>& ct,
                     Reconstruction& result) {
   cases::CaseData& data = result.data;
   std::vector<BoneField> fields(data.bones.size());
@@ -145,6 +147,7 @@ void build_surfaces(const BoneSegmentation& s,
     }
   });
   label_by_fields(fields, label_of, labels.view());
+  // What is known of the bones is asked of them as they were segmented: trust was fitted to that.
   std::vector<LabelSurface> surfaces;
   for (const cases::Bone& bone : data.bones) surfaces.push_back({bone.label, &bone.surface});
   const auto evidence = measure_evidence(labels.view(), s.regions.view(), s.edge_excess.view(),
@@ -154,7 +157,11 @@ void build_surfaces(const BoneSegmentation& s,
       if (label_of[i] == each.label) result.figures[i].trust = judge(each);
     }
   }
-  data.labels = on_whole_scan(labels, s.offset, whole);
+  std::vector<TriangleMesh*> meshes;
+  for (cases::Bone& bone : data.bones) meshes.push_back(&bone.surface);
+  sharpen_surfaces(meshes, ct, s.soft_tissue_hu);
+  label_by_surfaces({meshes.begin(), meshes.end()}, label_of, labels.view());
+  data.labels = on_whole_scan(labels, s.offset, ct.geometry());
 }
 
 void warn_of_flagged(Reconstruction& result) {
@@ -218,7 +225,7 @@ void build_case(Grid<std::int16_t> ct,
   list_bones(naming, result);
 
   stage("surfaces", 0.45);
-  build_surfaces(segmentation, bone_labels(named), options.surface, naming, ct.geometry(), result);
+  build_surfaces(segmentation, bone_labels(named), options.surface, naming, ct.view(), result);
   warn_of_flagged(result);
   stage("hulls", 0.6);
   for_each_bone(result, [](cases::Bone& bone, BoneFigures& f) { build_hull(bone, f); });

@@ -60,13 +60,32 @@ void add_dice(const std::vector<LabelDice>& dice,
   report.dice_min = least;
 }
 
+void add_surfaces(const std::vector<SurfaceDistance>& surfaces,
+                  const Reconstruction& reconstruction,
+                  ReconstructionReport& report) {
+  if (surfaces.empty()) return;
+  double sum = 0;
+  double worst = 0;
+  const auto& bones = reconstruction.data.bones;
+  for (const SurfaceDistance& distance : surfaces) {
+    sum += distance.mean_mm;
+    worst = std::max(worst, distance.p95_mm);
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+      if (bones[i].label == distance.label) report.bones[i].surface = distance;
+    }
+  }
+  report.surface_mean_mm = sum / static_cast<double>(surfaces.size());
+  report.surface_p95_mm = worst;
+}
+
 nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
 void append_bones(const ReconstructionReport& report, std::string& text) {
-  append(text, "%-18s %8s %8s %8s %8s %9s %8s %10s %7s\n", "bone", "vertices", "facets", "hull v.",
-         "hull f.", "hull ms", "misfit", "confidence", "Dice");
+  append(text, "%-18s %8s %8s %8s %8s %9s %8s %10s %7s%s\n", "bone", "vertices", "facets",
+         "hull v.", "hull f.", "hull ms", "misfit", "confidence", "Dice",
+         report.surface_mean_mm ? "   mm: mean / 95 % / most" : "");
   for (const BoneLine& b : report.bones) {
     if (b.is_found) {
       append(text, "%-18s %8zu %8zu %8zu %8zu %9.2f %8.2f %9.2f%s", b.name.c_str(), b.vertices,
@@ -76,6 +95,10 @@ void append_bones(const ReconstructionReport& report, std::string& text) {
       append(text, "%-18s %8s %55s", b.name.c_str(), "", "NOT FOUND");
     }
     if (b.dice) append(text, " %7.4f", *b.dice);
+    if (b.surface) {
+      append(text, "   %.3f / %.3f / %.3f", b.surface->mean_mm, b.surface->p95_mm,
+             b.surface->most_mm);
+    }
     text += '\n';
   }
   for (const BoneLine& b : report.bones) {
@@ -128,7 +151,8 @@ nlohmann::ordered_json structures_json(const ReconstructionReport& report) {
 }  // namespace
 
 ReconstructionReport make_report(const Reconstruction& reconstruction,
-                                 const std::vector<LabelDice>& dice) {
+                                 const std::vector<LabelDice>& dice,
+                                 const std::vector<SurfaceDistance>& surfaces) {
   ReconstructionReport report;
   report.side = name_of(reconstruction.data.side);
   report.stages = reconstruction.stages;
@@ -152,6 +176,7 @@ ReconstructionReport make_report(const Reconstruction& reconstruction,
     line.self_intersections = mesh::count_self_intersections(bone.surface);
     report.bones.push_back(line);
   }
+  add_surfaces(surfaces, reconstruction, report);
   add_dice(dice, reconstruction, report);
   return report;
 }
@@ -165,6 +190,11 @@ std::string text_of(const ReconstructionReport& report) {
   append_bones(report, text);
   if (report.dice_mean && report.dice_min) {
     append(text, "\nDice: mean %.4f, worst bone %.4f\n", *report.dice_mean, *report.dice_min);
+  }
+  if (report.surface_mean_mm && report.surface_p95_mm) {
+    append(text,
+           "\nSurfaces from the true ones: mean %.3f mm, 95 %% within %.3f mm on the worst bone\n",
+           *report.surface_mean_mm, *report.surface_p95_mm);
   }
   if (report.structures > 0) append_structures(report, text);
   double total = 0;
@@ -196,6 +226,14 @@ std::string json_of(const ReconstructionReport& report) {
                              {"why", b.trust.why},
                              {"genus", b.genus},
                              {"self_intersections", b.self_intersections}});
+    if (!b.surface) continue;
+    json["bones"].back()["surface_mean_mm"] = b.surface->mean_mm;
+    json["bones"].back()["surface_p95_mm"] = b.surface->p95_mm;
+    json["bones"].back()["surface_most_mm"] = b.surface->most_mm;
+  }
+  if (report.surface_mean_mm) {
+    json["surface_mean_mm"] = *report.surface_mean_mm;
+    json["surface_p95_mm"] = number_or_null(report.surface_p95_mm);
   }
   json["dice_mean"] = number_or_null(report.dice_mean);
   json["dice_min"] = number_or_null(report.dice_min);

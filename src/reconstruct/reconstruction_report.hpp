@@ -10,14 +10,16 @@
 
 #include "reconstruct/ground_truth.hpp"
 #include "reconstruct/reconstruct_case.hpp"
+#include "reconstruct/surface_truth.hpp"
 
 namespace carpus::reconstruct {
 
 /// One line of the table: a bone or a part of one.
 struct BoneLine {
   std::string name;
-  std::optional<double> dice;  ///< against the truth, where there is one
-  bool is_found = true;        ///< false: the truth has it, the case does not
+  std::optional<double> dice;              ///< against the truth, where there is one
+  std::optional<SurfaceDistance> surface;  ///< from the true one, where there is one
+  bool is_found = true;                    ///< false: the truth has it, the case does not
   std::size_t vertices = 0;
   std::size_t facets = 0;
   std::size_t hull_vertices = 0;
@@ -34,6 +36,8 @@ struct ReconstructionReport {
   std::vector<BoneLine> bones;
   std::optional<double> dice_mean;  ///< over the truth's bones; one that was not found counts as 0
   std::optional<double> dice_min;
+  std::optional<double> surface_mean_mm;  ///< the mean of the bones', and the worst bone's 95 %
+  std::optional<double> surface_p95_mm;
   std::vector<StageTime> stages;
   std::vector<std::string> conventions;  ///< taken when the scan was read, in words
   double naming_cost = 0;
@@ -42,9 +46,11 @@ struct ReconstructionReport {
   cases::StructureFigures structure_figures;
 };
 
-/// Gathers the figures; `dice` as compare_labels gives it, empty without a truth.
+/// Gathers the figures; `dice` as compare_labels gives it and `surfaces` as compare_surfaces, empty
+/// without a truth.
 [[nodiscard]] ReconstructionReport make_report(const Reconstruction& reconstruction,
-                                               const std::vector<LabelDice>& dice);
+                                               const std::vector<LabelDice>& dice,
+                                               const std::vector<SurfaceDistance>& surfaces = {});
 
 /// The thesis's table (bone, vertices, facets, hull vertices, hull facets, time), Dice, what was
 /// generated with its distances beside published ones, and the time of each stage with its share,
@@ -57,7 +63,8 @@ struct ReconstructionReport {
 /// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": [], "structures":
 /// {"generated": true, "count", "in_bone_mm", "in_another_mm", "under_skin_mm", "portals":
 /// [{"portal", "nerve", "mm"}]}}; the Dice figures are null without a truth. A bone that was not
-/// found is not in "bones", but counts in the mean and the minimum.
+/// found is not in "bones", but counts in the mean and the minimum. With true surfaces bones have
+/// "surface_mean_mm", "surface_p95_mm" and "surface_most_mm", and the whole the first two.
 [[nodiscard]] std::string json_of(const ReconstructionReport& report);
 
 }  // namespace carpus::reconstruct
