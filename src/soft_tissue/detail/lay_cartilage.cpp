@@ -207,7 +207,10 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
           double nearest = farthest;
           bool does_face = false;
           for (const Opponent& o : opponents) {
-            if (o.bone && *o.bone == bone.bone) continue;
+            // Two parts of a broken bone do not face each other as in a joint, but neither may lie
+            // in the other's cartilage.
+            const bool is_own = o.bone && *o.bone == bone.bone;
+            if (is_own && (o.surface == &surface || p > 0)) continue;
             const auto back = o.motions[p].inverse();
             const Vec3 at = (back * (own * Point<frame::Bone>{surface.vertices[v]})).v;
             if (!o.box.grown(nearest).contains(at)) continue;
@@ -216,7 +219,7 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
             nearest = std::sqrt(hit->squared_distance);
             const Vec3 normal = back.rotation * (own.rotation * normals[v]);
             const Vec3 way = normalized_or(hit->point - at, normal);
-            does_face = dot(way, normal) > kOpposed &&
+            does_face = !is_own && dot(way, normal) > kOpposed &&
                         dot(facet_normal(*o.surface, hit->facet), normal) < -kOpposed;
           }
           if (p == 0) gap[v] = nearest;
