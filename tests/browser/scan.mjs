@@ -100,6 +100,38 @@ export async function lookAtScan(browser, station) {
       expect(file.length === before.length, "it is of another length");
       expect(erased > 20, `${erased} voxels were erased`);
     });
+    await check(
+      page,
+      "what was erased is moved, by keys and by hand",
+      async () => {
+        const reads = (what) =>
+          page.locator(".scan-reading", { hasText: what }).waitFor();
+        await page.keyboard.press("Shift+ArrowDown");
+        await reads("Capitate");
+        await page.keyboard.press("v");
+        await page.locator(".scan-said", { hasText: "painted last" }).waitFor();
+        await page.keyboard.press("Enter");
+        await reads("no bone");
+        await page.keyboard.press("Shift+ArrowUp");
+        await reads("Capitate");
+        await page.keyboard.press("Shift+ArrowDown");
+        await reads("no bone");
+        const canvas = page.locator(".scan-panel.axial canvas");
+        const box = await canvas.boundingBox();
+        const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        await page.mouse.move(x + 90, y, { steps: 4 });
+        await page.mouse.up();
+        await page.mouse.move(box.x + box.width + 300, box.y + 5);
+        await reads("Capitate");
+        await page.keyboard.press("z");
+        await reads("no bone");
+        await page.keyboard.press("z");
+        await reads("Capitate");
+        await page.keyboard.press("v");
+      },
+    );
     await check(page, "nothing went wrong on the scan's page", () => {
       expect(problems.length === 0, problems.join(" | "));
     });

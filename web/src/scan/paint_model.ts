@@ -12,6 +12,8 @@ interface Change {
   readonly indices: Uint32Array;
   readonly before: Uint8Array;
   readonly after: Uint8Array;
+  /** The same for a change and for what it became. */
+  readonly mark: object;
 }
 
 /** What is kept to be taken back, of all changes together. */
@@ -21,6 +23,7 @@ export class LabelPaint {
   private readonly done: Change[] = [];
   private readonly undone: Change[] = [];
   private open: Map<number, number> | undefined;
+  private openMark: object = {};
   private readonly values: Uint8Array;
 
   /** @param labels  changed in place */
@@ -41,6 +44,21 @@ export class LabelPaint {
   begin(): void {
     this.end();
     this.open = new Map();
+    this.openMark = {};
+  }
+
+  /** The change that is open begins anew. */
+  rewind(): void {
+    for (const [i, before] of this.open ?? []) this.values[i] = before;
+    this.open?.clear();
+  }
+
+  /** What the latest change did is undone within the one that is open. */
+  insteadOfLatest(): void {
+    const change = this.done.at(-1);
+    change?.indices.forEach((i, k) => {
+      if (this.values[i] === change.after[k]) this.set(i, change.before[k] ?? 0);
+    });
   }
 
   end(): void {
@@ -53,7 +71,7 @@ export class LabelPaint {
     if (indices.length === 0) return;
     const before = Uint8Array.from(indices, (i) => open.get(i) ?? 0);
     const after = Uint8Array.from(indices, (i) => this.values[i] ?? 0);
-    this.done.push({ indices, before, after });
+    this.done.push({ indices, before, after, mark: this.openMark });
     this.undone.length = 0;
     let kept = this.done.reduce((sum, one) => sum + one.indices.length, 0);
     while (kept > MOST_KEPT && this.done.length > 1) kept -= this.done.shift()?.indices.length ?? 0;
@@ -64,6 +82,7 @@ export class LabelPaint {
     const last = joins ? this.done.pop() : undefined;
     this.begin();
     if (last !== undefined) {
+      this.openMark = last.mark;
       last.indices.forEach((i, k) => this.open?.set(i, last.before[k] ?? 0));
     }
     indices.forEach((i, k) => {
@@ -72,9 +91,9 @@ export class LabelPaint {
     this.end();
   }
 
-  /** The last change that was not taken back: another one where something came between. */
+  /** Names the last change that was not taken back: another name where something came between. */
   get latest(): object | undefined {
-    return this.done.at(-1);
+    return this.done.at(-1)?.mark;
   }
 
   undo(): boolean {

@@ -9,11 +9,13 @@ import { MendedLooks, type MendedLooksWishes } from "./mended_looks";
 import type { Volume } from "./nifti_model";
 import { packedLabels } from "./packed_labels";
 import { LabelPaint } from "./paint_model";
-import type { Plane } from "./planes_model";
+import { along, type Plane } from "./planes_model";
 import { boneTitle, KNOWN_BONES, type ScannedBone } from "./scan_case_model";
 import type { Brush } from "./slice_panel";
+import { Stroke } from "./stroke_model";
 
-export type PaintTool = "paint" | "erase" | "mark" | "split";
+const TOOLS = ["paint", "erase", "mark", "move", "split"] as const;
+export type PaintTool = (typeof TOOLS)[number];
 type Phase = "down" | "move" | "up";
 
 export interface PaintWishes {
@@ -27,10 +29,13 @@ export interface PaintWishes {
   readonly look: { readonly of: string; readonly show: MendedLooksWishes["show"] } | undefined;
 }
 
-const SPLIT_SAID =
-  "Drag a line across the bone in hand: what lies to its right, walking along it, becomes the other bone.";
-const MARK_SAID =
-  "Mark what belongs to the bone in hand, roughly: how far it goes is found in the CT.";
+const SAID: Readonly<Partial<Record<PaintTool, string>>> = {
+  split:
+    "Drag a line across the bone in hand: what lies to its right, walking along it, becomes the other bone.",
+  mark: "Mark what belongs to the bone in hand, roughly: how far it goes is found in the CT.",
+  move: "Drag: the stroke that was painted last goes with the hand. Enter lays its middle at the crosshair.",
+};
+const NOTHING_TO_MOVE = "Nothing to move: only the stroke that was painted last can be.";
 
 const RADII_MM = [0.3, 0.5, 0.8, 1.2, 2, 3, 5] as const;
 
@@ -41,7 +46,10 @@ export class PaintTools {
   chosen = 0;
   private readonly paint: LabelPaint;
   private radius = 2;
-  private last: Vec3 | undefined;
+  /** Where the hand went down to split or to move. */
+  private from: Vec3 | undefined;
+  private stroke: Stroke | undefined;
+  private isPainting = false;
   private isSaved = true;
   private readonly looks: MendedLooks | undefined;
   private readonly size = make("output", { "aria-label": "Radius of the brush" });
@@ -76,6 +84,7 @@ export class PaintTools {
       paint: toggle("paint", "Paint", "{KeyA}"),
       erase: toggle("erase", "Erase", "{KeyE}"),
       mark: toggle("mark", "Marker", "{KeyW}"),
+      move: toggle("move", "Move", "{KeyV}"),
       split: toggle("split", "Split by a line", "{KeyK}"),
     };
     const { look } = wishes;
@@ -112,6 +121,7 @@ export class PaintTools {
         this.buttons.paint,
         this.buttons.erase,
         ...(this.looks === undefined ? [] : [this.buttons.mark]),
+        this.buttons.move,
       ),
       make("div.scan-row", {}, fewer, this.size, more),
       make(
@@ -158,7 +168,7 @@ export class PaintTools {
   }
 
   get brush(): Brush | undefined {
-    if (this.tool === undefined || this.tool === "split") return undefined;
+    if (this.tool === undefined || this.tool === "split" || this.tool === "move") return undefined;
     return { radiusMm: RADII_MM[this.radius] ?? 1, isEraser: this.tool === "erase" };
   }
 
@@ -171,45 +181,92 @@ export class PaintTools {
   take(tool: PaintTool | undefined): void {
     this.tool = tool;
     if (tool !== undefined) (this.element as HTMLDetailsElement).open = true;
-    this.wishes.say(tool === "split" ? SPLIT_SAID : tool === "mark" ? MARK_SAID : "");
+    this.wishes.say(tool === undefined ? "" : (SAID[tool] ?? ""));
     this.show();
   }
 
   /** @return whether the hand holds something that it did it with */
   press(plane: Plane, mm: Vec3, phase: Phase): boolean {
-    const { tool, last } = this;
+    const { tool } = this;
     if (tool === undefined) return false;
-    if (tool === "split") {
-      if (phase === "down") this.last = mm;
-      if (phase === "up" && last !== undefined) this.split(last, mm, plane);
-      return true;
-    }
-    if (phase === "down") this.paint.begin();
-    else if (last === undefined) return true;
-    this.stroke(phase === "down" ? mm : (last ?? mm), mm);
-    this.last = phase === "up" ? undefined : mm;
-    if (phase === "up") this.changed(tool === "mark");
-    else this.wishes.redraw();
+    if (tool === "split") this.pressToSplit(plane, mm, phase);
+    else if (tool === "move") this.pressToMove(mm, phase);
+    else this.pressToPaint(mm, phase);
     return true;
   }
 
-  /** With the brush, once, where the crosshair is. */
-  dab(mm: Vec3): void {
-    if (this.brush === undefined) return;
-    this.paint.begin();
-    this.stroke(mm, mm);
-    this.changed(this.tool === "mark");
+  private pressToSplit(plane: Plane, mm: Vec3, phase: Phase): void {
+    if (phase === "down") this.from = mm;
+    if (phase === "up" && this.from !== undefined) this.split(this.from, mm, plane);
   }
 
-  private stroke(from: Vec3, to: Vec3): void {
+  private pressToPaint(mm: Vec3, phase: Phase): void {
+    if (phase === "down") this.beginStroke(mm);
+    else if (this.isPainting) this.stroke?.goOn(mm);
+    if (phase === "up") this.endStroke();
+    else this.wishes.redraw();
+  }
+
+  private pressToMove(mm: Vec3, phase: Phase): void {
+    const { stroke } = this;
+    if (phase === "down") {
+      this.from = stroke?.isLatest === true ? mm : undefined;
+      if (this.from === undefined) this.wishes.say(NOTHING_TO_MOVE);
+      else stroke?.beginMove();
+      return;
+    }
+    if (stroke === undefined || this.from === undefined) return;
+    const offset = along(mm, -1, this.from);
+    stroke.moveBy(offset);
+    if (phase === "move") {
+      this.wishes.redraw();
+      return;
+    }
+    this.from = undefined;
+    stroke.endMove(offset);
+    this.changed(stroke.kind.grows);
+  }
+
+  /** With what is in hand, once, where the crosshair is. @return whether it does anything there */
+  dab(mm: Vec3): boolean {
+    if (this.tool === "move") {
+      const { stroke } = this;
+      if (stroke?.isLatest === true) {
+        const { middle } = stroke;
+        this.pressToMove(middle, "down");
+        this.pressToMove(mm, "up");
+      } else this.wishes.say(NOTHING_TO_MOVE);
+      return true;
+    }
+    if (this.brush === undefined) return false;
+    this.beginStroke(mm);
+    this.endStroke();
+    return true;
+  }
+
+  private beginStroke(mm: Vec3): void {
     const { brush } = this;
     if (brush === undefined) return;
-    if (brush.isEraser) this.paint.stroke(from, to, brush.radiusMm, 0, this.chosen);
-    else this.paint.stroke(from, to, brush.radiusMm, this.chosen);
+    const { radiusMm, isEraser } = brush;
+    const label = isEraser ? 0 : this.chosen;
+    const only = isEraser ? this.chosen : undefined;
+    this.stroke = new Stroke(
+      { radiusMm, label, only, grows: this.tool === "mark" },
+      this.paint,
+      mm,
+    );
+    this.isPainting = true;
+  }
+
+  private endStroke(): void {
+    if (!this.isPainting) return;
+    this.isPainting = false;
+    this.stroke?.end();
+    this.changed(this.stroke?.kind.grows);
   }
 
   private split(a: Vec3, b: Vec3, plane: Plane): void {
-    this.last = undefined;
+    this.from = undefined;
     const into = Number(this.other.value);
     if (into === this.chosen) {
       this.wishes.say("Choose another bone, which the part becomes.");
@@ -308,6 +365,9 @@ export class PaintTools {
       KeyW: () => {
         if (this.looks !== undefined) this.take(this.tool === "mark" ? undefined : "mark");
       },
+      KeyV: () => {
+        this.take(this.tool === "move" ? undefined : "move");
+      },
       KeyK: () => {
         this.take(this.tool === "split" ? undefined : "split");
       },
@@ -340,7 +400,7 @@ export class PaintTools {
   }
 
   private show(): void {
-    for (const tool of ["paint", "erase", "mark", "split"] as const) {
+    for (const tool of TOOLS) {
       this.buttons[tool].setAttribute("aria-pressed", String(this.tool === tool));
     }
     this.undoButton.disabled = !this.paint.canUndo;

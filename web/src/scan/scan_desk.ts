@@ -408,8 +408,7 @@ export class ScanDesk {
   /** With what is in hand. */
   private atCross(): boolean {
     if (this.measures.kind !== undefined) this.addPlace(this.cross);
-    else if (this.mend?.brush !== undefined) this.mend.dab(this.cross);
-    else return false;
+    else return this.mend?.dab(this.cross) === true;
     return true;
   }
 

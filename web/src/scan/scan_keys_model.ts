@@ -52,6 +52,7 @@ export const SCAN_HELP: readonly { readonly title: string; readonly lines: reado
           keys: "{KeyW}",
           text: "marker: mark roughly what belongs to it, and its border is found in the CT",
         },
+        { keys: "{KeyV}", text: "move the last stroke: drag, or Enter lays it at the crosshair" },
         { keys: "{Comma} {Period}", text: "brush smaller, larger" },
         { keys: "{KeyZ}, {KeyY}", text: "undo, redo" },
         { keys: "{KeyF}", text: "fill the bone's hollows" },
