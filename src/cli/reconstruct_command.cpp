@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/reconstruct_command.hpp"
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -65,6 +67,12 @@ std::string utc_now() {
   std::array<char, 32> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text.data();
+}
+
+double peak_memory_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 /// Said before minutes of work, and never deletes a folder that is not a case.
@@ -226,7 +234,8 @@ void run(const Arguments& a) {
   const auto generating = reconstruct::StageClock::Clock::now();
   const std::string soft_tissue = generate_soft_tissue(result.data, a.out);
   result.stages.push_back({"soft tissue", reconstruct::StageClock::seconds_since(generating)});
-  const reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice, surfaces);
+  reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice, surfaces);
+  report.peak_memory_bytes = peak_memory_bytes();
   std::fputs(reconstruct::text_of(report).c_str(), stdout);
   std::printf("soft tissue (generated, not seen in the CT): %s\n", soft_tissue.c_str());
   std::printf("case: %s%s\n", a.out.string().c_str(),

@@ -103,7 +103,7 @@ VoxelBox whole_of(const GridGeometry& g) {
 
 /// What is flooded: a part of the scan and its markers.
 struct Task {
-  Grid<float> hu;
+  Grid<std::int16_t> hu;
   Labels markers;
   VoxelIndex offset;  ///< of the part, in the scan
   RegionLabel outside = 0;
@@ -152,8 +152,8 @@ Labels read_markers(const GridGeometry& g, const fs::path& file) {
 
 Task take_markers(const Grid<std::int16_t>& ct, const VoxelBox& box, const Arguments& a) {
   const Labels markers = read_markers(ct.geometry(), a.markers);
-  Task task{imaging::as_float(imaging::crop(ct.view(), box).view()),
-            imaging::crop(markers.view(), box), box.low, static_cast<RegionLabel>(a.outside)};
+  Task task{imaging::crop(ct.view(), box), imaging::crop(markers.view(), box), box.low,
+            static_cast<RegionLabel>(a.outside)};
   if (std::all_of(task.markers.values().begin(), task.markers.values().end(),
                   [](RegionLabel m) { return m == 0; })) {
     throw InvalidInput(a.markers.string() + ": holds no marker in the region that is asked for");

@@ -126,7 +126,7 @@ RC_GTEST_PROP(BoxMaximum, EqualsBruteForce, ()) {
   g.spacing = {0.5, 1.0, 2.0};
   Grid<float> image(g);
   for (float& v : image.values()) v = static_cast<float>(rng.uniform());
-  const Grid<float> result = box_maximum(image.view(), 2.0);  // 4, 2 and 1 voxels
+  const Grid<float> result = box_maximum(image, 2.0);  // 4, 2 and 1 voxels
   for (std::size_t i = 0; i < image.values().size(); ++i) {
     const VoxelIndex v = g.index_of(i);
     float expected = 0;

@@ -39,9 +39,10 @@ std::vector<char> outside_components(const Components& components, const GridGeo
   return is_outside;
 }
 
-Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
-                                    const Grid<float>& cleft,
-                                    const BoneSegmentationOptions& options) {
+/// What is not dense, or lies in a dark cleft between two bones.
+Grid<std::uint8_t> open_to_water(const Grid<float>& smoothed,
+                                 const Grid<float>& cleft,
+                                 const BoneSegmentationOptions& options) {
   Grid<std::uint8_t> low(smoothed.geometry());
   const auto weight = static_cast<float>(options.cleft_weight);
   const auto threshold = static_cast<float>(options.bone_threshold_hu);
@@ -59,13 +60,19 @@ Grid<std::uint8_t> enclosed_by_bone(const Grid<float>& smoothed,
       low[i] = is_low ? 1 : 0;
     }
   });
-  const Components components = connected_components(low.view());
-  Grid<std::uint8_t> mask(smoothed.geometry());
-  const std::vector<char> is_outside = outside_components(components, smoothed.geometry());
-  for (std::size_t i = 0; i < mask.values().size(); ++i) {
-    mask[i] = is_outside[components.labels[i]] != 0 ? 0 : 1;
+  return low;
+}
+
+/// What no water from outside reaches; in the place of `low`.
+Grid<std::uint8_t> enclosed_by_bone(Grid<std::uint8_t> low) {
+  {
+    const Components components = connected_components(low.view());
+    const std::vector<char> is_outside = outside_components(components, low.geometry());
+    for (std::size_t i = 0; i < low.values().size(); ++i) {
+      low[i] = is_outside[components.labels[i]] != 0 ? 0 : 1;
+    }
   }
-  return opened_by_one_voxel(mask.view());
+  return opened_by_one_voxel(low.view());
 }
 
 /// Steps 3 and 4: the bodies within the mask, one label each. Returns how many.
@@ -109,17 +116,15 @@ void keep_inner_parts(const BoneSegmentationOptions& options, BoneMarkers& found
 SmoothedScan smooth_scan(const GridView<const std::int16_t>& ct,
                          const BoneSegmentationOptions& options) {
   SmoothedScan scan;
-  Grid<float> whole = as_float(ct);
-  const Grid<float> smoothed = gaussian_smooth(whole.view(), options.smoothing_sigma_mm);
-  if (whole.values().empty()) return scan;
+  const Grid<float> smoothed = gaussian_smooth(ct, options.smoothing_sigma_mm);
+  if (smoothed.values().empty()) return scan;
   scan.densest_hu =
       static_cast<double>(*std::max_element(smoothed.values().begin(), smoothed.values().end()));
   const auto box = box_above(smoothed.view(), options.crop_threshold_hu, options.crop_margin_mm);
   if (!box) return scan;
   scan.holds_bone = true;
   scan.offset = box->low;
-  scan.hu = crop<float>(whole.view(), *box);
-  whole = {};
+  scan.hu = crop(ct, *box);
   scan.smoothed_hu = crop(smoothed.view(), *box);
   return scan;
 }
@@ -143,11 +148,11 @@ BoneMarkers find_bone_markers(SmoothedScan scan,
   found.smoothed_hu = std::move(scan.smoothed_hu);
 
   progress("joint clefts", 0.2);
-  {
-    const Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);
-    progress("bone mask", 0.57);
-    found.mask = enclosed_by_bone(found.smoothed_hu, cleft, options);
-  }
+  Grid<float> cleft = dark_sheet_measure(found.hu.view(), options.cleft_sigma_mm);
+  progress("bone mask", 0.57);
+  Grid<std::uint8_t> low = open_to_water(found.smoothed_hu, cleft, options);
+  cleft = {};
+  found.mask = enclosed_by_bone(std::move(low));
   found.soft_tissue_hu =
       static_cast<double>(median_soft_tissue(found.smoothed_hu.view(), found.mask.view()));
   found.depth = distance_to_background(found.mask.view());

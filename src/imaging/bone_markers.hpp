@@ -45,7 +45,7 @@ enum class SegmentationStatus : std::uint8_t {
 /// The part of a scan that is dense, and the same smoothed: serves every attempt at its bones.
 struct SmoothedScan {
   bool holds_bone = false;  ///< something is as dense; else the rest but densest_hu is empty
-  Grid<float> hu;           ///< the CT
+  Grid<std::int16_t> hu;    ///< the CT
   Grid<float> smoothed_hu;  ///< with smoothing_sigma_mm
   VoxelIndex offset;        ///< voxel of the scan at which the part begins
   double densest_hu = 0;    ///< of the smoothed scan
@@ -61,7 +61,7 @@ struct BoneMarkers {
   /// On the part of the scan that holds bone: 1..bone_count inside each bone, outside() between
   /// and around them, 0 where the water has to decide.
   Grid<RegionLabel> markers;
-  Grid<float> hu;             ///< the CT, same part
+  Grid<std::int16_t> hu;      ///< the CT, same part
   Grid<float> smoothed_hu;    ///< smoothed with smoothing_sigma_mm
   Grid<std::uint8_t> mask;    ///< 1 in bone and the marrow that it encloses
   Grid<float> depth;          ///< distance into the mask [mm]

@@ -27,16 +27,15 @@ void maximum_along(std::span<float> block, std::size_t group, std::size_t length
 
 }  // namespace
 
-Grid<float> box_maximum(const GridView<const float>& image, double reach_mm) {
+Grid<float> box_maximum(Grid<float> image, double reach_mm) {
   const GridGeometry& g = image.geometry();
-  Grid<float> result(g, {image.values().begin(), image.values().end()});
   const auto nx = static_cast<std::size_t>(g.size[0]);
   const auto ny = static_cast<std::size_t>(g.size[1]);
   const auto nz = static_cast<std::size_t>(g.size[2]);
   const auto radius = [&](std::size_t axis) {
     return static_cast<int>(std::lround(reach_mm / g.spacing[axis]));
   };
-  const std::span<float> all = result.values();
+  const std::span<float> all = image.values();
   parallel_for(nz, 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t z = begin; z < end; ++z) {
       const std::span<float> slice = all.subspan(z * nx * ny, nx * ny);
@@ -45,19 +44,22 @@ Grid<float> box_maximum(const GridView<const float>& image, double reach_mm) {
         maximum_along(slice.subspan(y * nx, nx), 1, nx, radius(0));
     }
   });
-  // Along z, one row at a time so that threads write apart.
-  const std::vector<float> source(all.begin(), all.end());
-  const int rz = radius(2);
-  parallel_for(nz, 4, [&](std::size_t begin, std::size_t end) {
-    for (auto z = static_cast<int>(begin); z < static_cast<int>(end); ++z) {
-      float* out = all.data() + static_cast<std::size_t>(z) * nx * ny;
-      for (int j = std::max(0, z - rz); j <= std::min(static_cast<int>(nz) - 1, z + rz); ++j) {
-        const float* in = source.data() + static_cast<std::size_t>(j) * nx * ny;
-        for (std::size_t k = 0; k < nx * ny; ++k) out[k] = std::max(out[k], in[k]);
+  // Along z, one row of all slices at a time.
+  parallel_for(ny, 4, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> upright(nx * nz);
+    for (std::size_t y = begin; y < end; ++y) {
+      for (std::size_t z = 0; z < nz; ++z) {
+        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>((z * ny + y) * nx), nx,
+                    upright.begin() + static_cast<std::ptrdiff_t>(z * nx));
+      }
+      maximum_along(upright, nx, nz, radius(2));
+      for (std::size_t z = 0; z < nz; ++z) {
+        std::copy_n(upright.begin() + static_cast<std::ptrdiff_t>(z * nx), nx,
+                    all.begin() + static_cast<std::ptrdiff_t>((z * ny + y) * nx));
       }
     }
   });
-  return result;
+  return image;
 }
 
 }  // namespace carpus::imaging

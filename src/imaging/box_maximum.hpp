@@ -10,6 +10,6 @@ namespace carpus::imaging {
 
 /// Maximum over the box of half-width `reach_mm` (rounded to whole voxels per axis) about each
 /// voxel, cut at the volume. Separable.
-[[nodiscard]] Grid<float> box_maximum(const GridView<const float>& image, double reach_mm);
+[[nodiscard]] Grid<float> box_maximum(Grid<float> image, double reach_mm);
 
 }  // namespace carpus::imaging

@@ -3,6 +3,7 @@
 #include "imaging/edge_excess.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -58,7 +59,7 @@ Grid<float> measure_edge_excess(const GridView<const float>& smoothed_hu,
   for (std::size_t i = 0; i < inside.values().size(); ++i) {
     inside[i] = mask[i] != 0 ? smoothed_hu[i] : soft_tissue_hu;
   }
-  Grid<float> excess = box_maximum(inside.view(), options.rim_reach_mm);
+  Grid<float> excess = box_maximum(std::move(inside), options.rim_reach_mm);
   const auto half = static_cast<float>(options.rim_fraction);
   const auto most = std::max(half, static_cast<float>(options.thin_rim_fraction));
   const float thick = half * std::max(0.0F, thick_cortex(excess, mask) - soft_tissue_hu);

@@ -15,13 +15,10 @@ namespace carpus::imaging {
 using detail::DerivativeOrder;
 using Rows = std::span<const float* const>;
 
-Grid<float> as_float(const GridView<const std::int16_t>& image) {
-  Grid<float> result(image.geometry());
-  std::copy(image.values().begin(), image.values().end(), result.values().begin());
-  return result;
-}
+namespace {
 
-Grid<float> gaussian_smooth(const GridView<const float>& image, double sigma_mm) {
+template <typename T>
+Grid<float> smoothed(const GridView<const T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 1> kOrders{{{0, 0, 0}}};
   const auto copy_row = [](Rows rows, float* out, std::size_t count) {
@@ -31,7 +28,8 @@ Grid<float> gaussian_smooth(const GridView<const float>& image, double sigma_mm)
   return result;
 }
 
-Grid<float> gradient_magnitude(const GridView<const float>& image, double sigma_mm) {
+template <typename T>
+Grid<float> gradient_of(const GridView<const T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 3> kOrders{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const auto norm = [](Rows rows, float* out, std::size_t count) {
@@ -44,7 +42,8 @@ Grid<float> gradient_magnitude(const GridView<const float>& image, double sigma_
   return result;
 }
 
-Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_mm) {
+template <typename T>
+Grid<float> sheets_of(const GridView<const T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 6> kOrders{
       {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
@@ -58,6 +57,27 @@ Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_
   };
   detail::filter_derivatives(image, sigma_mm, kOrders, positive_eigenvalue, result.values());
   return result;
+}
+
+}  // namespace
+
+Grid<float> gaussian_smooth(const GridView<const float>& image, double sigma_mm) {
+  return smoothed(image, sigma_mm);
+}
+Grid<float> gaussian_smooth(const GridView<const std::int16_t>& image, double sigma_mm) {
+  return smoothed(image, sigma_mm);
+}
+Grid<float> gradient_magnitude(const GridView<const float>& image, double sigma_mm) {
+  return gradient_of(image, sigma_mm);
+}
+Grid<float> gradient_magnitude(const GridView<const std::int16_t>& image, double sigma_mm) {
+  return gradient_of(image, sigma_mm);
+}
+Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_mm) {
+  return sheets_of(image, sigma_mm);
+}
+Grid<float> dark_sheet_measure(const GridView<const std::int16_t>& image, double sigma_mm) {
+  return sheets_of(image, sigma_mm);
 }
 
 double largest_eigenvalue(double xx,

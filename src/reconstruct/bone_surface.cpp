@@ -185,7 +185,14 @@ void label_by_fields(std::span<const BoneField> fields,
                      const GridView<std::uint16_t>& labels) {
   CARPUS_CHECK(fields.size() == label_of.size());
   std::fill(labels.values().begin(), labels.values().end(), std::uint16_t{0});
-  std::vector<float> depth(labels.values().size(), 0.0F);
+  // Where two claim a voxel the one is asked that has it: a volume of depths would be the largest.
+  const auto depth_of = [&](std::uint16_t label, const VoxelIndex& v) {
+    for (std::size_t b = 0; b < fields.size(); ++b) {
+      const VoxelIndex& low = fields[b].offset;
+      if (label_of[b] == label) return fields[b].values[{v.x - low.x, v.y - low.y, v.z - low.z}];
+    }
+    return 0.0F;
+  };
   for (std::size_t b = 0; b < fields.size(); ++b) {
     const Grid<float>& field = fields[b].values;
     for (std::size_t i = 0; i < field.values().size(); ++i) {
@@ -193,10 +200,7 @@ void label_by_fields(std::span<const BoneField> fields,
       VoxelIndex v = field.geometry().index_of(i);
       v = {v.x + fields[b].offset.x, v.y + fields[b].offset.y, v.z + fields[b].offset.z};
       const std::size_t j = labels.geometry().offset_of(v);
-      if (field[i] > depth[j]) {
-        depth[j] = field[i];
-        labels[j] = label_of[b];
-      }
+      if (labels[j] == 0 || field[i] > depth_of(labels[j], v)) labels[j] = label_of[b];
     }
   }
 }

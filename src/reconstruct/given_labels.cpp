@@ -122,8 +122,7 @@ GivenSegmentation describe_labels(const Grid<std::int16_t>& ct,
   s.regions = Grid<imaging::RegionLabel>(part.geometry());
   const Given given = number_regions(part.view(), s.regions);
   s.region_count = static_cast<imaging::RegionLabel>(given.labels.size());
-  s.smoothed_hu =
-      imaging::gaussian_smooth(imaging::as_float(hu.view()).view(), options.smoothing_sigma_mm);
+  s.smoothed_hu = imaging::gaussian_smooth(hu.view(), options.smoothing_sigma_mm);
   const float soft_tissue = imaging::median_soft_tissue(s.smoothed_hu.view(), part.view());
   s.soft_tissue_hu = static_cast<double>(soft_tissue);
   s.edge_excess =

@@ -33,7 +33,7 @@ constexpr RegionLabel kOutside = 256;
 
 class Growth {
  public:
-  Growth(const Grid<float>& hu,
+  Growth(const Grid<std::int16_t>& hu,
          const Grid<float>& smoothed,
          const Labels& before,
          const Labels& painted,
@@ -200,7 +200,7 @@ class Growth {
     return kept;
   }
 
-  const Grid<float>& hu_;
+  const Grid<std::int16_t>& hu_;
   const Grid<float>& smoothed_;
   const Labels& before_;
   const Labels& painted_;
@@ -214,7 +214,7 @@ class Growth {
 
 }  // namespace
 
-Labels grow_paint(const Grid<float>& hu,
+Labels grow_paint(const Grid<std::int16_t>& hu,
                   const Grid<float>& smoothed,
                   const Labels& before,
                   const Labels& painted,

@@ -15,7 +15,7 @@ namespace carpus::reconstruct {
 /// @param before  labels before the paint, and `painted` after it, on the same box
 /// @return labels of the box: of what was painted, of the bones that this touched, and of all
 ///     others, which are as they were
-[[nodiscard]] Grid<std::uint8_t> grow_paint(const Grid<float>& hu,
+[[nodiscard]] Grid<std::uint8_t> grow_paint(const Grid<std::int16_t>& hu,
                                             const Grid<float>& smoothed,
                                             const Grid<std::uint8_t>& before,
                                             const Grid<std::uint8_t>& painted,

@@ -38,13 +38,17 @@ Held held_by(TriangleMesh surface, const GridGeometry& grid) {
   return {low, voxels_inside(surface, part)};
 }
 
+bool is_held(const Held& held, const VoxelIndex& v) {
+  const VoxelIndex n{v.x - held.low.x, v.y - held.low.y, v.z - held.low.z};
+  return held.inside.geometry().contains(n) && held.inside[n] != 0;
+}
+
 /// Whether a voxel of the whole grid lies beside one that is held.
 bool is_beside(const Held& held, const VoxelIndex& v) {
   for (int dz = -1; dz <= 1; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const VoxelIndex n{v.x + dx - held.low.x, v.y + dy - held.low.y, v.z + dz - held.low.z};
-        if (held.inside.geometry().contains(n) && held.inside[n] != 0) return true;
+        if (is_held(held, {v.x + dx, v.y + dy, v.z + dz})) return true;
       }
     }
   }
@@ -64,11 +68,12 @@ void label_by_surfaces(const std::vector<const TriangleMesh*>& surfaces,
   std::array<std::size_t, 256> bone_of{};
   bone_of.fill(held.size());
   for (std::size_t b = 0; b < held.size(); ++b) bone_of[label_of[b]] = b;
-  const std::vector<std::uint16_t> before(labels.values().begin(), labels.values().end());
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (before[i] == 0) continue;
-    const std::size_t b = bone_of[before[i]];
-    if (b == held.size() || is_beside(held[b], labels.geometry().index_of(i))) labels[i] = 0;
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    if (labels[i] == 0) continue;
+    const std::size_t b = bone_of[labels[i]];
+    const VoxelIndex v = labels.geometry().index_of(i);
+    const bool is_lost = b == held.size() || (!is_held(held[b], v) && is_beside(held[b], v));
+    if (is_lost) labels[i] = 0;
   }
   for (std::size_t b = 0; b < held.size(); ++b) {
     const Grid<std::uint8_t>& inside = held[b].inside;
@@ -77,7 +82,7 @@ void label_by_surfaces(const std::vector<const TriangleMesh*>& surfaces,
       const VoxelIndex v = inside.geometry().index_of(i);
       const std::size_t at = labels.geometry().offset_of(
           {held[b].low.x + v.x, held[b].low.y + v.y, held[b].low.z + v.z});
-      if (labels[at] == 0 || before[at] == label_of[b]) labels[at] = label_of[b];
+      if (labels[at] == 0) labels[at] = label_of[b];
     }
   }
 }

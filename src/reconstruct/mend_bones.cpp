@@ -116,7 +116,7 @@ Mended mend_bones(const GridView<const std::int16_t>& ct,
   const Touched touched = touched_by(before, painted);
   if (!touched.any) throw InvalidInput("nothing was painted: the labels are the same");
   const imaging::VoxelBox box = box_of(before, painted, touched);
-  const Grid<float> hu = imaging::as_float(imaging::crop(ct, box).view());
+  const Grid<std::int16_t> hu = imaging::crop(ct, box);
   const Grid<float> smoothed =
       imaging::gaussian_smooth(hu.view(), options.segmentation.smoothing_sigma_mm);
   Grid<std::uint8_t> part = imaging::crop(painted.view(), box);

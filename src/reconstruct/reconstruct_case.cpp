@@ -147,6 +147,7 @@ void build_surfaces(const BoneSegmentation& s,
     }
   });
   label_by_fields(fields, label_of, labels.view());
+  fields = {};
   // What is known of the bones is asked of them as they were segmented: trust was fitted to that.
   std::vector<LabelSurface> surfaces;
   for (const cases::Bone& bone : data.bones) surfaces.push_back({bone.label, &bone.surface});

@@ -156,6 +156,7 @@ ReconstructionReport make_report(const Reconstruction& reconstruction,
   ReconstructionReport report;
   report.side = name_of(reconstruction.data.side);
   report.stages = reconstruction.stages;
+  report.voxels = reconstruction.data.ct.values().size();
   report.conventions = reconstruction.data.provenance.conventions;
   report.naming_cost = reconstruction.naming_cost;
   report.other_side_cost = reconstruction.other_side_cost;
@@ -206,6 +207,12 @@ std::string text_of(const ReconstructionReport& report) {
     append(text, "%-28s %8.2f %5.1f%% %7.2f\n", stage.name.c_str(), stage.seconds,
            total > 0 ? 100 * stage.seconds / total : 0.0, so_far);
   }
+  if (report.peak_memory_bytes && report.voxels > 0) {
+    const auto voxels = static_cast<double>(report.voxels);
+    append(text, "peak memory %.0f MiB, %.1f bytes a voxel beyond the scan itself\n",
+           *report.peak_memory_bytes / (1024 * 1024),
+           *report.peak_memory_bytes / voxels - sizeof(std::int16_t));
+  }
   return text;
 }
 
@@ -241,6 +248,7 @@ std::string json_of(const ReconstructionReport& report) {
   for (const StageTime& stage : report.stages) {
     json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   }
+  if (report.peak_memory_bytes) json["peak_memory_bytes"] = *report.peak_memory_bytes;
   json["conventions"] = report.conventions;
   if (report.structures > 0) json["structures"] = structures_json(report);
   return json.dump(2) + "\n";

@@ -39,7 +39,9 @@ struct ReconstructionReport {
   std::optional<double> surface_mean_mm;  ///< the mean of the bones', and the worst bone's 95 %
   std::optional<double> surface_p95_mm;
   std::vector<StageTime> stages;
-  std::vector<std::string> conventions;  ///< taken when the scan was read, in words
+  std::optional<double> peak_memory_bytes;  ///< of the whole program, where it was asked for
+  std::size_t voxels = 0;                   ///< of the scan
+  std::vector<std::string> conventions;     ///< taken when the scan was read, in words
   double naming_cost = 0;
   double other_side_cost = 0;
   std::size_t structures = 0;  ///< tendons, arteries and nerves that were generated

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -94,19 +95,20 @@ Plan make_plan(const GridGeometry& geometry,
   return plan;
 }
 
-void correlate_x(const Plan& plan, const float* slice, const Kernel& kernel, float* out) {
+template <typename T>
+void correlate_x(const Plan& plan, const T* slice, const Kernel& kernel, float* out) {
   const int nx = plan.geometry.size[0];
   const int radius = radius_of(kernel);
   std::vector<float> padded(plan.nx() + 2 * static_cast<std::size_t>(radius));
   std::vector<const float*> rows(kernel.size());
   for (std::size_t t = 0; t < rows.size(); ++t) rows[t] = padded.data() + t;
   for (std::size_t y = 0; y < plan.ny(); ++y) {
-    const float* row = slice + y * plan.nx();
+    const T* row = slice + y * plan.nx();
     std::copy_n(row, plan.nx(), padded.begin() + radius);
     for (int i = 0; i < radius; ++i) {
-      padded[static_cast<std::size_t>(i)] = row[mirrored(i - radius, nx)];
+      padded[static_cast<std::size_t>(i)] = static_cast<float>(row[mirrored(i - radius, nx)]);
       const int right = radius + nx + i;
-      padded[static_cast<std::size_t>(right)] = row[mirrored(nx + i, nx)];
+      padded[static_cast<std::size_t>(right)] = static_cast<float>(row[mirrored(nx + i, nx)]);
     }
     weighted_sum(rows, kernel, out + y * plan.nx(), plan.nx());
   }
@@ -134,8 +136,9 @@ int z_radius_of(const Plan& plan) {
 }
 
 /// Planes of one slab and its margins, per pair of orders in x and y.
+template <typename T>
 std::vector<std::vector<float>> filter_planes(const Plan& plan,
-                                              const GridView<const float>& input,
+                                              const GridView<const T>& input,
                                               int begin,
                                               int end) {
   const auto count = static_cast<std::size_t>(end - begin);
@@ -159,8 +162,9 @@ std::vector<std::vector<float>> filter_planes(const Plan& plan,
   return planes;
 }
 
+template <typename T>
 void filter_slab(const Plan& plan,
-                 const GridView<const float>& input,
+                 const GridView<const T>& input,
                  int begin,
                  int end,
                  const CombineRows& combine,
@@ -223,7 +227,8 @@ std::vector<float> gaussian_kernel(double sigma, int order) {
   return {g.begin(), g.end()};
 }
 
-void filter_derivatives(const GridView<const float>& input,
+template <typename T>
+void filter_derivatives(const GridView<const T>& input,
                         double sigma_mm,
                         std::span<const DerivativeOrder> orders,
                         const CombineRows& combine,
@@ -239,5 +244,16 @@ void filter_derivatives(const GridView<const float>& input,
     }
   });
 }
+
+template void filter_derivatives(const GridView<const float>&,
+                                 double,
+                                 std::span<const DerivativeOrder>,
+                                 const CombineRows&,
+                                 std::span<float>);
+template void filter_derivatives(const GridView<const std::int16_t>&,
+                                 double,
+                                 std::span<const DerivativeOrder>,
+                                 const CombineRows&,
+                                 std::span<float>);
 
 }  // namespace carpus::imaging::detail

@@ -29,7 +29,8 @@ using CombineRows =
 
 /// Computes the derivatives `orders` (per mm) of `input` smoothed with sigma_mm, and hands them row
 /// by row to `combine`, which writes the result. Borders are mirrored about the volume's face.
-void filter_derivatives(const GridView<const float>& input,
+template <typename T>  // float, std::int16_t
+void filter_derivatives(const GridView<const T>& input,
                         double sigma_mm,
                         std::span<const DerivativeOrder> orders,
                         const CombineRows& combine,
