@@ -138,7 +138,7 @@ void write_volumes(const cases::CaseData& data, const fs::path& folder) {
 
 /// Surfaces, hulls, fields and what else the case has beside its volumes.
 void write_shapes(const cases::CaseData& data, const fs::path& folder, const Progress& progress) {
-  const double steps = static_cast<double>(data.bones.size()) + 1;
+  const auto steps = static_cast<double>(data.bones.size());
   double done = 0;
   for (const cases::Bone& bone : data.bones) {
     write_bone(folder, bone, data.ct.view());
@@ -151,7 +151,6 @@ void write_shapes(const cases::CaseData& data, const fs::path& folder, const Pro
   if (!data.structures.empty()) {
     write_text(folder / kStructuresFile, structures_text(data.structures));
   }
-  write_text(folder / "bones.glb", make_case_glb(data));
 }
 
 }  // namespace
@@ -169,8 +168,9 @@ void write_case(const cases::CaseData& data,
     if (error) throw_cannot_write(out.staging() / part);
   }
   // Side by side: packing the CT takes as long as all the rest. NIfTI's library is asked by one of
-  // the two only, NRRD's by the other.
+  // them only, and NRRD's by another.
   side_by_side({[&] { write_volumes(data, out.staging()); },
+                [&] { write_text(out.staging() / "bones.glb", make_case_glb(data)); },
                 [&] { write_shapes(data, out.staging(), progress); }});
   write_text(out.staging() / "case.json", case_json_text(data));
   out.commit();

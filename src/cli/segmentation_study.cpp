@@ -52,11 +52,11 @@ void name_and_measure(const phantom::Phantom& made, StudiedScan& scan) {
     scan.refused = "the bones make no wrist";
     return;
   }
-  Grid<std::uint16_t> labels = bone_labels(named);
+  Grid<std::uint8_t> labels = bone_labels(named);
   std::vector<BoneField> fields;
-  std::vector<std::uint16_t> numbers;
+  std::vector<std::uint8_t> numbers;
   std::vector<MeshIn<frame::Bone>> meshes;
-  for (std::uint16_t label = 1; label <= kScaphoidDistalLabel; ++label) {
+  for (std::uint8_t label = 1; label <= kScaphoidDistalLabel; ++label) {
     BoneField field = build_bone_field(labels.view(), label, named.segmentation.edge_excess.view());
     if (field.values.values().empty()) continue;
     meshes.push_back(build_bone_surface(field));

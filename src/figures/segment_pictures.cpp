@@ -150,9 +150,14 @@ std::string draw_bones(const GridView<const RegionLabel>& labels) {
   };
   std::vector<Body> bodies;
   std::vector<Vec3> seen;
+  Grid<std::uint8_t> one(labels.geometry());
   const RegionLabel last = *std::max_element(labels.values().begin(), labels.values().end());
   for (RegionLabel label = 1; label <= last; ++label) {
-    const auto field = reconstruct::build_bone_field(labels, label, at_the_border.view(), coarse);
+    std::transform(
+        labels.values().begin(), labels.values().end(), one.values().begin(),
+        [&](RegionLabel each) { return each == label ? std::uint8_t{1} : std::uint8_t{0}; });
+    const auto field =
+        reconstruct::build_bone_field(std::as_const(one).view(), 1, at_the_border.view(), coarse);
     TriangleMesh surface = reconstruct::build_bone_surface(field, coarse);
     if (surface.facets.empty()) continue;
     seen.insert(seen.end(), surface.vertices.begin(), surface.vertices.end());

@@ -74,6 +74,7 @@ BoneSegmentation segment_bones(SmoothedScan scan,
       result.regions[i] = 0;
     }
   }
+  found.mask = {};
   part_components(
       result.regions.view(),
       static_cast<std::size_t>(options.min_bone_mm3 / result.regions.geometry().voxel_volume_mm3()),

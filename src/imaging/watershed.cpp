@@ -82,36 +82,32 @@ class LevelQueue {
   std::uint32_t free_ = kEnd;
 };
 
-/// All that the flood asks of a voxel, in one word: it visits voxels at random places, so that
-/// each array that it has to look into would be a miss of the cache.
+/// All that the flood asks of a neighbour, in one short word: it visits voxels at random places,
+/// and the fewer lines of the cache they fill, the fewer have to be waited for. Labels are beside
+/// it, where only the voxel at hand is looked up.
 class Voxel {
  public:
-  enum class State : std::uint32_t { Open, Marker, Outside, Queued };
+  enum class State : std::uint16_t { Open, Marker, Outside, Queued };
 
   Voxel() = default;
-  Voxel(State state, RegionLabel label, std::size_t level)
-      : word_(static_cast<std::uint32_t>(state) << kStateAt |
-              static_cast<std::uint32_t>(level) << kLevelAt | label) {}
+  Voxel(State state, std::size_t level)
+      : word_(static_cast<std::uint16_t>(static_cast<unsigned>(state) << kStateAt | level)) {}
 
   [[nodiscard]] State state() const { return static_cast<State>(word_ >> kStateAt & 3U); }
-  [[nodiscard]] RegionLabel label() const { return static_cast<RegionLabel>(word_ & 0xFFFFU); }
-  [[nodiscard]] std::size_t level() const { return word_ >> kLevelAt & (kMostLevels - 1); }
+  [[nodiscard]] std::size_t level() const { return word_ & (kMostLevels - 1); }
   /// All its neighbours lie in the grid.
   [[nodiscard]] bool is_inner() const { return (word_ & kInner) != 0; }
   void set_inner() { word_ |= kInner; }
   void set_queued() { word_ |= 3U << kStateAt; }
-  /// Of a voxel without one.
-  void set_label(RegionLabel label) { word_ |= label; }
 
  private:
-  static constexpr std::uint32_t kLevelAt = 16;
-  static constexpr std::uint32_t kStateAt = 29;
-  static constexpr std::uint32_t kInner = 1U << 31U;
-  static_assert(kMostLevels == 1 << (kStateAt - kLevelAt));
+  static constexpr unsigned kStateAt = 13;
+  static constexpr std::uint16_t kInner = 1U << 15U;
+  static_assert(kMostLevels == 1 << kStateAt);
 
-  std::uint32_t word_ = 0;
+  std::uint16_t word_ = 0;
 };
-static_assert(sizeof(Voxel) == 4);
+static_assert(sizeof(Voxel) == 2);
 
 /// The relief in levels between its least and greatest finite value where `is_open` holds.
 class Quantiser {
@@ -149,19 +145,20 @@ class Flood {
       : options_(options),
         neighbours_(relief.geometry(), options.space, options.connectivity),
         queue_(options.levels),
-        voxels_(relief.values().size()) {
+        voxels_(relief.values().size()),
+        labels_(labels) {
     const auto is_open = [&](std::size_t i) {
       return labels[i] == 0 && (mask.empty() || mask[i] != 0);
     };
     const Quantiser level_of(relief.values(), options.levels, is_open);
     for (std::size_t i = 0; i < voxels_.size(); ++i) {
       if (is_open(i)) {
-        voxels_[i] = Voxel(Voxel::State::Open, 0, level_of(relief[i]));
+        voxels_[i] = Voxel(Voxel::State::Open, level_of(relief[i]));
         ++to_flood_;
       } else if (labels[i] != 0) {
-        voxels_[i] = Voxel(Voxel::State::Marker, labels[i], 0);
+        voxels_[i] = Voxel(Voxel::State::Marker, 0);
       } else {
-        voxels_[i] = Voxel(Voxel::State::Outside, 0, 0);
+        voxels_[i] = Voxel(Voxel::State::Outside, 0);
       }
     }
     mark_inner(relief.geometry().size);
@@ -177,10 +174,6 @@ class Flood {
         if ((++settled_ & kReportMask) == 0) report();
       }
     }
-  }
-
-  void write(const GridView<RegionLabel>& labels) const {
-    for (std::size_t i = 0; i < voxels_.size(); ++i) labels[i] = voxels_[i].label();
   }
 
  private:
@@ -222,7 +215,7 @@ class Flood {
     RegionLabel found = 0;
     for_neighbours(i, [&](std::size_t j) {
       // Markers only: a label just given to a queued neighbour is not one.
-      if (found == 0 && voxels_[j].state() == Voxel::State::Marker) found = voxels_[j].label();
+      if (found == 0 && voxels_[j].state() == Voxel::State::Marker) found = labels_[j];
     });
     if (found != 0) enqueue(i, found, 0);
   }
@@ -230,13 +223,13 @@ class Flood {
   void enqueue(std::size_t i, RegionLabel label, std::size_t current_level) {
     Voxel& voxel = voxels_[i];
     voxel.set_queued();
-    if (!options_.keep_dams) voxel.set_label(label);
+    if (!options_.keep_dams) labels_[i] = label;
     queue_.push(std::max(voxel.level(), current_level), static_cast<std::uint32_t>(i));
   }
 
   void settle(std::size_t i, std::size_t level) {
     if (options_.keep_dams && !claim_or_dam(i)) return;
-    const RegionLabel label = voxels_[i].label();
+    const RegionLabel label = labels_[i];
     for_neighbours(i, [&](std::size_t j) {
       if (is_open(j)) enqueue(j, label, level);
     });
@@ -247,13 +240,13 @@ class Flood {
     RegionLabel found = 0;
     bool several = false;
     for_neighbours(i, [&](std::size_t j) {
-      const RegionLabel label = voxels_[j].label();
+      const RegionLabel label = labels_[j];
       if (label == 0) return;
       several = several || (found != 0 && found != label);
       found = label;
     });
     if (several) return false;
-    voxels_[i].set_label(found);
+    labels_[i] = found;
     return true;
   }
 
@@ -261,6 +254,7 @@ class Flood {
   Neighbourhood neighbours_;
   LevelQueue queue_;
   std::vector<Voxel> voxels_;
+  GridView<RegionLabel> labels_;
   std::size_t to_flood_ = 0;
   std::size_t settled_ = 0;
 };
@@ -277,7 +271,6 @@ void flood_from_markers(const GridView<const float>& relief,
   CARPUS_CHECK(relief.values().size() < kEnd);
   Flood flood(relief, mask, options, labels);
   flood.run();
-  flood.write(labels);
 }
 
 }  // namespace carpus::imaging

@@ -23,7 +23,7 @@
 namespace carpus::reconstruct {
 namespace {
 
-using Labels = GridView<const std::uint16_t>;
+using Labels = GridView<const std::uint8_t>;
 
 constexpr float kFar = 0.5F;
 /// A border voxel is at least this far on its label's side, so that the label's topology holds.
@@ -31,7 +31,7 @@ constexpr float kLeast = 0.05F;
 /// Voxels around the bone: the field's kernel reaches four sigmas.
 constexpr int kMargin = 5;
 
-imaging::VoxelBox box_of(const Labels& labels, std::uint16_t label) {
+imaging::VoxelBox box_of(const Labels& labels, std::uint8_t label) {
   const GridGeometry& g = labels.geometry();
   imaging::VoxelBox box{{g.size[0], g.size[1], g.size[2]}, {-1, -1, -1}};
   std::size_t i = 0;
@@ -54,7 +54,7 @@ imaging::VoxelBox box_of(const Labels& labels, std::uint16_t label) {
 }
 
 /// True if a face neighbour of `v` is on the other side of the label's border.
-bool is_at_border(const Labels& labels, const VoxelIndex& v, std::uint16_t label) {
+bool is_at_border(const Labels& labels, const VoxelIndex& v, std::uint8_t label) {
   const GridGeometry& g = labels.geometry();
   const bool inside = labels[v] == label;
   const std::array<VoxelIndex, 6> neighbours{
@@ -66,7 +66,7 @@ bool is_at_border(const Labels& labels, const VoxelIndex& v, std::uint16_t label
 }
 
 Grid<float> scalar_field(const Labels& labels,
-                         std::uint16_t label,
+                         std::uint8_t label,
                          const GridView<const float>& edge_excess) {
   Grid<float> field(labels.geometry());
   for (std::size_t i = 0; i < field.values().size(); ++i) {
@@ -155,14 +155,13 @@ TriangleMesh largest_piece(const TriangleMesh& mesh) {
 }
 
 BoneField build_bone_field(const Labels& labels,
-                           std::uint16_t label,
+                           std::uint8_t label,
                            const GridView<const float>& edge_excess,
                            const BoneSurfaceOptions& options) {
   const imaging::VoxelBox box = box_of(labels, label);
   if (box.high.x < 0) return {};
-  const Grid<std::uint16_t> part = imaging::crop(labels, box);
-  const Grid<float> excess = imaging::crop(edge_excess, box);
-  const Grid<float> sharp = scalar_field(part.view(), label, excess.view());
+  const Grid<float> sharp = scalar_field(imaging::crop(labels, box).view(), label,
+                                         imaging::crop(edge_excess, box).view());
   return {imaging::gaussian_smooth(sharp.view(), options.field_sigma_mm), box.low};
 }
 
@@ -181,12 +180,12 @@ MeshIn<frame::Bone> build_bone_surface(const BoneField& field, const BoneSurface
 }
 
 void label_by_fields(std::span<const BoneField> fields,
-                     std::span<const std::uint16_t> label_of,
-                     const GridView<std::uint16_t>& labels) {
+                     std::span<const std::uint8_t> label_of,
+                     const GridView<std::uint8_t>& labels) {
   CARPUS_CHECK(fields.size() == label_of.size());
-  std::fill(labels.values().begin(), labels.values().end(), std::uint16_t{0});
+  std::fill(labels.values().begin(), labels.values().end(), std::uint8_t{0});
   // Where two claim a voxel the one is asked that has it: a volume of depths would be the largest.
-  const auto depth_of = [&](std::uint16_t label, const VoxelIndex& v) {
+  const auto depth_of = [&](std::uint8_t label, const VoxelIndex& v) {
     for (std::size_t b = 0; b < fields.size(); ++b) {
       const VoxelIndex& low = fields[b].offset;
       if (label_of[b] == label) return fields[b].values[{v.x - low.x, v.y - low.y, v.z - low.z}];

@@ -36,8 +36,8 @@ struct BoneField {
 ///     the CT falls to half of the local cortex, which places the surface between the two voxels on
 ///     either side of the label's border.
 /// @return empty if the label has no voxels.
-[[nodiscard]] BoneField build_bone_field(const GridView<const std::uint16_t>& labels,
-                                         std::uint16_t label,
+[[nodiscard]] BoneField build_bone_field(const GridView<const std::uint8_t>& labels,
+                                         std::uint8_t label,
                                          const GridView<const float>& edge_excess,
                                          const BoneSurfaceOptions& options = {});
 
@@ -49,8 +49,8 @@ struct BoneField {
 /// Makes `labels` agree with the fields' surfaces: a voxel gets the bone inside whose surface its
 /// centre lies (the deepest, should two claim it), or 0. `fields[i]` belongs to `label_of[i]`.
 void label_by_fields(std::span<const BoneField> fields,
-                     std::span<const std::uint16_t> label_of,
-                     const GridView<std::uint16_t>& labels);
+                     std::span<const std::uint8_t> label_of,
+                     const GridView<std::uint8_t>& labels);
 
 /// The connected piece of `mesh` with the greatest volume, without unused vertices.
 [[nodiscard]] TriangleMesh largest_piece(const TriangleMesh& mesh);

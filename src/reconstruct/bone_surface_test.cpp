@@ -15,12 +15,12 @@ namespace {
 
 /// A ball, or the part of it in the grid, as label 3, with the measure that a CT would give.
 struct Ball {
-  Grid<std::uint16_t> labels;
+  Grid<std::uint8_t> labels;
   Grid<float> excess;
 };
 
 Ball make_ball(const Vec3& centre, double radius, const GridGeometry& g) {
-  Ball ball{Grid<std::uint16_t>(g), Grid<float>(g)};
+  Ball ball{Grid<std::uint8_t>(g), Grid<float>(g)};
   for (std::size_t i = 0; i < ball.labels.values().size(); ++i) {
     const VoxelIndex v = g.index_of(i);
     const Vec3 p = g.patient_from_voxel(
@@ -69,7 +69,7 @@ TEST(BoneSurface, ClosesABoneThatLeavesTheScan) {
 }
 
 TEST(BoneSurface, OfAMissingLabelIsEmpty) {
-  const Grid<std::uint16_t> labels(grid_of(10, 0.4));
+  const Grid<std::uint8_t> labels(grid_of(10, 0.4));
   const Grid<float> excess(labels.geometry());
   const BoneField field = build_bone_field(labels.view(), 3, excess.view());
   EXPECT_TRUE(build_bone_surface(field).facets.empty());
@@ -80,8 +80,8 @@ TEST(LabelByFields, GivesEachVoxelToTheSurfaceThatHoldsIt) {
   const Vec3 centre = g.origin + Vec3{8.6, 8.6, 8.6};
   const Ball ball = make_ball(centre, 5, g);
   const std::vector<BoneField> fields{build_bone_field(ball.labels.view(), 3, ball.excess.view())};
-  Grid<std::uint16_t> labels(g, 9);
-  label_by_fields(fields, std::vector<std::uint16_t>{3}, labels.view());
+  Grid<std::uint8_t> labels(g, 9);
+  label_by_fields(fields, std::vector<std::uint8_t>{3}, labels.view());
   std::size_t differing = 0;
   std::size_t inside = 0;
   for (std::size_t i = 0; i < labels.values().size(); ++i) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "anatomy/model_shapes.hpp"
+#include "core/parallel.hpp"
 #include "core/text_format.hpp"
 #include "geometry/trilinear.hpp"
 #include "hull/fast_hull.hpp"
@@ -22,7 +23,7 @@
 namespace carpus::reconstruct {
 namespace {
 
-using Labels = GridView<const std::uint16_t>;
+using Labels = GridView<const std::uint8_t>;
 
 /// No bone but a fatty marrow is so thin.
 constexpr float kDarkHu = 80;
@@ -43,7 +44,7 @@ std::vector<Tally> tally_of(const Labels& labels, const GridView<const float>& h
   for (int z = 0; z < size[2]; ++z) {
     for (int y = 0; y < size[1]; ++y) {
       for (int x = 0; x < size[0]; ++x, ++i) {
-        if (labels[i] == 0 || labels[i] > 255) continue;
+        if (labels[i] == 0) continue;
         Tally& tally = tallies[labels[i]];
         ++tally.voxels;
         if (hu[i] < kDarkHu) ++tally.dark;
@@ -67,8 +68,8 @@ double hull_volume(const TriangleMesh& surface) {
 }
 
 /// Part of a label's voxels that lies outside its largest connected component.
-double detached_part(const Labels& labels, std::uint16_t label, const Tally& tally) {
-  const Grid<std::uint16_t> part = imaging::crop(labels, imaging::VoxelBox{tally.low, tally.high});
+double detached_part(const Labels& labels, std::uint8_t label, const Tally& tally) {
+  const Grid<std::uint8_t> part = imaging::crop(labels, imaging::VoxelBox{tally.low, tally.high});
   Grid<std::uint8_t> mask(part.geometry());
   for (std::size_t i = 0; i < mask.values().size(); ++i) mask[i] = part[i] == label ? 1 : 0;
   const imaging::Components components = imaging::connected_components(mask.view());
@@ -134,7 +135,7 @@ class Profile {
 
 /// What the surface meets in the CT. Where it was closed flat at the end of the scan, nothing.
 void measure_edge(const TriangleMesh& surface,
-                  std::uint16_t label,
+                  std::uint8_t label,
                   const Labels& labels,
                   const GridView<const float>& excess,
                   BoneEvidence& e) {
@@ -162,7 +163,7 @@ void measure_edge(const TriangleMesh& surface,
     if (!profile.is_whole()) continue;
     const double step = profile[-kHalfMm] - profile[kHalfMm];
     const std::optional<double> edge = profile.edge();
-    const auto next = voxel_at(labels, at + n * kNextMm, std::uint16_t{0});
+    const auto next = voxel_at(labels, at + n * kNextMm, std::uint8_t{0});
     const Vec3 along = g.direction.transposed() * n;
     count += 1;
     off_mm += edge ? std::abs(*edge) : kUnknownMm;
@@ -195,13 +196,13 @@ struct LabelName {
   bool is_known = false;
 };
 
-LabelName name_of_label(std::uint16_t label, const anatomy::BoneNaming& naming) {
+LabelName name_of_label(std::uint8_t label, const anatomy::BoneNaming& naming) {
   LabelName found;
   for (const auto& region : naming.regions) {
     if (!region) continue;
-    const std::uint16_t own = region->part == BonePart::Distal
-                                  ? std::uint16_t{kScaphoidDistalLabel}
-                                  : static_cast<std::uint16_t>(region->bone);
+    const std::uint8_t own = region->part == BonePart::Distal
+                                 ? std::uint8_t{kScaphoidDistalLabel}
+                                 : static_cast<std::uint8_t>(region->bone);
     if (own != label) continue;
     found = {region->cost, region->bone, region->part != BonePart::Whole, true};
   }
@@ -224,12 +225,14 @@ void compare_volumes(std::vector<BoneEvidence>& bones) {
 
 /// A shaft that was cut off its own base or head by mistake is a body without a name that goes on
 /// where the bone ends.
-void measure_severed(const Labels& regions,
+/// @param any_depth  how deep a region is does not matter here; a volume of zeros would be the
+/// largest
+void measure_severed(const GridView<const imaging::RegionLabel>& regions,
+                     const GridView<const float>& any_depth,
                      const anatomy::BoneNaming& naming,
                      std::vector<BoneEvidence>& bones) {
   constexpr double kGrownOnMm2 = 8;
-  const Grid<float> flat(regions.geometry());
-  const imaging::RegionTable table = imaging::measure_regions(regions, flat.view());
+  const imaging::RegionTable table = imaging::measure_regions(regions, any_depth);
   const auto is_named = [&](std::size_t region) {
     return region <= naming.regions.size() && naming.regions[region - 1].has_value();
   };
@@ -252,7 +255,7 @@ double excess_over(double value, double limit) { return std::max(0.0, value - li
 }  // namespace
 
 std::vector<BoneEvidence> measure_evidence(const Labels& labels,
-                                           const Labels& regions,
+                                           const GridView<const imaging::RegionLabel>& regions,
                                            const GridView<const float>& edge_excess,
                                            const GridView<const float>& smoothed_hu,
                                            std::span<const LabelSurface> surfaces,
@@ -263,12 +266,13 @@ std::vector<BoneEvidence> measure_evidence(const Labels& labels,
   const anatomy::ModelShapes& model = anatomy::generic_model_shapes(naming.side);
   std::vector<BoneEvidence> result;
   for (std::size_t label = 1; label < tallies.size(); ++label) {
-    const Tally& t = tallies[label];
-    if (t.voxels == 0) continue;
-    const auto number = static_cast<std::uint16_t>(label);
+    if (tallies[label].voxels == 0) continue;
+    result.emplace_back().label = static_cast<std::uint8_t>(label);
+  }
+  const auto measure = [&](BoneEvidence& e) {
+    const std::uint8_t number = e.label;
+    const Tally& t = tallies[number];
     const LabelName name = name_of_label(number, naming);
-    BoneEvidence e;
-    e.label = static_cast<std::uint8_t>(label);
     e.volume_mm3 = static_cast<double>(t.voxels) * voxel_mm3;
     e.misfit = name.misfit;
     const anatomy::BodyShape& bone = model[static_cast<std::size_t>(name.bone) - 1];
@@ -289,10 +293,12 @@ std::vector<BoneEvidence> measure_evidence(const Labels& labels,
     } else {
       e.no_edge = e.faint = 1;
     }
-    result.push_back(e);
-  }
+  };
+  parallel_for(result.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) measure(result[i]);
+  });
   compare_volumes(result);
-  measure_severed(regions, naming, result);
+  measure_severed(regions, edge_excess, naming, result);
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "anatomy/bone_naming.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "imaging/watershed.hpp"
 
 namespace carpus::reconstruct {
 
@@ -58,7 +59,7 @@ struct BoneTrust {
 inline constexpr double kTrustedConfidence = 0.5;
 
 struct LabelSurface {
-  std::uint16_t label = 0;
+  std::uint8_t label = 0;
   const TriangleMesh* surface = nullptr;  ///< [Patient, mm], closed, outwards
 };
 
@@ -70,8 +71,8 @@ struct LabelSurface {
 /// @param smoothed_hu  likewise
 /// @param surfaces  of the labels; where one is missing, nothing is known of its edge
 [[nodiscard]] std::vector<BoneEvidence> measure_evidence(
-    const GridView<const std::uint16_t>& labels,
-    const GridView<const std::uint16_t>& regions,
+    const GridView<const std::uint8_t>& labels,
+    const GridView<const imaging::RegionLabel>& regions,
     const GridView<const float>& edge_excess,
     const GridView<const float>& smoothed_hu,
     std::span<const LabelSurface> surfaces,

@@ -19,13 +19,13 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::uint16_t kLunate = static_cast<std::uint16_t>(BoneId::Lunate);
-constexpr std::uint16_t kCapitate = static_cast<std::uint16_t>(BoneId::Capitate);
+constexpr std::uint8_t kLunate = static_cast<std::uint8_t>(BoneId::Lunate);
+constexpr std::uint8_t kCapitate = static_cast<std::uint8_t>(BoneId::Capitate);
 
 /// Two balls of 7 mm radius, in voxels of 0.7 mm if not said otherwise, 3 mm apart, with a sharp
 /// edge.
 struct TwoBalls {
-  Grid<std::uint16_t> labels;
+  Grid<std::uint8_t> labels;
   Grid<float> excess;
   Grid<float> hu;
   anatomy::BoneNaming naming;
@@ -37,7 +37,7 @@ struct TwoBalls {
     g.size = {static_cast<int>(52 * finer), static_cast<int>(26 * finer),
               static_cast<int>(26 * finer)};
     g.spacing = {spacing, spacing, spacing};
-    labels = Grid<std::uint16_t>(g);
+    labels = Grid<std::uint8_t>(g);
     excess = Grid<float>(g, -0.5F);
     hu = Grid<float>(g, 45.0F);
     for (std::size_t i = 0; i < labels.values().size(); ++i) {
@@ -53,7 +53,7 @@ struct TwoBalls {
                       anatomy::RegionName{BoneId::Capitate, BonePart::Whole, 0.4}, std::nullopt};
   }
 
-  [[nodiscard]] MeshIn<frame::Bone> surface_of(std::uint16_t label) const {
+  [[nodiscard]] MeshIn<frame::Bone> surface_of(std::uint8_t label) const {
     return build_bone_surface(build_bone_field(labels.view(), label, excess.view()));
   }
   [[nodiscard]] BoneEvidence lunate() const {
@@ -62,7 +62,7 @@ struct TwoBalls {
     const auto capitate_surface = surface_of(kCapitate);
     surfaces.push_back({kLunate, &lunate_surface});
     surfaces.push_back({kCapitate, &capitate_surface});
-    Grid<std::uint16_t> regions(labels.geometry());
+    Grid<imaging::RegionLabel> regions(labels.geometry());
     for (std::size_t i = 0; i < labels.values().size(); ++i) {
       regions[i] = labels[i] == kLunate ? 1 : (labels[i] == kCapitate ? 2 : 0);
       if (regions[i] == 1 && labels.geometry().index_of(i).z < nameless_below) regions[i] = 3;

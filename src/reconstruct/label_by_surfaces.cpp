@@ -58,8 +58,8 @@ bool is_beside(const Held& held, const VoxelIndex& v) {
 }  // namespace
 
 void label_by_surfaces(const std::vector<const TriangleMesh*>& surfaces,
-                       std::span<const std::uint16_t> label_of,
-                       const GridView<std::uint16_t>& labels) {
+                       std::span<const std::uint8_t> label_of,
+                       const GridView<std::uint8_t>& labels) {
   CARPUS_CHECK(surfaces.size() == label_of.size());
   std::vector<Held> held(surfaces.size());
   parallel_for(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -18,7 +18,7 @@ namespace carpus::reconstruct {
 /// (a surface is of one piece) stays its own, for a person to decide.
 /// @param label_of  each surface's label, below 256
 void label_by_surfaces(const std::vector<const TriangleMesh*>& surfaces,
-                       std::span<const std::uint16_t> label_of,
-                       const GridView<std::uint16_t>& labels);
+                       std::span<const std::uint8_t> label_of,
+                       const GridView<std::uint8_t>& labels);
 
 }  // namespace carpus::reconstruct

@@ -81,8 +81,6 @@ std::vector<MendedBone> surfaces_of(const Grid<std::uint8_t>& part,
                                     const Grid<float>& smoothed,
                                     const Touched& touched,
                                     const MendOptions& options) {
-  Grid<std::uint16_t> labels(part.geometry());
-  std::copy(part.values().begin(), part.values().end(), labels.values().begin());
   const float soft_tissue = imaging::median_soft_tissue(smoothed.view(), part.view());
   const Grid<float> excess =
       imaging::measure_edge_excess(smoothed.view(), part.view(), soft_tissue, options.segmentation);
@@ -98,7 +96,7 @@ std::vector<MendedBone> surfaces_of(const Grid<std::uint8_t>& part,
   parallel_for(bones.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       bones[k].surface = build_bone_surface(
-          build_bone_field(labels.view(), bones[k].label, excess.view(), options.surface),
+          build_bone_field(part.view(), bones[k].label, excess.view(), options.surface),
           options.surface);
     }
   });

@@ -90,18 +90,19 @@ std::uint8_t label_for(const anatomy::RegionName& name) {
 }
 
 /// Replaces region numbers by bone labels, on the part of the scan that was segmented.
-Grid<std::uint16_t> bone_labels(const NamedSegmentation& named) {
+Grid<std::uint8_t> bone_labels(const NamedSegmentation& named) {
   const BoneNaming& naming = named.naming;
-  std::vector<std::uint16_t> label_of_region(naming.regions.size() + 1, kBackgroundLabel);
+  std::vector<std::uint8_t> label_of_region(naming.regions.size() + 1, kBackgroundLabel);
   for (std::size_t i = 0; i < naming.regions.size(); ++i) {
     if (naming.regions[i]) label_of_region[i + 1] = label_for(*naming.regions[i]);
   }
-  Grid<std::uint16_t> labels = named.segmentation.regions;
-  for (std::uint16_t& label : labels.values()) label = label_of_region[label];
+  const Grid<imaging::RegionLabel>& regions = named.segmentation.regions;
+  Grid<std::uint8_t> labels(regions.geometry());
+  for (std::size_t i = 0; i < labels.values().size(); ++i) labels[i] = label_of_region[regions[i]];
   return labels;
 }
 
-Grid<std::uint8_t> on_whole_scan(const Grid<std::uint16_t>& part,
+Grid<std::uint8_t> on_whole_scan(const Grid<std::uint8_t>& part,
                                  const VoxelIndex& offset,
                                  const GridGeometry& whole) {
   Grid<std::uint8_t> labels(whole);

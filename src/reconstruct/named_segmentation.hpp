@@ -34,10 +34,10 @@ using SegmentStage = std::function<void(std::string_view name, double fraction)>
 [[nodiscard]] std::uint8_t label_for(const anatomy::RegionName& name);
 
 /// Bone labels instead of region numbers, on the part of the scan that was segmented.
-[[nodiscard]] Grid<std::uint16_t> bone_labels(const NamedSegmentation& named);
+[[nodiscard]] Grid<std::uint8_t> bone_labels(const NamedSegmentation& named);
 
 /// Labels of a part of a scan on all of it.
-[[nodiscard]] Grid<std::uint8_t> on_whole_scan(const Grid<std::uint16_t>& part,
+[[nodiscard]] Grid<std::uint8_t> on_whole_scan(const Grid<std::uint8_t>& part,
                                                const VoxelIndex& offset,
                                                const GridGeometry& whole);
 

@@ -130,14 +130,14 @@ void check_bone(const cases::Bone& bone) {
 
 /// Surfaces, and labels that agree with them.
 void build_surfaces(const BoneSegmentation& s,
-                    Grid<std::uint16_t> labels,
+                    Grid<std::uint8_t> labels,
                     const BoneSurfaceOptions& options,
                     const BoneNaming& naming,
                     const GridView<const std::int16_t>& ct,
                     Reconstruction& result) {
   cases::CaseData& data = result.data;
   std::vector<BoneField> fields(data.bones.size());
-  std::vector<std::uint16_t> label_of;
+  std::vector<std::uint8_t> label_of;
   for (const cases::Bone& bone : data.bones) label_of.push_back(bone.label);
   parallel_for(fields.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -119,7 +119,7 @@ TEST(SharpenSurface, MovesNothingFartherThanItMayNorWhatTheScanDoesNotShow) {
 }
 
 TEST(LabelBySurfaces, FollowsTheSurfaceAndKeepsWhatLiesApart) {
-  Grid<std::uint16_t> labels(scan_grid());
+  Grid<std::uint8_t> labels(scan_grid());
   const TriangleMesh surface = ball(6, 0);
   const std::size_t apart = labels.geometry().offset_of({1, 1, 1});
   labels[apart] = 4;
@@ -130,7 +130,7 @@ TEST(LabelBySurfaces, FollowsTheSurfaceAndKeepsWhatLiesApart) {
         {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
     if (distance(p, kCentre) < 6.3) labels[i] = 4;
   }
-  label_by_surfaces({&surface}, std::vector<std::uint16_t>{4}, labels.view());
+  label_by_surfaces({&surface}, std::vector<std::uint8_t>{4}, labels.view());
   for (std::size_t i = 0; i < labels.values().size(); ++i) {
     if (i == apart) continue;
     const VoxelIndex v = labels.geometry().index_of(i);

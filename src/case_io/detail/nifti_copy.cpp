@@ -29,7 +29,8 @@ void copy_nifti(const std::filesystem::path& from,
                 const std::filesystem::path& file,
                 const std::string& description) {
   const GzFile in = open(from, "rb");
-  GzFile out = open(file, file.string().ends_with(".gz") ? "wb1" : "wbT");  // T: not packed
+  GzFile out =
+      open(file, file.string().ends_with(".gz") ? "wb1R" : "wbT");  // R: runs; T: not packed
   if (!in || !out) throw_cannot_write(file);
   std::vector<char> block(1U << 18U);
   bool is_header = true;
