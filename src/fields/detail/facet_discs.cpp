@@ -12,10 +12,11 @@
 namespace carpus::fields {
 namespace {
 
-/// Of the greatest coordinate: what single precision may be off by in a distance, with the square
-/// root of what it is off by in a cosine. A coordinate is off by 2^-24 of it, a distance by some
-/// tens of that at most, because distances that matter exceed the ball's radius.
-constexpr double kSlackShare = 1.0 / 8192;
+/// Of the greatest coordinate: a few times what single precision may be off by in a distance. A
+/// coordinate is off by 2^-24 of it, a direction to what is d away by that over d; |e - u| below,
+/// a square root, by up to sqrt(2^-23 / d), and d exceeds the ball's radius, by which it is
+/// multiplied.
+constexpr double kSlackShare = 1.0 / 2048;
 
 struct Disc {
   Vec3 centre;
