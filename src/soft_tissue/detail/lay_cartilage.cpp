@@ -207,10 +207,7 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
           double nearest = farthest;
           bool does_face = false;
           for (const Opponent& o : opponents) {
-            // Two parts of a broken bone do not face each other as in a joint, but neither may lie
-            // in the other's cartilage.
-            const bool is_own = o.bone && *o.bone == bone.bone;
-            if (is_own && (o.surface == &surface || p > 0)) continue;
+            if (o.bone && *o.bone == bone.bone) continue;
             const auto back = o.motions[p].inverse();
             const Vec3 at = (back * (own * Point<frame::Bone>{surface.vertices[v]})).v;
             if (!o.box.grown(nearest).contains(at)) continue;
@@ -219,11 +216,21 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
             nearest = std::sqrt(hit->squared_distance);
             const Vec3 normal = back.rotation * (own.rotation * normals[v]);
             const Vec3 way = normalized_or(hit->point - at, normal);
-            does_face = !is_own && dot(way, normal) > kOpposed &&
+            does_face = dot(way, normal) > kOpposed &&
                         dot(facet_normal(*o.surface, hit->facet), normal) < -kOpposed;
           }
           if (p == 0) gap[v] = nearest;
           if (does_face) mask[v] = 1;
+        }
+      }
+      // Two parts of a broken bone do not face each other as in a joint, but neither may lie in the
+      // other's cartilage.
+      std::vector<double> other_part(surface.vertices.size(), farthest);
+      for (const Opponent& o : opponents) {
+        if (!o.bone || *o.bone != bone.bone || o.surface == &surface) continue;
+        for (std::size_t v = 0; v < other_part.size(); ++v) {
+          const auto hit = o.tree->nearest(surface.vertices[v], other_part[v]);
+          if (hit) other_part[v] = std::sqrt(hit->squared_distance);
         }
       }
       smooth_values(mask, neighbours, kSmoothings);
@@ -243,7 +250,7 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
       }
       std::vector<double> target(mask.size());
       const auto limit = [&](std::size_t v) {
-        return std::max(kThinnestMm, 0.5 * gap[v] - kApartMm);
+        return std::max(kThinnestMm, std::min(0.5 * gap[v], other_part[v]) - kApartMm);
       };
       for (std::size_t v = 0; v < mask.size(); ++v) {
         target[v] = std::min(thickness.mm * size, limit(v));

@@ -24,9 +24,9 @@ constexpr double kApartMm = 0.25;  ///< each of two neighbouring spaces keeps th
 constexpr double kOnDiscMm = 3.5;  ///< what is so near the disc is parted by its sides
 constexpr double kFromSolidMm = 0.04;
 constexpr double kSmoothVoxels = 1.2;  ///< sigma of the wall between bones
-constexpr double kSimplifyMm = 0.04;
-constexpr double kLinedByMm = 0.3;    ///< nearer than this it is the lining
-constexpr double kNearValueMm = 1.2;  ///< voxels farther from the wall keep rough values
+constexpr double kSimplifyMm = 0.02;   ///< coarser, an opened joint stretches facets to spikes
+constexpr double kLinedByMm = 0.3;     ///< nearer than this it is the lining
+constexpr double kNearValueMm = 1.2;   ///< voxels farther from the wall keep rough values
 
 /// Smooth over this where the wall runs out on a bone, so that no fringe is left [mm].
 constexpr float kBlendMm = 1.2F;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a scope sees behind everything: outside the skin that its lamp lights, with the portal's mark; inside
-// the joint the capsule, where the wall leaves a gap.
+// the joint what it came through, where the wall has its hole.
 import * as THREE from "three";
 import type { LensUniforms } from "./scope_shader";
 
@@ -16,7 +16,7 @@ void main() {
 const FRAGMENT = /* glsl */ `
 precision highp float;
 uniform vec3 eye, axis, up, right, lamp, skin, inwards;
-uniform float halfField, isOutside;
+uniform float halfField, isOutside, exposure;
 varying vec2 vAt;
 float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }
 float noise(vec2 p) {
@@ -24,6 +24,37 @@ float noise(vec2 p) {
   f = f * f * (3.0 - 2.0 * f);
   return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x),
              mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
+}
+float hash(vec3 p) {
+  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+  p += dot(p, p.yxz + 33.33);
+  return fract((p.x + p.y) * p.z);
+}
+float noise(vec3 p) {
+  vec3 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  return mix(mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
+                 mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y),
+             mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
+                 mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y), f.z);
+}
+// What the scope came through, where the joint's wall has its hole: synovium and fat, as far away as they
+// would hang about the shaft, lit as the wall is.
+vec3 tract(vec3 way) {
+  const float kAwayMm = 6.0;
+  vec3 at = eye + way * kAwayMm;
+  float soft = 0.65 * noise(at * 0.8) + 0.35 * noise(at * 1.9 + 7.1);
+  float villi = noise(at * 2.6);
+  float ridge = 1.0 - abs(2.0 * noise(at * 1.5 + 2.0 * soft) - 1.0);
+  vec3 synovium = mix(vec3(0.62, 0.22, 0.17), vec3(0.88, 0.58, 0.46), 0.5 * soft + 0.5 * villi);
+  synovium = mix(synovium, vec3(0.50, 0.04, 0.04), 0.5 * smoothstep(0.95, 0.995, ridge));
+  vec3 fat = mix(vec3(0.82, 0.50, 0.32), vec3(0.96, 0.72, 0.52), villi);
+  vec3 albedo = mix(synovium, fat, smoothstep(0.52, 0.66, noise(at * 0.45 + 3.3)));
+  float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(way, axis)));
+  float e = 15.0 * (cone / (kAwayMm * kAwayMm + 11.0) + 0.0032);
+  // Folds: what turns away from the light is darker.
+  float fold = 0.35 + 0.65 * smoothstep(0.25, 0.75, 0.6 * soft + 0.4 * noise(at * 1.1 + 19.0));
+  return albedo * (0.75 * e * fold + 0.03) * exposure;
 }
 void main() {
   float r = length(vAt);
@@ -50,9 +81,7 @@ void main() {
       colour *= mix(vec3(1.0), vec3(0.25, 0.18, 0.55), 0.8 * (1.0 - smoothstep(0.3, 0.5, abs(ring - 2.6))));
     }
   } else {
-    vec2 uv = vec2(atan(way.y, way.x), way.z) * 4.0;
-    float soft = 0.6 * noise(uv) + 0.4 * noise(uv * 2.7);
-    colour = mix(vec3(0.10, 0.035, 0.025), vec3(0.24, 0.11, 0.08), soft);
+    colour = tract(way);
   }
   colour *= 1.0 - 0.45 * pow(r, 3.5);
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
