@@ -145,6 +145,31 @@ GridGeometry grid_about(const Aabb& box, double voxel_mm) {
   return g;
 }
 
+namespace {
+
+/// Over a sharp rim of bone a facet may cut although its corners do not: they are pushed on by what
+/// its middle lacks.
+void lift_facets(TriangleMesh& surface, const Surroundings& bones) {
+  constexpr int kRounds = 3;
+  constexpr double kEnoughMm = 0.01;
+  for (int round = 0; round < kRounds; ++round) {
+    bool was_lifted = false;
+    for (const Triangle& t : surface.facets) {
+      const Vec3 middle =
+          (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3.0;
+      const Vec3 lift = bones.with_exact_room(middle, 0) - middle;
+      if (length(lift) < kEnoughMm) continue;
+      was_lifted = true;
+      for (const std::uint32_t v : t) {
+        surface.vertices[v] = bones.with_exact_room(surface.vertices[v] + lift, kClearanceMm);
+      }
+    }
+    if (!was_lifted) break;
+  }
+}
+
+}  // namespace
+
 TriangleMesh smooth_surface(const Grid<float>& values,
                             const Surroundings& bones,
                             double simplify_mm) {
@@ -159,6 +184,7 @@ TriangleMesh smooth_surface(const Grid<float>& values,
   surface = mesh::smooth(largest_piece(surface), smoothing);
   surface = mesh::simplify(surface, {0, simplify_mm}).mesh;
   for (Vec3& v : surface.vertices) v = bones.with_exact_room(v, kClearanceMm);
+  lift_facets(surface, bones);
   return surface;
 }
 
