@@ -99,20 +99,10 @@ class Checks {
   void check(const Cartilage& c) {
     const std::string name = "cartilage of the " + name_of_label(c.label);
     closed(name, c.body);
-    // A piece of a broken bone lies where the fracture left it, with as much room as there is.
-    const Range range{is_piece(c.label) ? 0.0 : c.thickness_range_mm.low,
-                      c.thickness_range_mm.high};
-    if (!is_within(c.mean_thickness_mm, range)) {
+    if (!is_within(c.mean_thickness_mm, c.thickness_range_mm)) {
       note("%s: %.2f mm thick in the mean, expected %.2f to %.2f", name, c.mean_thickness_mm,
-           range);
+           c.thickness_range_mm);
     }
-  }
-
-  bool is_piece(std::uint8_t label) const {
-    const auto& bones = bones_.data().bones;
-    return std::any_of(bones.begin(), bones.end(), [&](const cases::Bone& b) {
-      return b.label == label && b.part != BonePart::Whole;
-    });
   }
 
   std::string name_of_label(std::uint8_t label) const {

@@ -12,7 +12,7 @@ import { Operator } from "./operator.mjs";
 const TRAINEE = "Browser test, scope";
 /** At most so much is drawn for the scope's picture. */
 const MOST_CALLS = 3;
-const MOST_TRIANGLES = 20_000;
+const MOST_TRIANGLES = 15_000;
 
 async function hold(page, key, ms) {
   await page.keyboard.down(key);
