@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/json_fields.hpp"
+#include "procedure/detail/read_scope_drill.hpp"
 #include "procedure/detail/read_score_rules.hpp"
 #include "procedure/procedure.hpp"
 
@@ -145,6 +146,10 @@ Procedure read_procedure(std::string_view json,
   procedure.rules = detail::read_score_rules(fields);
   procedure.decline = detail::read_decline_rules(fields);
   procedure.examines = fields.boolean_or("examines", false);
+  if (fields.has("drill")) {
+    JsonFields drill = fields.object("drill");
+    procedure.drill = detail::read_scope_drill(drill);
+  }
   procedure.judges_displacement = fields.boolean_or("judges_displacement", false);
   refuse_twins(fields, "steps", procedure.steps);
   refuse_twins(fields, "views", procedure.views);

@@ -16,6 +16,7 @@
 #include "core/units.hpp"
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
+#include "procedure/scope_drill.hpp"
 #include "procedure/tube_setting.hpp"
 
 namespace carpus::procedure {
@@ -121,6 +122,7 @@ struct ScopeFacts {
   std::uint32_t points_seen = 0;    ///< for a second at a useful distance, nothing before them
   std::uint32_t points_probed = 0;  ///< touched by the probe
   std::uint8_t unanswered = 0;      ///< of what an examination asks
+  DrillFacts drill;                 ///< of exercises with a scope
   bool operator==(const ScopeFacts&) const = default;
 };
 

@@ -18,7 +18,7 @@
 namespace carpus::procedures {
 namespace {
 
-/// Two portals dorsal of the radius into a joint without walls, and nothing else.
+/// Two portals dorsal of the radius into a joint without walls, and places to go to.
 cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
   cases::ArthroscopicMap map;
   for (std::size_t b = 0; b < data.bones.size(); ++b) {
@@ -28,6 +28,12 @@ cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
     const Vec3 skin = data.bones[b].surface.vertices.front() + dorsal * 30.0;
     map.joints.push_back({"radiocarpal", "radiocarpal joint", {}, body, body});
     map.portals.push_back({"3-4", "3-4 portal", "", 0, skin, -dorsal, 12, 1, body});
+    for (const int number : {2, 7, 8, 11, 16}) {
+      cases::TourPoint place;
+      place.number = number;
+      place.body = body;
+      map.points.push_back(place);
+    }
     map.portals.push_back({"4-5", "4-5 portal", "", 0, skin, -dorsal, 12, 1, body});
   }
   return map;
@@ -49,7 +55,8 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 4U);
+  ASSERT_EQ(built_in().all().size(), 5U);
+  EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
   EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);

@@ -426,6 +426,7 @@ void read(FieldReader& in, Scope& out) {
   in.list("points_in_view", 0, 32, 1, 31, out.points_in_view);
   out.pull_outs = in.integer("pull_outs", 0, 4294967295);
   in.list("answers", 0, 16, -1, 14, out.answers);
+  if (in.has("drill")) in.record("drill", out.drill.emplace());
 }
 
 void write(FieldWriter& out, const Scope& in) {
@@ -442,6 +443,11 @@ void write(FieldWriter& out, const Scope& in) {
   out.list("points_in_view", in.points_in_view);
   out.value("pull_outs", in.pull_outs);
   out.list("answers", in.answers);
+  if (in.drill) {
+    out.record("drill", *in.drill);
+  } else {
+    out.null("drill");
+  }
 }
 
 void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }

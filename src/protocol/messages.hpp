@@ -369,6 +369,8 @@ struct Scope {
   std::int64_t pull_outs = 0;
   /// by finding: place of the grade that was answered; -1: none yet
   std::vector<std::int64_t> answers;
+  /// of exercises with a scope
+  std::optional<DrillState> drill;
   bool operator==(const Scope&) const = default;
 };
 

@@ -389,6 +389,48 @@ void write(FieldWriter& out, const Lesion& in) {
   out.value("radius_mm", in.radius_mm);
 }
 
+void read(FieldReader& in, ScopeDrill& out) {
+  in.list("hold", 0, 8, 1, 31, out.hold);
+  out.hold_s = in.number("hold_s", 0.0, 60.0);
+  out.middle_deg = in.number("middle_deg", 0.0, 60.0);
+  out.round_places = in.integer("round_places", 1, 31);
+  in.list("touch", 0, 8, 1, 31, out.touch);
+  in.list("line_mm", 0, 64, 10000.0, 0.0, out.line_mm);
+  out.line_body = in.string("line_body", 32);
+}
+
+void write(FieldWriter& out, const ScopeDrill& in) {
+  out.list("hold", in.hold);
+  out.value("hold_s", in.hold_s);
+  out.value("middle_deg", in.middle_deg);
+  out.value("round_places", in.round_places);
+  out.list("touch", in.touch);
+  out.list("line_mm", in.line_mm);
+  out.text("line_body", in.line_body, 32);
+}
+
+void read(FieldReader& in, DrillState& out) {
+  out.held = in.integer("held", 0, 8);
+  out.hold_share = in.number("hold_share", 0.0, 1.0);
+  out.round_most = in.integer("round_most", 0, 32);
+  out.round_done = in.boolean("round_done");
+  out.touched = in.integer("touched", 0, 8);
+  out.line_share = in.number("line_share", 0.0, 1.0);
+  out.line_done = in.boolean("line_done");
+  out.probe_seen = in.boolean("probe_seen");
+}
+
+void write(FieldWriter& out, const DrillState& in) {
+  out.value("held", in.held);
+  out.value("hold_share", in.hold_share);
+  out.value("round_most", in.round_most);
+  out.value("round_done", in.round_done);
+  out.value("touched", in.touched);
+  out.value("line_share", in.line_share);
+  out.value("line_done", in.line_done);
+  out.value("probe_seen", in.probe_seen);
+}
+
 void read(FieldReader& in, FindingGrade& out) {
   out.id = in.string("id", 16);
   out.label = in.string("label", 128);
@@ -423,6 +465,7 @@ void read(FieldReader& in, Arthroscopy& out) {
   in.list("disc_mm", 0, 160, 10000.0, 0.0, out.disc_mm);
   in.records("lesions", 0, 24, out.lesions);
   in.records("findings", 0, 16, out.findings);
+  if (in.has("drill")) in.record("drill", out.drill.emplace());
 }
 
 void write(FieldWriter& out, const Arthroscopy& in) {
@@ -435,6 +478,11 @@ void write(FieldWriter& out, const Arthroscopy& in) {
   out.list("disc_mm", in.disc_mm);
   out.records("lesions", in.lesions);
   out.records("findings", in.findings);
+  if (in.drill) {
+    out.record("drill", *in.drill);
+  } else {
+    out.null("drill");
+  }
 }
 
 void read(FieldReader& in, Body& out) {

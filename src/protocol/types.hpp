@@ -528,6 +528,43 @@ struct Lesion {
   bool operator==(const Lesion&) const = default;
 };
 
+/// Exercises with a scope, by the numbers of the tour's places, in order.
+struct ScopeDrill {
+  /// to be brought to the middle and kept there, level
+  std::vector<std::int64_t> hold;
+  /// [s] 0 to 60
+  double hold_s = 0.0;
+  /// from the line of sight [deg] 0 to 60
+  double middle_deg = 0.0;
+  /// to be seen from one place 1 to 31
+  std::int64_t round_places = 0;
+  std::vector<std::int64_t> touch;
+  /// on the surface as scanned, equally far from each other
+  std::vector<Vec3> line_mm;
+  /// that takes the line along
+  std::string line_body;
+  bool operator==(const ScopeDrill&) const = default;
+};
+
+/// How far those exercises were done.
+struct DrillState {
+  /// 0 to 8
+  std::int64_t held = 0;
+  /// of the time for which the next one is to be held [1] 0 to 1
+  double hold_share = 0.0;
+  /// 0 to 32
+  std::int64_t round_most = 0;
+  bool round_done = false;
+  /// 0 to 8
+  std::int64_t touched = 0;
+  /// at a stretch, now [1] 0 to 1
+  double line_share = 0.0;
+  bool line_done = false;
+  /// by the scope
+  bool probe_seen = false;
+  bool operator==(const DrillState&) const = default;
+};
+
 /// One answer of several.
 struct FindingGrade {
   std::string id;
@@ -564,6 +601,8 @@ struct Arthroscopy {
   std::vector<Lesion> lesions;
   /// none: nothing is asked
   std::vector<Finding> findings;
+  /// of a procedure of exercises
+  std::optional<ScopeDrill> drill;
   bool operator==(const Arthroscopy&) const = default;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/scope_message.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,12 +10,15 @@
 
 #include "arthroscopy/disc_net.hpp"
 #include "arthroscopy/make_lesions.hpp"
+#include "arthroscopy/opened_space.hpp"
 #include "session/body_names.hpp"
 
 namespace carpus::session {
 namespace {
 
 constexpr int kNumbers = 32;
+constexpr double kLineStepMm = 1.0;
+constexpr double kMostOfLine = 60;  // points
 
 std::vector<std::int64_t> numbers_in(std::uint32_t bits) {
   std::vector<std::int64_t> numbers;
@@ -46,6 +50,68 @@ cases::JointLesions add_examination(protocol::Arthroscopy& message,
     message.findings.push_back(std::move(finding));
   }
   return made;
+}
+
+/// Points of the line, on the joint's wall as scanned.
+std::vector<Vec3> line_on_surface(const cases::ArthroscopicMap& map,
+                                  const std::vector<const cases::TourPoint*>& places) {
+  std::vector<Vec3> line;
+  double whole = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    whole += distance(places[i - 1]->at, places[i]->at);
+  }
+  const double step = std::max(kLineStepMm, whole / kMostOfLine);
+  const Grid<float>& wall = map.joints[places.front()->joint].wall;
+  const Pose<frame::Bone, frame::Patient> scanned;
+  double left = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Vec3 from = places[i - 1]->at;
+    const double far = distance(from, places[i]->at);
+    double s = left;
+    for (; s <= far; s += step) {
+      const Vec3 at = from + (places[i]->at - from) * (s / far);
+      const auto space = arthroscopy::opened_space_at(wall, scanned, scanned, at);
+      line.push_back(space.is_near ? at - space.outwards * space.distance_mm : at);
+    }
+    left = s - far;
+  }
+  return line;
+}
+
+protocol::ScopeDrill drill_of(const cases::ArthroscopicMap& map,
+                              const procedure::ScopeDrill& drill,
+                              const BodyNames& names) {
+  protocol::ScopeDrill message;
+  message.hold.assign(drill.hold.begin(), drill.hold.end());
+  message.hold_s = drill.hold_s;
+  message.middle_deg = drill.middle_deg;
+  message.round_places = static_cast<std::int64_t>(drill.round_places);
+  message.touch.assign(drill.touch.begin(), drill.touch.end());
+  std::vector<const cases::TourPoint*> places;
+  for (const std::uint8_t number : drill.line) {
+    for (const cases::TourPoint& point : map.points) {
+      if (point.number == number) places.push_back(&point);
+    }
+  }
+  if (places.empty()) return message;
+  message.line_mm = line_on_surface(map, places);
+  message.line_body = names.name(places.front()->body);
+  return message;
+}
+
+protocol::DrillState drill_state_of(const simulation::ScopeView& scope,
+                                    const procedure::ScopeDrill& drill) {
+  const procedure::DrillFacts& done = scope.facts.drill;
+  protocol::DrillState message;
+  message.held = done.held;
+  message.hold_share = std::min(1.0, scope.hold_ticks * kTickSeconds / drill.hold_s);
+  message.round_most = done.round_most;
+  message.round_done = done.is_round_done;
+  message.touched = done.touched;
+  message.line_share = scope.line_share;
+  message.line_done = done.is_line_done;
+  message.probe_seen = scope.is_probe_seen;
+  return message;
 }
 
 }  // namespace
@@ -82,11 +148,13 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
     made = add_examination(message, data, names, seed);
     wrong = &made;
   }
+  if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);
   message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong).rest();
   return message;
 }
 
 std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
+                                             const procedure::Procedure& procedure,
                                              const simulation::Snapshot& now) {
   const simulation::ScopeView& scope = now.scope;
   if (data.arthroscopy == nullptr || scope.hand >= simulation::kHands) return std::nullopt;
@@ -108,6 +176,7 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
     message.points_in_view = numbers_in(scope.points_in_view);
   }
   message.pull_outs = scope.pull_outs;
+  if (procedure.drill) message.drill = drill_state_of(scope, *procedure.drill);
   for (const std::uint8_t grade : scope.answers) {
     message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
   }

@@ -23,6 +23,7 @@ namespace carpus::session {
 
 /// None where no hand holds a scope. What is in view now is told in practice alone.
 [[nodiscard]] std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
+                                                           const procedure::Procedure& procedure,
                                                            const simulation::Snapshot& now);
 
 /// Without numbers where the disc rests; none in a case without one.

@@ -100,7 +100,7 @@ std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& n
     sent_poses_ = poses;
   }
   messages.emplace_back(std::move(snapshot));
-  std::optional<protocol::Scope> scope = scope_message(data_, now);
+  std::optional<protocol::Scope> scope = scope_message(data_, procedure_, now);
   if (scope && scope != sent_scope_) messages.emplace_back(*scope);
   sent_scope_ = std::move(scope);
   std::optional<protocol::Disc> disc = disc_message(now);

@@ -89,6 +89,9 @@ struct ScopeView {
   std::uint32_t pull_outs = 0;
   std::uint32_t lesions_seen = 0;  ///< bits, in the order of World::lesions
   cases::Grades answers = cases::not_judged();
+  std::uint32_t hold_ticks = 0;  ///< for which the place that is to be held was kept
+  double line_share = 0.0;       ///< of the line that is followed, at a stretch
+  bool is_probe_seen = false;    ///< in exercises with a scope alone
   bool operator==(const ScopeView&) const = default;
 };
 

@@ -94,6 +94,7 @@ World::Model::Model(const cases::CaseData& case_data,
       if (point.number == kHookTest) disc_edge = yielding::nearest(disc, point.at);
     }
   }
+  if (map != nullptr && declared.drill) drill = detail::drill_plan(*declared.drill, *map);
   if (declared.tray.empty() || declared.steps.empty() ||
       declared.steps.size() > procedure::kMaxSteps) {
     throw InvalidInput("simulation: the procedure " + declared.id +

@@ -26,8 +26,10 @@ constexpr double kOutsideMm = 12.0;
 constexpr double kInsideMm = 2.0;    // beyond the capsule, to begin with
 constexpr double kDeepestMm = 14.0;  // of the working depth [S81]
 constexpr double kAcrossMm = 3.0;
-constexpr double kBackMm = -2.5;     // so far from the capsule a scope has fallen out
-constexpr double kBehindMm = 0.6;    // of the wall: so far its grid is off
+constexpr double kBackMm = -2.5;         // so far from the capsule a scope has fallen out
+constexpr double kBehindMm = 0.6;        // of the wall: so far its grid is off
+constexpr double kInFieldCosine = 0.08;  // more than half the field's: not at its rim
+constexpr double kTurnStepDeg = 15.0;
 constexpr double kSpareMm = 0.1;     // about the scope
 constexpr double kGivesWay = 0.004;  // of what is pressed, a tick
 constexpr Tick kPullTicks = 2500;
@@ -49,9 +51,11 @@ bool is_arthroscopy(const procedure::Procedure& procedure) {
 ScopeSkill scope_skill_of(Skill skill) noexcept {
   ScopeSkill result;
   if (skill == Skill::Middle) {
-    result = {50.0, 9.0, 0.1, 0.5, 10.0, 9.0, 1.3, 1, 0.06, 1.2, 2.5, 0.7, 0.82, 0.65, 0.07, 0.05};
+    result = {50.0, 9.0, 0.1, 0.5,  10.0, 9.0,  1.3,  1, 0.06,
+              1.2,  2.5, 0.7, 0.82, 0.65, 0.07, 0.05, 3, 0.3};
   } else if (skill == Skill::Novice) {
-    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2, 3.0, 6.0, 1.0, 0.6, 0.4, 0.14, 0.15};
+    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2,
+              3.0,  6.0, 1.0, 0.6, 0.4,  0.14, 0.15, 4, 0.6};
   }
   return result;
 }
@@ -152,10 +156,20 @@ bool ScriptedArthroscopist::is_free(std::uint8_t joint, const Vec3& from, const 
   return true;
 }
 
-/// Tries tips about the capsule's hole and turns of the shaft.
+/// Well within the round picture.
 ScriptedArthroscopist::View ScriptedArthroscopist::view_of(std::uint8_t portal,
                                                            const Vec3& point,
                                                            const Vec3& from) const {
+  const double half_field = arthroscopy::cos_sin_deg(lens_.field_deg / 2)[0];
+  return view_of(portal, {&point, 1}, from, half_field + kInFieldCosine, kTurnStepDeg);
+}
+
+/// Tries tips about the capsule's hole and turns of the shaft.
+ScriptedArthroscopist::View ScriptedArthroscopist::view_of(std::uint8_t portal,
+                                                           std::span<const Vec3> places,
+                                                           const Vec3& from,
+                                                           double least_cosine,
+                                                           double turn_step_deg) const {
   const std::uint8_t joint = map_.portals[portal].joint;
   const Vec3 inwards = -hole(portal).shaft;
   const double scope_radius =
@@ -169,16 +183,25 @@ ScriptedArthroscopist::View ScriptedArthroscopist::view_of(std::uint8_t portal,
         const Vec3 tip = in_portal(portal, deep) + across * aside + map_.distal * up;
         const HandPose held = through(portal, tip);
         const Vec3 eye = tip + held.shaft * scope_radius;
-        const double far = distance(eye, point);
-        if (far < 2.0 || far > 13.0) continue;
         const double way = 1.5 * distance(tip, from) + 0.5 * deep;
         if (way >= least) continue;
-        if (!goes_in(tip, portal, scope_radius + kSpareMm) || !is_free(joint, eye, point)) continue;
-        for (double turn = -180.0; turn < 180.0; turn += 15.0) {
+        const bool is_near = std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
+          const double far = distance(eye, place);
+          return far >= 2.0 && far <= 13.0;
+        });
+        if (!is_near || !goes_in(tip, portal, scope_radius + kSpareMm)) continue;
+        const bool are_seen = std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
+          return is_free(joint, eye, place);
+        });
+        if (!are_seen) continue;
+        for (double turn = -180.0; turn < 180.0; turn += turn_step_deg) {
           const arthroscopy::Sight sight =
               arthroscopy::sight_of(lens_, {eye, held.shaft, turn, 0.0}, map_.distal);
-          const double cosine = dot(point - eye, sight.axis) / far;
-          if (cosine < sight.least_cosine + 0.08) continue;
+          double cosine = 1.0;
+          for (const Vec3& place : places) {
+            cosine = std::min(cosine, dot(place - eye, sight.axis) / distance(place, eye));
+          }
+          if (cosine < least_cosine) continue;
           const double cost =
               way + 6.0 * (1.0 - cosine) / 0.1 + 0.01 * std::abs(wrapped(turn - planned_turn_deg_));
           if (cost >= least) continue;
@@ -196,6 +219,7 @@ void ScriptedArthroscopist::go(std::uint8_t hand, const HandPose& to, double dwe
   task.hand = hand;
   task.to = to;
   task.shaft_turn_deg = planned_turn_deg_;
+  task.camera_turn_deg = tilt_deg_;
   task.dwell = ticks_of(dwell_s);
   tasks_.push_back(task);
   planned_[hand] = to.tip;
@@ -290,9 +314,28 @@ void ScriptedArthroscopist::look_round(const Stop& stop) {
   }
 }
 
-void ScriptedArthroscopist::plan(const simulation::Snapshot&) {
+void ScriptedArthroscopist::plan() {
   tilt_deg_ = rng_.normal() * skill_.tilt_deg;
   planned_[kScope] = hands_[kScope].tip;
+  if (procedure_.drill) {
+    plan_drill(*procedure_.drill);
+  } else {
+    plan_tour();
+  }
+  plan_finish();
+}
+
+/// In the other hand, well outside of where it will go in.
+void ScriptedArthroscopist::take_probe(std::uint8_t portal) {
+  Task take;
+  take.hand = kProbe;
+  take.takes_probe = true;
+  take.to = through(portal, in_portal(portal, -map_.portals[portal].capsule_mm - 60.0));
+  take.dwell = ticks_of(0.5);
+  tasks_.push_back(take);
+}
+
+void ScriptedArthroscopist::plan_tour() {
   std::uint8_t looked_round = 0;  // joints
   bool has_probe = false;
   for (const Stop& stop : stops()) {
@@ -301,13 +344,7 @@ void ScriptedArthroscopist::plan(const simulation::Snapshot&) {
     enter(kScope, stop.look);
     if (stop.is_probing && stop.work != stop.look) {
       if (!has_probe) {
-        Task take;
-        take.hand = kProbe;
-        take.takes_probe = true;
-        take.to =
-            through(stop.work, in_portal(stop.work, -map_.portals[stop.work].capsule_mm - 60.0));
-        take.dwell = ticks_of(0.5);
-        tasks_.push_back(take);
+        take_probe(stop.work);
         has_probe = true;
       }
       enter(kProbe, stop.work);
@@ -320,6 +357,9 @@ void ScriptedArthroscopist::plan(const simulation::Snapshot&) {
     if ((looked_round & joint_bit) == 0) look_round(stop);
     looked_round = static_cast<std::uint8_t>(looked_round | joint_bit);
   }
+}
+
+void ScriptedArthroscopist::plan_finish() {
   if (procedure_.examines) {
     Task report;
     report.to = {planned_[kScope], hands_[kScope].shaft};
@@ -403,7 +443,7 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
   if (!has_planned_) {
     hold();
     if (now.tick < kPullTicks) return input;
-    plan(now);
+    plan();
     has_planned_ = true;
     in_task_ = 0;
     move_ticks_ = 0;
@@ -412,6 +452,7 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     hold();
     return input;
   }
+  while (in_task_ == 0 && is_reached(tasks_[at_], now.scope.facts)) ++at_;
   const Task& task = tasks_[at_];
   if (in_task_ == 0) {
     const HandPose& from = hands_[task.hand];
@@ -447,7 +488,7 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
       turn_deg_ = wrapped(turn_deg_ + std::clamp(left, -most, most));
       input.command.kind = CommandKind::TurnScope;
       input.command.rotation_deg = turn_deg_;
-      input.command.tilt_deg = tilt_deg_;
+      input.command.tilt_deg = task.camera_turn_deg;
     }
   }
   const bool is_turned = !task.turns || std::abs(wrapped(task.shaft_turn_deg - turn_deg_)) < 0.1;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct ScopeSkill {
   double grades_right = 0.88;
   double invents = 0.02;  ///< chance to see something where nothing is
   double says_nothing = 0.0;
+  int tries = 2;             ///< at an exercise before it is let be
+  double leads_blind = 0.0;  ///< chance to move the probe without the scope after it
 };
 [[nodiscard]] ScopeSkill scope_skill_of(Skill skill) noexcept;
 
@@ -65,16 +68,20 @@ class ScriptedArthroscopist {
   [[nodiscard]] bool is_done() const noexcept { return is_finished_; }
 
  private:
+  enum class DrillGoal : std::uint8_t { None, In, Hold, Round, Touch, Line };
   /// One thing to do, with the hand that does it.
   struct Task {
     std::uint8_t hand = 0;
     HandPose to;
     double shaft_turn_deg = 0.0;
+    double camera_turn_deg = 0.0;
     Tick dwell = 0;
     bool takes_probe = false;
     bool turns = false;
     bool answers = false;  ///< all that is asked, one a tick
     bool finishes = false;
+    DrillGoal goal = DrillGoal::None;  ///< of exercises: once it is reached the task is left out
+    std::uint8_t count = 0;            ///< ... of which so many
   };
   struct View {
     Vec3 tip;
@@ -82,7 +89,10 @@ class ScriptedArthroscopist {
     bool is_found = false;
   };
 
-  void plan(const simulation::Snapshot& now);
+  void plan();
+  void plan_tour();
+  void plan_finish();
+  void take_probe(std::uint8_t portal);
   void begin(const simulation::Snapshot& now);
   struct Stop {
     std::uint8_t look = 0;  ///< portal of the scope
@@ -97,10 +107,33 @@ class ScriptedArthroscopist {
   void look_at(const Stop& stop, std::size_t point);
   void probe(const Stop& stop, std::size_t point);
   void look_round(const Stop& stop);
+
+  // drill_plan.cpp
+  void plan_drill(const procedure::ScopeDrill& drill);
+  void go_in(std::uint8_t hand, std::uint8_t portal);
+  void plan_holds(const procedure::ScopeDrill& drill, const Stop& stop);
+  void plan_round(const procedure::ScopeDrill& drill, const Stop& stop);
+  void plan_touches(const procedure::ScopeDrill& drill, const Stop& stop);
+  void plan_line(const procedure::ScopeDrill& drill, const Stop& stop);
+  bool watch(const Stop& stop, std::span<const Vec3> places, double least_cosine, int turn);
+  [[nodiscard]] double level_turn_deg(const HandPose& held, double shaft_turn_deg) const;
+  void mark_since(std::size_t first, DrillGoal goal, std::size_t count);
+  [[nodiscard]] std::size_t point_of(std::uint8_t number) const;
+  [[nodiscard]] Vec3 place_to_look_round(std::uint8_t portal) const;
+  [[nodiscard]] Vec3 on_surface(std::uint8_t joint, const Vec3& near, double presses_mm) const;
+  [[nodiscard]] bool is_reached(const Task& task, const procedure::ScopeFacts& facts) const;
+
   [[nodiscard]] Vec3 place_of(std::size_t point) const;
   [[nodiscard]] HandPose hole(std::uint8_t portal) const;
   [[nodiscard]] HandPose through(std::uint8_t portal, const Vec3& tip) const;
   [[nodiscard]] Vec3 in_portal(std::uint8_t portal, double beyond_capsule_mm) const;
+  /// From where all of the places are seen.
+  /// @param least_cosine  of the angle from the line of sight to each
+  [[nodiscard]] View view_of(std::uint8_t portal,
+                             std::span<const Vec3> places,
+                             const Vec3& from,
+                             double least_cosine,
+                             double turn_step_deg) const;
   [[nodiscard]] View view_of(std::uint8_t portal, const Vec3& point, const Vec3& from) const;
   [[nodiscard]] arthroscopy::OpenedSpace space_at(std::uint8_t joint, const Vec3& at) const;
   [[nodiscard]] bool has_room(std::uint8_t joint, const Vec3& tip, double room_mm) const;

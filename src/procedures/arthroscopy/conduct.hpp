@@ -24,6 +24,11 @@ namespace carpus::procedures::arthroscopy {
 /// @throws InvalidInput  without radius, soft tissue, or portals 3-4 and 4-5.
 [[nodiscard]] procedure::Opening opening(const cases::CaseData& data, std::string_view name);
 
+/// @throws InvalidInput  where the case lacks a place that the exercises go by, naming it.
+void refuse_without_places(const cases::CaseData& data,
+                           const procedure::ScopeDrill& drill,
+                           std::string_view name);
+
 /// `points_seen`, `points_seen_share`, `points_probed`, `cartilage_seen_share`, `scope_path_mm`,
 /// `probe_path_mm`, `pull_outs`, `force_over_3_n_s`, `force_over_8_n_s`, `horizon_off_share`,
 /// `looking_s`, and procedure::thrift_measures.

@@ -1,5 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -77,6 +78,13 @@ bool has_seen_ulnar(const Situation& now) noexcept {
   return has_seen<13>(now) && (now.scope.points_seen & kUlnar) != 0;
 }
 bool has_answered_all(const Situation& now) noexcept { return now.scope.unanswered == 0; }
+template <std::uint8_t kPlaces>
+bool has_held(const Situation& now) noexcept {
+  return now.scope.drill.held >= kPlaces;
+}
+bool has_looked_round(const Situation& now) noexcept { return now.scope.drill.is_round_done; }
+bool has_touched_all(const Situation& now) noexcept { return now.scope.drill.are_touches_done; }
+bool has_followed_line(const Situation& now) noexcept { return now.scope.drill.is_line_done; }
 bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
 
 }  // namespace
@@ -98,6 +106,12 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"has_answered_all", has_answered_all},
       NamedPredicate{"has_seen_midcarpal_rows", has_seen<20, 23>},
       NamedPredicate{"has_seen_distal_row", has_seen<18, 21, 24>},
+      NamedPredicate{"has_held_1", has_held<1>},
+      NamedPredicate{"has_held_2", has_held<2>},
+      NamedPredicate{"has_held_3", has_held<3>},
+      NamedPredicate{"has_looked_round", has_looked_round},
+      NamedPredicate{"has_touched_all", has_touched_all},
+      NamedPredicate{"has_followed_line", has_followed_line},
       NamedPredicate{"is_finishing", is_finishing}};
   return kPredicates;
 }
@@ -123,6 +137,21 @@ procedure::Opening opening(const cases::CaseData& data, std::string_view name) {
   opening.shaft_in_target = -portals[kPortal34].inwards;
   opening.tip_in_target = portals[kPortal34].skin + opening.shaft_in_target * kWaitsMm;
   return opening;
+}
+
+void refuse_without_places(const cases::CaseData& data,
+                           const procedure::ScopeDrill& drill,
+                           std::string_view name) {
+  const std::vector<cases::TourPoint>& points = data.arthroscopy->points;
+  for (const auto* places : {&drill.hold, &drill.touch, &drill.line}) {
+    for (const std::uint8_t number : *places) {
+      const bool is_there = std::any_of(points.begin(), points.end(),
+                                        [&](const auto& point) { return point.number == number; });
+      if (is_there) continue;
+      throw InvalidInput(std::string(name) + ": this wrist lacks place " + std::to_string(number) +
+                         " of the tour, which an exercise goes to; choose another case");
+    }
+  }
 }
 
 }  // namespace carpus::procedures::arthroscopy

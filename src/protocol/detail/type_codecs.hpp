@@ -68,6 +68,12 @@ void write(FieldWriter& out, const TourPoint& in);
 void read(FieldReader& in, Lesion& out);
 void write(FieldWriter& out, const Lesion& in);
 
+void read(FieldReader& in, ScopeDrill& out);
+void write(FieldWriter& out, const ScopeDrill& in);
+
+void read(FieldReader& in, DrillState& out);
+void write(FieldWriter& out, const DrillState& in);
+
 void read(FieldReader& in, FindingGrade& out);
 void write(FieldWriter& out, const FindingGrade& in);
 

@@ -265,11 +265,19 @@ void World::State::note_scope_look(std::uint8_t joint, const arthroscopy::Sight&
                                joint};
 }
 
+bool World::State::is_level(const Model& model, const arthroscopy::Sight& sight) const noexcept {
+  const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
+  return arthroscopy::horizon_cosine(sight, level) >= kLevelCosine;
+}
+
+/// By bone or by the joint's wall.
+bool World::State::is_held_back(std::uint8_t hand, const Item& item) const noexcept {
+  return spent.hands[hand].touched_body != kNoBody ||
+         distance(item.tip, spent.hands[hand].plan.tip) > kWallMm;
+}
+
 void World::State::note_probing(const Model& model, std::uint8_t hand, const Item& item) noexcept {
-  const bool touches =
-      spent.hands[hand].touched_body != kNoBody ||
-      distance(item.tip, spent.hands[hand].plan.tip) > kWallMm;  // a wall holds it back
-  if (!touches) return;
+  if (!is_held_back(hand, item)) return;
   const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
   for (const cases::TourPoint& point : model.map->points) {
     if (!point.is_probed || point.joint != joint ||
@@ -316,8 +324,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
     state.most_force_n = std::max(state.most_force_n, force);
     if (const auto sight = sight_of(model, *item)) {
       ++state.looking_ticks;
-      const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
-      if (arthroscopy::horizon_cosine(*sight, level) < kLevelCosine) ++state.tilted_ticks;
+      if (!is_level(model, *sight)) ++state.tilted_ticks;
       look_at_points(model, joint, *sight);
       look_at_lesions(model, joint, *sight);
       note_scope_look(joint, *sight);
@@ -325,6 +332,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
       note_probing(model, h, *item);
     }
   }
+  watch_drill(model);
 }
 
 procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexcept {
@@ -338,6 +346,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.points_seen = scope_state.points_seen;
   facts.points_probed = scope_state.points_probed;
   facts.unanswered = unanswered(model);
+  facts.drill = drill_state.done;
   return facts;
 }
 
@@ -380,6 +389,9 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.pull_outs = scope_state.pull_outs;
   view.lesions_seen = scope_state.lesions_seen;
   view.answers = scope_state.answers;
+  view.hold_ticks = drill_state.hold_ticks;
+  view.line_share = drill_state.line_share;
+  view.is_probe_seen = drill_state.is_probe_seen;
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

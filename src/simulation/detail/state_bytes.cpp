@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A world's state as bytes, for keyframes: every field in the order of its struct's visit(), all
-// little-endian (of structures only where the case has any, of a scope only in an arthroscopy),
-// then the tissue's changes, then a checksum. Undo does not reach back before one.
+// little-endian (of structures only where the case has any, of a scope only in an arthroscopy, of
+// its exercises where there are any), then the tissue's changes, then a checksum. Undo does not
+// reach back before one.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -73,6 +74,7 @@ std::vector<std::byte> World::write_state() const {
     for (std::size_t i = 0; i < state.scope_state.look_count; ++i) {
       detail::visit_look(state.looks[i], fields);
     }
+    if (model_->procedure.drill) visit(state.drill_state, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -106,6 +108,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   if (state_->structures.size() > 0) visit(structures, fields);
   detail::ScopeState scope;
   yielding::NetState disc;
+  detail::DrillState drill;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -114,6 +117,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
     is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size());
     if (is_sound) looks.resize(scope.look_count);
     for (procedure::ScopeLook& look : looks) detail::visit_look(look, fields);
+    if (const auto& declared = model_->procedure.drill) {
+      visit(drill, fields);
+      is_sound = is_sound && detail::is_possible(drill, *declared);
+    }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
                                    model_->catalogue.size(),
@@ -130,6 +137,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->spent = *spent;
   next->structure_state = structures;
   next->scope_state = scope;
+  next->drill_state = drill;
   if (model_->map != nullptr) next->disc = disc;
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {

@@ -22,6 +22,7 @@
 #include "instruments/instrument.hpp"
 #include "simulation/detail/bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
+#include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
@@ -57,6 +58,7 @@ struct World::Model {
   std::size_t loose_count = 0;
   yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
   std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
+  detail::DrillPlan drill;                          ///< of a procedure that declares one
 };
 
 /// Everything that changes.
@@ -67,6 +69,7 @@ struct World::State {
   detail::Spent spent;
   detail::StructureState structure_state;
   detail::ScopeState scope_state;
+  detail::DrillState drill_state;
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   detail::StructureWatch structures;
@@ -305,10 +308,24 @@ struct World::State {
                                const Vec3& at) const noexcept;
   [[nodiscard]] std::uint8_t unanswered(const Model& model) const noexcept;
   void note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept;
+  [[nodiscard]] bool is_level(const Model& model, const arthroscopy::Sight& sight) const noexcept;
+  [[nodiscard]] bool is_held_back(std::uint8_t hand, const detail::Item& item) const noexcept;
   void note_probing(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,
                                                            const detail::Item& item) const noexcept;
   void watch_scopes(const Model& model) noexcept;
+
+  // scope_exercises.cpp
+  [[nodiscard]] Vec3 place_now(const Model& model, std::size_t point) const noexcept;
+  void watch_drill(const Model& model) noexcept;
+  [[nodiscard]] detail::DrillLook drill_look(const Model& model,
+                                             const detail::Item& scope,
+                                             const arthroscopy::Sight& sight) const noexcept;
+  [[nodiscard]] bool sees(const Model& model,
+                          std::uint8_t joint,
+                          const arthroscopy::Sight& sight,
+                          const Vec3& tip) const noexcept;
+
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;
   [[nodiscard]] procedure::ScopeRecord scope_record(const Model& model) const;

@@ -371,6 +371,41 @@ export interface Lesion {
   readonly radius_mm: number;
 }
 
+/** Exercises with a scope, by the numbers of the tour's places, in order. */
+export interface ScopeDrill {
+  /** to be brought to the middle and kept there, level */
+  readonly hold: readonly number[];
+  /** [s] 0 to 60 */
+  readonly hold_s: number;
+  /** from the line of sight [deg] 0 to 60 */
+  readonly middle_deg: number;
+  /** to be seen from one place 1 to 31 */
+  readonly round_places: number;
+  readonly touch: readonly number[];
+  /** on the surface as scanned, equally far from each other */
+  readonly line_mm: readonly Vec3[];
+  /** that takes the line along */
+  readonly line_body: string;
+}
+
+/** How far those exercises were done. */
+export interface DrillState {
+  /** 0 to 8 */
+  readonly held: number;
+  /** of the time for which the next one is to be held [1] 0 to 1 */
+  readonly hold_share: number;
+  /** 0 to 32 */
+  readonly round_most: number;
+  readonly round_done: boolean;
+  /** 0 to 8 */
+  readonly touched: number;
+  /** at a stretch, now [1] 0 to 1 */
+  readonly line_share: number;
+  readonly line_done: boolean;
+  /** by the scope */
+  readonly probe_seen: boolean;
+}
+
 /** One answer of several. */
 export interface FindingGrade {
   readonly id: string;
@@ -405,6 +440,8 @@ export interface Arthroscopy {
   readonly lesions: readonly Lesion[];
   /** none: nothing is asked */
   readonly findings: readonly Finding[];
+  /** of a procedure of exercises */
+  readonly drill: ScopeDrill | null;
 }
 
 /** A body that moves as one: a bone or a fragment. Its pose takes places as they were scanned (and as /api/scene.glb has them) to where they are now. */
@@ -1098,6 +1135,8 @@ export interface ScopeMessage {
   readonly pull_outs: number;
   /** by finding: place of the grade that was answered; -1: none yet */
   readonly answers: readonly number[];
+  /** of exercises with a scope */
+  readonly drill: DrillState | null;
 }
 
 /** By how much the disc has yielded; comes when that changed. */

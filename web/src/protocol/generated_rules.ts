@@ -194,6 +194,25 @@ export const SCHEMA: Schema = {
       to_mm: {"type": "vec3", "limit": 10000},
       radius_mm: {"type": "number", "min": 0, "max": 100},
     } },
+    scope_drill: { fields: {
+      hold: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 8},
+      hold_s: {"type": "number", "min": 0, "max": 60},
+      middle_deg: {"type": "number", "min": 0, "max": 60},
+      round_places: {"type": "integer", "min": 1, "max": 31},
+      touch: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 8},
+      line_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 64},
+      line_body: {"type": "string", "max_length": 32},
+    } },
+    drill_state: { fields: {
+      held: {"type": "integer", "min": 0, "max": 8},
+      hold_share: {"type": "number", "min": 0, "max": 1},
+      round_most: {"type": "integer", "min": 0, "max": 32},
+      round_done: {"type": "boolean"},
+      touched: {"type": "integer", "min": 0, "max": 8},
+      line_share: {"type": "number", "min": 0, "max": 1},
+      line_done: {"type": "boolean"},
+      probe_seen: {"type": "boolean"},
+    } },
     finding_grade: { fields: {
       id: {"type": "string", "max_length": 16},
       label: {"type": "string", "max_length": 128},
@@ -214,6 +233,7 @@ export const SCHEMA: Schema = {
       disc_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 160},
       lesions: {"type": "array", "of": {"type": "lesion"}, "max_items": 24},
       findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
+      drill: {"type": "scope_drill", "optional": true},
     } },
     body: { fields: {
       name: {"type": "string", "max_length": 32},
@@ -584,6 +604,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     points_in_view: {"type": "array", "of": {"type": "integer", "min": 1, "max": 31}, "max_items": 32},
     pull_outs: {"type": "integer", "min": 0, "max": 4294967295},
     answers: {"type": "array", "of": {"type": "integer", "min": -1, "max": 14}, "max_items": 16},
+    drill: {"type": "drill_state", "optional": true},
   },
   disc: {
     off_um: {"type": "array", "of": {"type": "integer", "min": -20000, "max": 20000}, "max_items": 480},
