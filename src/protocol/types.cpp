@@ -412,6 +412,7 @@ void write(FieldWriter& out, const ScopeDrill& in) {
 void read(FieldReader& in, DrillState& out) {
   out.held = in.integer("held", 0, 8);
   out.hold_share = in.number("hold_share", 0.0, 1.0);
+  out.level = in.boolean("level");
   out.round_most = in.integer("round_most", 0, 32);
   out.round_done = in.boolean("round_done");
   out.touched = in.integer("touched", 0, 8);
@@ -423,6 +424,7 @@ void read(FieldReader& in, DrillState& out) {
 void write(FieldWriter& out, const DrillState& in) {
   out.value("held", in.held);
   out.value("hold_share", in.hold_share);
+  out.value("level", in.level);
   out.value("round_most", in.round_most);
   out.value("round_done", in.round_done);
   out.value("touched", in.touched);

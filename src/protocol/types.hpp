@@ -552,6 +552,8 @@ struct DrillState {
   std::int64_t held = 0;
   /// of the time for which the next one is to be held [1] 0 to 1
   double hold_share = 0.0;
+  /// the picture, within what counts as level; told in practice alone
+  bool level = false;
   /// 0 to 32
   std::int64_t round_most = 0;
   bool round_done = false;
@@ -560,7 +562,7 @@ struct DrillState {
   /// at a stretch, now [1] 0 to 1
   double line_share = 0.0;
   bool line_done = false;
-  /// by the scope
+  /// by the scope; told in practice alone
   bool probe_seen = false;
   bool operator==(const DrillState&) const = default;
 };

@@ -99,18 +99,22 @@ protocol::ScopeDrill drill_of(const cases::ArthroscopicMap& map,
   return message;
 }
 
-protocol::DrillState drill_state_of(const simulation::ScopeView& scope,
+/// What is wrong with the picture an assessed hand is to see by itself.
+protocol::DrillState drill_state_of(const simulation::Snapshot& now,
                                     const procedure::ScopeDrill& drill) {
+  const simulation::ScopeView& scope = now.scope;
+  const bool helps = now.mode == procedure::Mode::Practice;
   const procedure::DrillFacts& done = scope.facts.drill;
   protocol::DrillState message;
   message.held = done.held;
   message.hold_share = std::min(1.0, scope.hold_ticks * kTickSeconds / drill.hold_s);
+  message.level = !helps || scope.is_level;
   message.round_most = done.round_most;
   message.round_done = done.is_round_done;
   message.touched = done.touched;
   message.line_share = scope.line_share;
   message.line_done = done.is_line_done;
-  message.probe_seen = scope.is_probe_seen;
+  message.probe_seen = !helps || scope.is_probe_seen;
   return message;
 }
 
@@ -176,7 +180,7 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
     message.points_in_view = numbers_in(scope.points_in_view);
   }
   message.pull_outs = scope.pull_outs;
-  if (procedure.drill) message.drill = drill_state_of(scope, *procedure.drill);
+  if (procedure.drill) message.drill = drill_state_of(now, *procedure.drill);
   for (const std::uint8_t grade : scope.answers) {
     message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
   }

@@ -70,7 +70,10 @@ TEST(ScopeDrill, ABreakBeginsAnewAndIsCountedOnceItHadBegun) {
     look(state, centred(), 2000);
     DrillLook lost = centred();
     (tilts ? lost.is_level : lost.has_in_middle) = false;
-    look(state, lost, 1);
+    look(state, lost, 100);
+    EXPECT_EQ(state.done.hold_breaks, 0U) << "a moment is forgiven";
+    EXPECT_EQ(state.hold_ticks, 2000U) << "and does not count";
+    look(state, lost, 150);
     EXPECT_EQ(state.done.hold_breaks, 1U);
     look(state, centred(), 2999);
     EXPECT_EQ(state.done.held, 0);

@@ -92,6 +92,7 @@ struct ScopeView {
   std::uint32_t hold_ticks = 0;  ///< for which the place that is to be held was kept
   double line_share = 0.0;       ///< of the line that is followed, at a stretch
   bool is_probe_seen = false;    ///< in exercises with a scope alone
+  bool is_level = true;          ///< the picture, within what counts as level
   bool operator==(const ScopeView&) const = default;
 };
 

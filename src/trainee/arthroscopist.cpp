@@ -225,8 +225,8 @@ void ScriptedArthroscopist::go(std::uint8_t hand, const HandPose& to, double dwe
   planned_[hand] = to.tip;
 }
 
-void ScriptedArthroscopist::look(std::uint8_t portal, const View& view) {
-  planned_turn_deg_ = wrapped(view.turn_deg + rng_.normal() * skill_.turn_error_deg);
+void ScriptedArthroscopist::look(std::uint8_t portal, const View& view, double error_share) {
+  planned_turn_deg_ = wrapped(view.turn_deg + rng_.normal() * skill_.turn_error_deg * error_share);
   // Not across what lies between: back to the middle of the way in, then in again.
   if (distance(view.tip, planned_[kScope]) > kAcrossMm) {
     go(kScope, through(portal, in_portal(portal, kInsideMm)), 0.0);

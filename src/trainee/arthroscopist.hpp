@@ -141,7 +141,8 @@ class ScriptedArthroscopist {
   [[nodiscard]] bool is_free(std::uint8_t joint, const Vec3& from, const Vec3& to) const;
   void give_way(const simulation::Snapshot& now);
   void go(std::uint8_t hand, const HandPose& to, double dwell_s);
-  void look(std::uint8_t portal, const View& view);
+  /// @param error_share  of the usual error of the turn
+  void look(std::uint8_t portal, const View& view, double error_share = 1.0);
   [[nodiscard]] Vec3 error(double mm);
   void answer(const simulation::Snapshot& now, simulation::Input& input);
   [[nodiscard]] std::uint8_t judged(std::size_t finding, std::uint32_t lesions_seen);

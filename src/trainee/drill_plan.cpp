@@ -81,14 +81,15 @@ double ScriptedArthroscopist::level_turn_deg(const HandPose& held, double shaft_
   return best;
 }
 
-/// Places are brought into view, and the picture level: at each try half as far off as before.
+/// Places are brought into view, and the picture level: what is off is seen, so that each try is
+/// half as far off as the one before.
 bool ScriptedArthroscopist::watch(const Stop& stop,
                                   std::span<const Vec3> places,
                                   double least_cosine,
                                   int turn) {
   const View view = view_of(stop.look, places, planned_[kScope], least_cosine, kFineTurnDeg);
   if (!view.is_found) return false;
-  look(stop.look, view);
+  look(stop.look, view, std::ldexp(1.0, -turn));
   tasks_.back().camera_turn_deg =
       level_turn_deg(tasks_.back().to, planned_turn_deg_) + std::ldexp(tilt_deg_, -turn);
   return true;

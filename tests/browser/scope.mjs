@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// a touch, the score; the first exercises; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
@@ -227,5 +227,47 @@ export async function examination(browser, station) {
       expect(spread > 60, `the picture is blank: ${spread} grey levels`);
     },
   );
+  await page.context().close();
+}
+
+/** The first exercise: what is asked for, the ring, and its mark in practice alone. */
+export async function basics(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  const words = page.locator(".scope-drill-words");
+  /** Goes in, round once, and back out. @return most draw calls on the way */
+  const callsInRound = async (mode) => {
+    await operator.start(station.url, TRAINEE, "arthroscopic_basics", mode);
+    expect(!(await words.isVisible()), "an exercise is asked for outside");
+    await bringInScope(page, operator);
+    await words.waitFor();
+    expect(/^1 of 3/.test(await words.innerText()), await words.innerText());
+    await page.locator(".scope-drill-ring").waitFor();
+    let most = 0;
+    for (let turn = 0; turn < 8; ++turn) {
+      await hold(page, ",", 500);
+      await page.waitForTimeout(300);
+      const calls = await page
+        .locator(".scope")
+        .evaluate((e) => Number(e.dataset.calls));
+      most = Math.max(most, calls);
+      if (pictures !== undefined)
+        await page.screenshot({ path: join(pictures, `basics_${mode}_${turn}.png`) });
+    }
+    await page.waitForTimeout(6000); // with the turns the least look that is judged
+    await page.keyboard.press("f");
+    await page.click(
+      "dialog[open] button[value=finish], dialog[open] .primary",
+    );
+    await page.waitForURL(/#\/attempts\/\d+/);
+    await page.getByText("Places centred and held").first().waitFor();
+    return most;
+  };
+  await check(page, "an exercise asks, and marks its place in practice alone", async () => {
+    const marked = await callsInRound("practice");
+    const unmarked = await callsInRound("assessed");
+    expect(marked === unmarked + 1, `${marked} draw calls, without the mark ${unmarked}`);
+  });
   await page.context().close();
 }

@@ -13,10 +13,11 @@ using procedure::ScopeDrill;
 
 constexpr double kFromPlaceMm = 2.0;        // farther the scope looks from another place
 constexpr std::uint32_t kBegunTicks = 500;  // so long kept, it counts as lost when it is lost
-constexpr double kStepMm = 1.5;             // along the line, that may be left out
-constexpr std::uint32_t kOffTicks = 500;    // so long off the line it is lost
-constexpr double kBegunMm = 3.0;            // of the line: less was no beginning
-constexpr double kEndMm = 0.5;              // before the line's end
+constexpr std::uint32_t kForgivenTicks = 250;
+constexpr double kStepMm = 1.5;           // along the line, that may be left out
+constexpr std::uint32_t kOffTicks = 500;  // so long off the line it is lost
+constexpr double kBegunMm = 3.0;          // of the line: less was no beginning
+constexpr double kEndMm = 0.5;            // before the line's end
 
 double turned_by(double from_deg, double to_deg) noexcept {
   double by = to_deg - from_deg;
@@ -27,7 +28,7 @@ double turned_by(double from_deg, double to_deg) noexcept {
 
 void end_hold(DrillState& state) noexcept {
   if (state.hold_ticks >= kBegunTicks) ++state.done.hold_breaks;
-  state.hold_ticks = 0;
+  state.hold_ticks = state.off_hold_ticks = 0;
 }
 
 void watch_hold(DrillState& state, const ScopeDrill& drill, const DrillLook& look) noexcept {
@@ -35,7 +36,12 @@ void watch_hold(DrillState& state, const ScopeDrill& drill, const DrillLook& loo
   const bool is_kept =
       look.has_in_middle && look.is_level &&
       (state.hold_ticks == 0 || distance(look.tip, state.held_from) <= drill.still_mm);
-  if (!is_kept) return end_hold(state);
+  if (!is_kept) {
+    // A tremor's moment, or a line of sight that grazes bone, is forgiven and does not count.
+    if (state.hold_ticks > 0 && ++state.off_hold_ticks >= kForgivenTicks) end_hold(state);
+    return;
+  }
+  state.off_hold_ticks = 0;
   if (state.hold_ticks == 0) state.held_from = look.tip;
   if (++state.hold_ticks * kTickSeconds < drill.hold_s) return;
   state.hold_ticks = 0;

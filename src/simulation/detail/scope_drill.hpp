@@ -21,10 +21,11 @@ inline constexpr std::uint8_t kNothingTouched = 0;
 
 struct DrillState {
   procedure::DrillFacts done;
-  std::uint32_t hold_ticks = 0;  ///< for which the place that is asked for was kept
-  Vec3 held_from;                ///< where the scope's tip was when that began
-  Vec3 round_from;               ///< ... when it last moved away from where it was
-  std::uint32_t round_bits = 0;  ///< places seen from there, by number
+  std::uint32_t hold_ticks = 0;      ///< for which the place that is asked for was kept
+  std::uint32_t off_hold_ticks = 0;  ///< for which it was not, since it last was
+  Vec3 held_from;                    ///< where the scope's tip was when that began
+  Vec3 round_from;                   ///< ... when it last moved away from where it was
+  std::uint32_t round_bits = 0;      ///< places seen from there, by number
   double round_turn_deg = 0;
   double last_turn_deg = 0;
   std::uint8_t touches = kNothingTouched;  ///< the place that is touched now
@@ -52,6 +53,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
   v(done.seen_path_mm);
   v(done.unseen_path_mm);
   v(state.hold_ticks);
+  v(state.off_hold_ticks);
   v(state.held_from);
   v(state.round_from);
   v(state.round_bits);

@@ -399,6 +399,7 @@ void World::State::publish_scope(const Model& model) noexcept {
       view.hand = h;
       view.axis_in_patient = sight->axis;
       view.up_in_patient = sight->up;
+      view.is_level = is_level(model, *sight);
     }
   }
 }

@@ -394,6 +394,8 @@ export interface DrillState {
   readonly held: number;
   /** of the time for which the next one is to be held [1] 0 to 1 */
   readonly hold_share: number;
+  /** the picture, within what counts as level; told in practice alone */
+  readonly level: boolean;
   /** 0 to 32 */
   readonly round_most: number;
   readonly round_done: boolean;
@@ -402,7 +404,7 @@ export interface DrillState {
   /** at a stretch, now [1] 0 to 1 */
   readonly line_share: number;
   readonly line_done: boolean;
-  /** by the scope */
+  /** by the scope; told in practice alone */
   readonly probe_seen: boolean;
 }
 

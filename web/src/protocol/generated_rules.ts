@@ -206,6 +206,7 @@ export const SCHEMA: Schema = {
     drill_state: { fields: {
       held: {"type": "integer", "min": 0, "max": 8},
       hold_share: {"type": "number", "min": 0, "max": 1},
+      level: {"type": "boolean"},
       round_most: {"type": "integer", "min": 0, "max": 32},
       round_done: {"type": "boolean"},
       touched: {"type": "integer", "min": 0, "max": 8},

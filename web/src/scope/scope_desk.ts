@@ -16,6 +16,8 @@ import type {
 } from "../protocol";
 import { add, dot, rotated, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
+import { ScopeDrillOverlay } from "./scope_drill";
+import { beadsOf } from "./scope_drill_model";
 import { makeScopeControls } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import {
@@ -72,6 +74,7 @@ export class ScopeDesk {
   readonly controls: HTMLElement;
   private readonly findings: FindingsDialog;
   private readonly readings = new ScopeReadings();
+  private readonly drill = new ScopeDrillOverlay();
   private picture: ScopePicture | undefined;
   private plan: Plan | undefined;
   private exercise: ExerciseMessage | undefined;
@@ -119,7 +122,12 @@ export class ScopeDesk {
     this.findings = new FindingsDialog((finding, grade) => {
       this.room.answer(finding, grade);
     });
-    this.element.append(this.readings.column, this.readings.words, this.findings.element);
+    this.element.append(
+      this.readings.column,
+      this.drill.element,
+      this.readings.words,
+      this.findings.element,
+    );
     this.controls.hidden = true;
     this.element.hidden = true;
     this.listen(signal);
@@ -128,6 +136,11 @@ export class ScopeDesk {
   /** Whether the exercise is led from here. */
   get isOn(): boolean {
     return this.plan !== undefined;
+  }
+
+  /** What the host said of it last. */
+  get told(): ScopeMessage | undefined {
+    return this.scope;
   }
 
   begin(exercise: ExerciseMessage): void {
@@ -155,6 +168,7 @@ export class ScopeDesk {
       this.plan.lesions,
       exercise.bodies.map((one) => one.name),
     );
+    this.picture.setBeads([]);
     this.findings.set(this.plan.findings);
     for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
@@ -267,9 +281,18 @@ export class ScopeDesk {
     if (plan === undefined) return;
     const wanted = plan.portals[this.hands[0].portal]?.name ?? "";
     this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted });
+    this.showDrill(plan, scope);
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
     this.element.dataset["triangles"] = String(budget?.triangles ?? 0);
+  }
+
+  private showDrill(plan: Plan, scope: ScopeMessage | undefined): void {
+    const state = scope?.drill ?? null;
+    this.drill.show(plan, plan.drill, state, scope?.in_joint[scope.hand] === 1);
+    if (plan.drill === null || state === null) return;
+    const helps = this.exercise?.mode === "practice";
+    this.picture?.setBeads(beadsOf(plan, plan.drill, state, helps));
   }
 
   dispose(): void {

@@ -161,8 +161,8 @@ export class LooseBodies {
 }
 
 /** Inside out, as the joint's wall is, so that the same material shows its outside. */
-function ballGeometry(radiusMm: number): THREE.BufferGeometry {
-  const geometry = new THREE.IcosahedronGeometry(radiusMm, 5);
+export function ballGeometry(radiusMm: number, detail = 5): THREE.BufferGeometry {
+  const geometry = new THREE.IcosahedronGeometry(radiusMm, detail);
   const position = geometry.getAttribute("position");
   const count = position.count;
   const normal = geometry.getAttribute("normal");

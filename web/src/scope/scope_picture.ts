@@ -7,6 +7,8 @@ import type { BodyPose, Vec3 } from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { ScopeBackdrop } from "./scope_backdrop";
+import { ScopeBeads } from "./scope_beads";
+import type { Bead } from "./scope_drill_model";
 import { lesionUniforms, LooseBodies, setLesions, type Lesion } from "./scope_lesions";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 
@@ -43,6 +45,7 @@ export class ScopePicture {
   private readonly lesions = lesionUniforms();
   private wrong: readonly Lesion[] = [];
   private readonly loose: LooseBodies;
+  private readonly beads: ScopeBeads;
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly small = smallContext();
   private drawn = 0;
@@ -62,7 +65,8 @@ export class ScopePicture {
     );
     this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
-    this.scene.add(this.backdrop.mesh, this.loose.group);
+    this.beads = new ScopeBeads(this.lens);
+    this.scene.add(this.backdrop.mesh, this.loose.group, this.beads.group);
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
@@ -78,12 +82,19 @@ export class ScopePicture {
   setLesions(lesions: readonly Lesion[], bodies: readonly string[]): void {
     this.wrong = lesions;
     this.loose.set(lesions, bodies);
+    this.beads.setBodies(bodies);
+  }
+
+  /** Marks of an exercise. */
+  setBeads(beads: readonly Bead[]): void {
+    this.beads.set(beads);
   }
 
   /** The bones have moved, or the scope has gone to another joint. */
   lay(joint: string, poses: readonly BodyPose[]): void {
     setLesions(this.lesions, this.wrong, joint);
     this.loose.lay(joint, poses);
+    this.beads.lay(poses);
   }
 
   /**
@@ -110,7 +121,7 @@ export class ScopePicture {
       .addScaledVector(right.value, LAMP_RIGHT_MM);
     for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
-    this.loose.group.visible = skin === undefined;
+    this.loose.group.visible = this.beads.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
     if (rod !== undefined) {
       this.rod.position.set(...rod.tipMm);
@@ -142,6 +153,7 @@ export class ScopePicture {
   dispose(): void {
     this.backdrop.dispose();
     this.loose.dispose();
+    this.beads.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();

@@ -76,13 +76,16 @@ export class ScopeReadings {
     setText(
       this.status,
       `Scope ${where(0)} · probe ${where(1)} · moving the ${moved === 0 ? "scope" : "probe"} · ` +
-        `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · pull-outs ${scope?.pull_outs ?? 0} · ` +
-        "generated",
+        (plan.drill === null
+          ? `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · `
+          : "") +
+        `pull-outs ${scope?.pull_outs ?? 0} · generated`,
     );
   }
 
   /** Those of one joint, ticked off where they were seen. */
   showPoints(plan: Plan, scope: ScopeMessage | undefined, joint: string): void {
+    this.list.hidden = this.listTitle.hidden = plan.drill !== null; // the exercises are the list
     const points = plan.points.filter((point) => point.joint === joint);
     const seen = points.filter((point) => scope?.points_seen.includes(point.number) ?? false);
     const name = joint.charAt(0).toUpperCase() + joint.slice(1);

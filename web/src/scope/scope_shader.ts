@@ -64,6 +64,7 @@ const FRAGMENT = /* glsl */ `
 precision highp float;
 uniform vec3 eye, axis, lamp;
 uniform float isMetal, exposure;
+uniform vec4 shines;
 uniform vec3 middle;
 varying vec3 vAt;
 varying vec3 vNormal;
@@ -184,6 +185,8 @@ void main() {
   coat += 0.7 * pow(max(dot(film, h2), 0.0), 420.0);
   colour += (1.0 - isMetal) * e * step(0.0, nl) * 2.4 * coat * wet;
   colour += 0.16 * e * fresnel * vec3(0.93, 0.98, 1.05);
+  // A mark shines by itself, whatever the lamp does.
+  colour = mix(colour, shines.rgb * (0.35 + 0.65 * max(dot(smooth_n, view), 0.0)) / exposure, 0.85 * shines.a);
   // Water between.
   colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));
   // The camera: its exposure, darker at the rim, filmic, a little noise in the dark.
@@ -209,6 +212,7 @@ export function wetMaterial(
       ...lesions,
       isMetal: { value: isMetal ? 1 : 0 },
       middle: { value: middle },
+      shines: { value: new THREE.Vector4() },
     },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,

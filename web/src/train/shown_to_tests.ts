@@ -3,7 +3,8 @@
 //
 // `window.carpus`: for tests and screenshots, what is shown; never a way to act.
 import type { Headset } from "../headset";
-import type { BodyPose, ExerciseMessage, SnapshotMessage, Vec3 } from "../protocol";
+import type { BodyPose, ExerciseMessage, ScopeMessage, SnapshotMessage, Vec3 } from "../protocol";
+import type { ScopeDesk } from "../scope";
 import type { Sound, SoundState } from "../sound";
 import type { Theatre } from "../theatre";
 import type { WhatIsSeen } from "./what_is_seen";
@@ -12,6 +13,7 @@ declare global {
   interface Window {
     carpus?: {
       snapshot(): SnapshotMessage | undefined;
+      scope(): ScopeMessage | undefined;
       exercise(): ExerciseMessage | undefined;
       /** By the body's name, as the host told them last. */
       bodyPoses(): Readonly<Record<string, BodyPose>>;
@@ -28,11 +30,13 @@ declare global {
 export function showToTests(
   theatre: Theatre,
   seen: WhatIsSeen,
+  scope: ScopeDesk,
   sound: Sound,
   headset: Headset,
 ): () => void {
   window.carpus = {
     snapshot: () => seen.latest,
+    scope: () => scope.told,
     exercise: () => seen.doing,
     bodyPoses: () => seen.bodyPoses(),
     pagePoint: (mm) => theatre.pagePoint(mm),

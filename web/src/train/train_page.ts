@@ -107,7 +107,10 @@ export class TrainPage {
     this.panels.start.open();
     this.cases = this.makeCaseChoice();
     this.connection = this.connect();
-    this.stops = [showToTests(this.theatre, this.seen, this.sound, this.headset), this.startLoop()];
+    this.stops = [
+      showToTests(this.theatre, this.seen, this.scope, this.sound, this.headset),
+      this.startLoop(),
+    ];
   }
 
   private makeCaseChoice(): CaseChoice {

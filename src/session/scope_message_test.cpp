@@ -1,0 +1,106 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "session/scope_message.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "instruments/instrument.hpp"
+
+namespace carpus::session {
+namespace {
+
+procedure::Procedure arthroscopy() {
+  procedure::Procedure made;
+  made.tray = {instruments::instrument_of("arthroscope_1_9_30").value()};
+  return made;
+}
+
+procedure::Procedure exercises() {
+  procedure::Procedure made = arthroscopy();
+  made.drill.emplace();
+  made.drill->hold = {2, 7, 11};
+  made.drill->hold_s = 3;
+  made.drill->touch = {8};
+  made.drill->line = {8, 11, 16};
+  return made;
+}
+
+/// The joint lies below 1 mm.
+Grid<float> wall() {
+  Grid<float> made(GridGeometry{{40, 8, 8}, {1, 1, 1}, {-5, -4, -4}});
+  std::size_t at = 0;
+  for (int z = 0; z < 8; ++z) {
+    for (int i = 0; i < 40 * 8; ++i) made.values()[at++] = static_cast<float>(z - 4 - 1);
+  }
+  return made;
+}
+
+cases::CaseData with_places() {
+  cases::CaseData data;
+  data.bones.emplace_back();
+  data.bones.back().bone = BoneId::Radius;
+  cases::ArthroscopicMap map;
+  map.joints.push_back({"radiocarpal", "radiocarpal joint", wall(), 0, 0});
+  double at = 0;
+  for (const int number : {2, 7, 8, 11, 16}) {
+    cases::TourPoint place;
+    place.number = number;
+    place.at = {at, 0, 0};
+    at += 5;
+    map.points.push_back(place);
+  }
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  return data;
+}
+
+simulation::Snapshot holding(procedure::Mode mode) {
+  simulation::Snapshot now;
+  now.mode = mode;
+  now.scope.hand = 0;
+  now.scope.hold_ticks = 1500;
+  now.scope.facts.drill.held = 1;
+  now.scope.is_level = false;
+  now.scope.is_probe_seen = false;
+  return now;
+}
+
+TEST(ScopeMessage, TellsHowFarAnExerciseIs) {
+  const cases::CaseData data = with_places();
+  const auto message = scope_message(data, exercises(), holding(procedure::Mode::Practice));
+  ASSERT_TRUE(message && message->drill);
+  EXPECT_EQ(message->drill->held, 1);
+  EXPECT_DOUBLE_EQ(message->drill->hold_share, 0.5);
+  EXPECT_FALSE(message->drill->level);
+  EXPECT_FALSE(message->drill->probe_seen);
+}
+
+TEST(ScopeMessage, AnAssessedHandSeesByItselfWhatIsWrongWithThePicture) {
+  const cases::CaseData data = with_places();
+  const auto message = scope_message(data, exercises(), holding(procedure::Mode::Assessed));
+  ASSERT_TRUE(message && message->drill);
+  EXPECT_TRUE(message->drill->level);
+  EXPECT_TRUE(message->drill->probe_seen);
+}
+
+TEST(ScopeMessage, OtherArthroscopiesHaveNoExercises) {
+  const cases::CaseData data = with_places();
+  const auto message = scope_message(data, arthroscopy(), holding(procedure::Mode::Practice));
+  ASSERT_TRUE(message);
+  EXPECT_FALSE(message->drill);
+}
+
+TEST(ScopeMessage, TheLineOfAnExerciseIsToldPointByPoint) {
+  const cases::CaseData data = with_places();
+  const auto plan = arthroscopy_of(data, exercises(), 1);
+  ASSERT_TRUE(plan && plan->drill);
+  EXPECT_EQ(plan->drill->hold, (std::vector<std::int64_t>{2, 7, 11}));
+  // From 8 by 11 to 16: 10 mm, a point each, on the wall.
+  ASSERT_EQ(plan->drill->line_mm.size(), 11U);
+  EXPECT_NEAR(distance(plan->drill->line_mm.front(), {10, 0, 1}), 0, 1e-6);
+  EXPECT_NEAR(distance(plan->drill->line_mm.back(), {20, 0, 1}), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace carpus::session
