@@ -34,6 +34,8 @@ inline soft_tissue::SoftTissue small_tissue() {
   c.label = 3;
   c.body = tetrahedron();
   c.vertex_thickness_mm = {0, 0.5F};
+  c.pressed_area_mm2 = 0.25;
+  c.pressed_thickness_mm = 0.5;
   tissue.cartilage = {c};
   tissue.disc.body = tissue.disc.middle = tetrahedron();
   tissue.spaces = {{"radiocarpal",

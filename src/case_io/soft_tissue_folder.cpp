@@ -91,6 +91,8 @@ Json json_of(const Cartilage& c, const std::string& bone, const std::string& fil
           {"area_mm2", figure(c.area_mm2)},
           {"mean_thickness_mm", figure(c.mean_thickness_mm)},
           {"greatest_thickness_mm", figure(c.greatest_thickness_mm)},
+          {"pressed_area_mm2", figure(c.pressed_area_mm2)},
+          {"pressed_thickness_mm", figure(c.pressed_thickness_mm)},
           {"thickness_range_mm", json_of(c.thickness_range_mm)},
           {"vertex_thickness_mm", thickness}};
 }
@@ -218,6 +220,10 @@ Cartilage cartilage_from(const fs::path& folder, const Json& json) {
   c.area_mm2 = number_within(json.at("area_mm2"), 0, kMost);
   c.mean_thickness_mm = length_from(json.at("mean_thickness_mm"));
   c.greatest_thickness_mm = length_from(json.at("greatest_thickness_mm"));
+  if (json.contains("pressed_area_mm2")) {  // older ones do not tell
+    c.pressed_area_mm2 = number_within(json.at("pressed_area_mm2"), 0, kMost);
+    c.pressed_thickness_mm = length_from(json.at("pressed_thickness_mm"));
+  }
   c.thickness_range_mm = range_from(json.at("thickness_range_mm"));
   c.vertex_thickness_mm =
       list_from<float>(json.at("vertex_thickness_mm"), std::size_t{1} << 22U,

@@ -68,6 +68,8 @@ TEST_F(SoftTissueFolder, ComesBackAsItWas) {
   EXPECT_EQ(s.anchors.at(0).label, 3);
   EXPECT_EQ(s.anchors.at(1).ligament, "VRUL");
   EXPECT_EQ(back->cartilage.at(0).vertex_thickness_mm, tissue.cartilage[0].vertex_thickness_mm);
+  EXPECT_EQ(back->cartilage[0].pressed_area_mm2, tissue.cartilage[0].pressed_area_mm2);
+  EXPECT_EQ(back->cartilage[0].pressed_thickness_mm, tissue.cartilage[0].pressed_thickness_mm);
   EXPECT_EQ(back->spaces.at(0).lining, tissue.spaces[0].lining);
   EXPECT_EQ(back->disc.body.vertices, tissue.disc.body.vertices);
   EXPECT_TRUE(fs::exists(folder_ / "soft_tissue" / "cartilage_scaphoid.ply"));

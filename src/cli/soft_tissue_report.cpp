@@ -48,6 +48,12 @@ std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue, const cases
           c.area_mm2, c.mean_thickness_mm, c.greatest_thickness_mm, c.thickness_range_mm.low,
           c.thickness_range_mm.high);
   }
+  for (const soft_tissue::Cartilage& c : tissue.cartilage) {
+    if (!(c.pressed_area_mm2 > 0)) continue;
+    print(out, "%s: %.0f %% of it pressed by what lies displaced, there %.2f mm in the mean\n",
+          bone_name(data, c.label).c_str(), 100 * c.pressed_area_mm2 / c.area_mm2,
+          c.pressed_thickness_mm);
+  }
   print(out, "\n%-30s %10s %8s\n", "space", "volume mm3", "facets");
   for (const soft_tissue::Space& s : tissue.spaces) {
     print(out, "%-30s %10.0f %8zu\n", s.name.c_str(), s.volume_mm3, s.surface.facets.size());

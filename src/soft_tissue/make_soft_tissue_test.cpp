@@ -16,6 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 const Ligament* find(const SoftTissue& tissue, const std::string& id) {
   for (const Ligament& l : tissue.ligaments) {
@@ -126,6 +127,50 @@ TEST(MakeSoftTissue, FusedAndMissingBonesAreNamedAndTheRestIsMade) {
   EXPECT_EQ(find(tissue, "LRL"), nullptr);
   EXPECT_NE(find(tissue, "RSC"), nullptr);
   EXPECT_FALSE(tissue.disc.body.facets.empty());
+}
+
+const Cartilage& of_label(const SoftTissue& tissue, std::uint8_t label) {
+  return *std::find_if(tissue.cartilage.begin(), tissue.cartilage.end(),
+                       [&](const Cartilage& c) { return c.label == label; });
+}
+
+/// How much two closed bodies have in common.
+double shared_mm3(const TriangleMesh& a, const TriangleMesh& b) {
+  constexpr double kVoxelMm = 0.2;
+  const Aabb box = bounds_of(a.vertices);
+  GridGeometry g;
+  for (std::size_t k = 0; k < 3; ++k) {
+    g.size[k] = static_cast<int>(box.extent()[k] / kVoxelMm) + 2;
+  }
+  g.spacing = {kVoxelMm, kVoxelMm, kVoxelMm};
+  g.origin = box.low;
+  const Grid<std::uint8_t> in_a = voxels_inside(a, g);
+  const Grid<std::uint8_t> in_b = voxels_inside(b, g);
+  std::size_t shared = 0;
+  for (std::size_t i = 0; i < g.voxel_count(); ++i) shared += in_a[i] & in_b[i];
+  return static_cast<double>(shared) * kVoxelMm * kVoxelMm * kVoxelMm;
+}
+
+TEST(MakeSoftTissue, CartilageOfADisplacedPieceIsThatOfTheWholeBonePressedWhereItLies) {
+  constexpr double kWornMm = 0.6;  // of which two layers of 0.75 mm have to lie
+  const SoftTissue in_place = make_soft_tissue(test::broken_case(0, kWornMm));
+  const SoftTissue displaced = make_soft_tissue(test::broken_case(3.0, kWornMm));
+  for (const Cartilage& c : in_place.cartilage) EXPECT_EQ(c.pressed_area_mm2, 0);
+  EXPECT_LE(displaced.deepest_in_bone_mm, 0.1);
+  EXPECT_THAT(displaced.problems, Not(Contains(HasSubstr("cartilage"))));
+  const Cartilage& piece = of_label(displaced, test::kDistalPiece);
+  const Cartilage& trapezium = of_label(displaced, static_cast<std::uint8_t>(BoneId::Trapezium));
+  for (const Cartilage* pressed : {&piece, &trapezium}) {
+    const Cartilage& before = of_label(in_place, pressed->label);
+    // It faces what it faced, and has not lost what has been pressed.
+    EXPECT_NEAR(pressed->area_mm2, before.area_mm2, 0.05 * before.area_mm2);
+    EXPECT_GE(pressed->mean_thickness_mm, before.mean_thickness_mm);
+    EXPECT_LE(pressed->greatest_thickness_mm, pressed->thickness_range_mm.high);
+    EXPECT_GT(pressed->pressed_area_mm2, 0.4 * pressed->area_mm2);
+    EXPECT_LT(pressed->pressed_thickness_mm, 0.5);
+    EXPECT_EQ(check_surface(pressed->body), SurfaceStatus::Ok);
+  }
+  EXPECT_EQ(shared_mm3(piece.body, trapezium.body), 0);
 }
 
 }  // namespace

@@ -48,14 +48,18 @@ struct Ligament {
   TriangleMesh body;
 };
 
-/// Cartilage of one bone or part: a closed sheet on its surface.
+/// Cartilage of one bone or part: a closed sheet on its surface, as it lies. Where a displaced
+/// piece lies nearer to its neighbour than both layers are thick, both are pressed thinner than
+/// they are unloaded.
 struct Cartilage {
   std::uint8_t label = 0;
   TriangleMesh body;
   std::vector<float> vertex_thickness_mm;  ///< by the vertices of the *bone's* surface; 0 is bare
   double area_mm2 = 0;                     ///< of the bone that it covers
-  double mean_thickness_mm = 0;            ///< over that, without the tapered edge
-  double greatest_thickness_mm = 0;
+  double mean_thickness_mm = 0;            ///< over that, without the tapered edge; unloaded
+  double greatest_thickness_mm = 0;        ///< unloaded
+  double pressed_area_mm2 = 0;      ///< of the area, where it lies pressed by more than a tenth
+  double pressed_thickness_mm = 0;  ///< as it lies there, in the mean; 0 where nothing presses
   Range thickness_range_mm;
 };
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "anatomy/reduction.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "mesh/normals.hpp"
@@ -23,11 +25,16 @@ constexpr double kLeastLevel = 0.02;
 constexpr double kThinnestMm = 0.05;
 constexpr double kApartMm = 0.02;  ///< between two layers, each
 constexpr int kSmoothings = 8;
+constexpr int kThicknessSmoothings = 3;
+/// Thinner than this share of what it was, cartilage is pressed; less is the smoothing's.
+constexpr double kPressedShare = 0.9;
 constexpr double kFullShare = 0.75;  ///< of the smoothed mask, where the layer is whole
 
 using Motion = Pose<frame::Patient, frame::Bone>;
+using Leading = Pose<frame::Bone, frame::Bone>;
 
-/// A surface that another may face, and where it is in each posture.
+/// A surface that another may face, and where it is in each posture: a piece of a broken bone where
+/// it was in the whole one.
 struct Opponent {
   const TriangleMesh* surface = nullptr;
   const fields::TriangleTree* tree = nullptr;
@@ -35,6 +42,41 @@ struct Opponent {
   std::optional<BoneId> bone;  ///< empty: the disc
   std::vector<Motion> motions;
 };
+
+/// How each bone goes back to where it was before a break led its pieces apart; empty where none
+/// did. Cartilage grew on the whole bone: its thickness is that joint's and not the gap's that is
+/// left. A gap alone is bone that was lost, and no way that a piece went.
+std::vector<Leading> leading_back(const cases::CaseData& data) {
+  const cases::Bone* proximal = cases::find_bone(data, BoneId::Scaphoid, BonePart::Proximal);
+  const cases::Bone* distal = cases::find_bone(data, BoneId::Scaphoid, BonePart::Distal);
+  if (proximal == nullptr || distal == nullptr) return {};
+  const auto faces = anatomy::reduction_of(proximal->surface, distal->surface);
+  if (!faces) return {};
+  anatomy::FractureOffset across = faces->offset({});
+  across.gap_mm = 0;
+  if (!anatomy::lies_apart(across)) return {};
+  std::vector<Leading> leading(data.bones.size());
+  leading[static_cast<std::size_t>(distal - data.bones.data())] =
+      faces->first_from_second_reduced();
+  return leading;
+}
+
+/// From each vertex to the nearest other bone, or the disc, as all lies in the scan.
+std::vector<double> room_as_scanned(const Opponent& own,
+                                    const std::vector<Opponent>& opponents,
+                                    double farthest) {
+  std::vector<double> room(own.surface->vertices.size(), farthest);
+  for (const Opponent& o : opponents) {
+    if (o.bone && *o.bone == *own.bone) continue;
+    for (std::size_t v = 0; v < room.size(); ++v) {
+      const Vec3& at = own.surface->vertices[v];
+      if (!o.box.grown(room[v]).contains(at)) continue;
+      const auto hit = o.tree->nearest(at, room[v]);
+      if (hit) room[v] = std::sqrt(hit->squared_distance);
+    }
+  }
+  return room;
+}
 
 std::vector<anatomy::HandPose> postures_of(const TabledCartilage& tabled,
                                            const cases::HandMotion& motion) {
@@ -168,12 +210,14 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
                                      const std::vector<Sheet>& ligaments) {
   const cases::CaseData& data = bones.data();
   const std::vector<anatomy::HandPose> postures = postures_of(tabled, data.hand_motion);
+  const std::vector<Leading> leading = leading_back(data);
   std::vector<Opponent> opponents;
   for (std::size_t i = 0; i < data.bones.size(); ++i) {
     const cases::Bone& bone = data.bones[i];
     Opponent o{&bone.surface, &bones.tree(i), bounds_of(bone.surface.vertices), bone.bone, {}};
     for (const anatomy::HandPose& p : postures) {
-      o.motions.push_back(data.hand_motion.pose_of(bone.bone, p));
+      const Motion motion = data.hand_motion.pose_of(bone.bone, p);
+      o.motions.push_back(leading.empty() ? motion : motion * leading[i]);
     }
     opponents.push_back(std::move(o));
   }
@@ -206,7 +250,8 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
           const Motion& own = opponents[i].motions[p];
           double nearest = farthest;
           bool does_face = false;
-          for (const Opponent& o : opponents) {
+          for (std::size_t j = 0; j < opponents.size(); ++j) {
+            const Opponent& o = opponents[j];
             if (o.bone && *o.bone == bone.bone) continue;
             const auto back = o.motions[p].inverse();
             const Vec3 at = (back * (own * Point<frame::Bone>{surface.vertices[v]})).v;
@@ -214,6 +259,8 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
             const auto hit = o.tree->nearest(at, nearest);
             if (!hit) continue;
             nearest = std::sqrt(hit->squared_distance);
+            // As scanned no bone is in another; led back, one may be, and there was no room.
+            if (!leading.empty() && o.bone && bones.exact_mm(j, at, 0.01) < 0) nearest = 0;
             const Vec3 normal = back.rotation * (own.rotation * normals[v]);
             const Vec3 way = normalized_or(hit->point - at, normal);
             does_face = dot(way, normal) > kOpposed &&
@@ -248,14 +295,28 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
       for (double& l : level) {
         if (std::abs(l) < kLeastLevel) l = -kLeastLevel;
       }
-      std::vector<double> target(mask.size());
-      const auto limit = [&](std::size_t v) {
-        return std::max(kThinnestMm, std::min(0.5 * gap[v], other_part[v]) - kApartMm);
+      const auto limit = [&](const std::vector<double>& room, std::size_t v) {
+        return std::max(kThinnestMm, std::min(0.5 * room[v], other_part[v]) - kApartMm);
       };
+      std::vector<double> grown(mask.size());
       for (std::size_t v = 0; v < mask.size(); ++v) {
-        target[v] = std::min(thickness.mm * size, limit(v));
+        grown[v] = std::min(thickness.mm * size, limit(gap, v));
       }
-      smooth_values(target, neighbours, 3);
+      smooth_values(grown, neighbours, kThicknessSmoothings);
+      for (std::size_t v = 0; v < mask.size(); ++v) grown[v] = std::min(grown[v], limit(gap, v));
+      // As it lies it is pressed into the room that there is.
+      std::vector<double> lying = grown;
+      if (!leading.empty()) {
+        const std::vector<double> room = room_as_scanned(opponents[i], opponents, farthest);
+        std::vector<double> share(mask.size());
+        for (std::size_t v = 0; v < mask.size(); ++v) {
+          share[v] = std::min(1.0, limit(room, v) / grown[v]);
+        }
+        smooth_values(share, neighbours, kThicknessSmoothings);
+        for (std::size_t v = 0; v < mask.size(); ++v) {
+          lying[v] = std::min(share[v] * grown[v], limit(room, v));
+        }
+      }
       Cartilage c;
       c.label = bone.label;
       c.vertex_thickness_mm.assign(mask.size(), 0);
@@ -263,16 +324,22 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
       double whole = 0;
       for (std::size_t v = 0; v < mask.size(); ++v) {
         if (level[v] <= 0) continue;
-        const double mm = std::max(kThinnestMm, level[v] * std::min(target[v], limit(v)));
+        const double mm = std::max(kThinnestMm, level[v] * lying[v]);
+        const double unpressed_mm = std::max(kThinnestMm, level[v] * grown[v]);
         c.vertex_thickness_mm[v] = static_cast<float>(mm);
         c.area_mm2 += areas[v];
-        c.greatest_thickness_mm = std::max(c.greatest_thickness_mm, mm);
+        c.greatest_thickness_mm = std::max(c.greatest_thickness_mm, unpressed_mm);
+        if (mm < kPressedShare * unpressed_mm) {
+          c.pressed_area_mm2 += areas[v];
+          c.pressed_thickness_mm += mm * areas[v];
+        }
         if (level[v] < 1) continue;
         whole += areas[v];
-        c.mean_thickness_mm += mm * areas[v];
+        c.mean_thickness_mm += unpressed_mm * areas[v];
       }
       if (!(c.area_mm2 > 0)) continue;
       if (whole > 0) c.mean_thickness_mm /= whole;
+      if (c.pressed_area_mm2 > 0) c.pressed_thickness_mm /= c.pressed_area_mm2;
       c.thickness_range_mm = {thickness.range.low * size, thickness.range.high * size};
       c.body = raised_sheet(surface, level, c.vertex_thickness_mm);
       if (!c.body.facets.empty()) made[i] = std::move(c);

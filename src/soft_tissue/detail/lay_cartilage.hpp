@@ -13,7 +13,8 @@ namespace carpus::soft_tissue::detail {
 
 /// One entry a bone of the case that has any, carpal bones and forearm only. Faces count that meet
 /// in the scan or in one of the table's postures; none grows under a ligament, and two layers never
-/// fill more than the joint.
+/// fill more than the joint. Where a broken bone's pieces lie apart faces and thickness are those
+/// of the bone with its fracture faces met, and the body is pressed into what room there is now.
 /// @param disc  closed; may be empty.
 [[nodiscard]] std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
                                                    double size,
