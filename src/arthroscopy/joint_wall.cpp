@@ -3,9 +3,13 @@
 #include "arthroscopy/joint_wall.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "arthroscopy/portal_table.hpp"
+#include "cases/joint_under_block.hpp"
 #include "fields/distance_field.hpp"
+#include "geometry/aabb.hpp"
+#include "mesh/simplify_in_states.hpp"
 
 namespace carpus::arthroscopy {
 namespace {
@@ -15,6 +19,10 @@ using soft_tissue::Lining;
 /// A wall vertex belongs to a ligament whose strand is so near.
 constexpr double kStrandMm = 3.0;
 constexpr double kFarMm = 4.0;
+/// With a probe's 672 and a loose body's 720 less than 15 000 triangles are drawn.
+constexpr std::size_t kMostFacets = 13500;
+/// So far scaphoid and triquetrum may part from the lunate: Geissler IV, a scope passes [E].
+constexpr double kPartedMm = 3.2;
 
 struct Nearest {
   std::uint8_t body = 0;
@@ -73,10 +81,6 @@ Vec3 fibre_at(const soft_tissue::SoftTissue& tissue, const Vec3& at) {
   return normalized_or(way, {});
 }
 
-}  // namespace
-
-namespace {
-
 JointWall wall_of(const cases::CaseData& data,
                   const soft_tissue::SoftTissue& tissue,
                   const soft_tissue::Space& space,
@@ -100,6 +104,62 @@ JointWall wall_of(const cases::CaseData& data,
   return wall;
 }
 
+using BodyMotion = Pose<frame::Patient, frame::Bone>;
+
+/// The wall's vertices where these motions of the case's bones lay them, as a page does.
+std::vector<Vec3> laid(const JointWall& wall, const std::vector<BodyMotion>& motions) {
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < wall.surface.vertices.size(); ++i) {
+    const Point<frame::Bone> at{wall.surface.vertices[i]};
+    const Vec3 proximal = (motions[wall.proximal[i]] * at).v;
+    const Vec3 distal = (motions[wall.distal[i]] * at).v;
+    places.push_back(proximal + (distal - proximal) * static_cast<double>(wall.distal_share[i]));
+  }
+  return places;
+}
+
+/// As scanned, pulled at most, and so with the proximal row's bones apart as torn ligaments let
+/// them.
+std::array<std::vector<Vec3>, 3> states_of(const cases::CaseData& data, const JointWall& wall) {
+  anatomy::HandPose pulled = data.hand_motion.scan;
+  pulled.traction_n = PortalTable::generic().traction_n;
+  std::vector<BodyMotion> opened;
+  std::vector<BodyMotion> parted;
+  const cases::Bone* lunate = cases::find_bone(data, BoneId::Lunate, BonePart::Whole);
+  for (const cases::Bone& bone : data.bones) {
+    opened.push_back(cases::pose_under_block(data.hand_motion, bone.bone, pulled));
+    parted.push_back(opened.back());
+    if (lunate == nullptr || bone.bone == BoneId::Lunate) continue;
+    if (row_of(bone.bone) != Row::Proximal) continue;
+    const Vec3 away =
+        bounds_of(bone.surface.vertices).centre() - bounds_of(lunate->surface.vertices).centre();
+    parted.back().translation += normalized_or(away, {}) * kPartedMm;
+  }
+  return {wall.surface.vertices, laid(wall, opened), laid(wall, parted)};
+}
+
+template <typename T>
+void keep_only(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
+  std::vector<T> left;
+  for (const std::uint32_t v : kept) left.push_back(values[v]);
+  values = std::move(left);
+}
+
+/// So few facets as are drawn in time. What is flat in the scan may be drawn out when the joint
+/// opens: simplified by its scanned shape alone the wall stood before the scope in spikes.
+void simplify(JointWall& wall, const cases::CaseData& data) {
+  const auto states = states_of(data, wall);
+  mesh::InStates fewer = mesh::simplify_in_states(wall.surface.facets, states, kMostFacets);
+  wall.surface.facets = std::move(fewer.facets);
+  wall.simplified_by_mm = fewer.error_mm;
+  keep_only(wall.surface.vertices, fewer.kept);
+  keep_only(wall.lining, fewer.kept);
+  keep_only(wall.fibre, fewer.kept);
+  keep_only(wall.proximal, fewer.kept);
+  keep_only(wall.distal, fewer.kept);
+  keep_only(wall.distal_share, fewer.kept);
+}
+
 }  // namespace
 
 std::vector<JointWall> make_joint_walls(const cases::CaseData& data,
@@ -109,6 +169,7 @@ std::vector<JointWall> make_joint_walls(const cases::CaseData& data,
     for (const soft_tissue::Space& space : tissue.spaces) {
       if (space.id == joint.id && !space.surface.facets.empty()) {
         walls.push_back(wall_of(data, tissue, space, joint));
+        simplify(walls.back(), data);
       }
     }
   }

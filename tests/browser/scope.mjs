@@ -14,6 +14,16 @@ const TRAINEE = "Browser test, scope";
 const MOST_CALLS = 3;
 const MOST_TRIANGLES = 15_000;
 
+/** Of what the scope's picture shows now. */
+async function expectDrawnInTime(page, joint) {
+  const [calls, triangles] = await page
+    .locator(".scope")
+    .evaluate((e) => [Number(e.dataset.calls), Number(e.dataset.triangles)]);
+  process.stdout.write(`  scope, ${joint}: ${calls} calls, ${triangles} triangles\n`);
+  expect(calls > 0 && calls <= MOST_CALLS, `${joint}: ${calls} draw calls`);
+  expect(triangles > 1000 && triangles <= MOST_TRIANGLES, `${joint}: ${triangles} triangles`);
+}
+
 async function hold(page, key, ms) {
   await page.keyboard.down(key);
   await page.waitForTimeout(ms);
@@ -82,12 +92,7 @@ export async function arthroscopy(browser, station) {
     }
     const seen = await page.locator(".scope-points .is-seen").count();
     expect(seen >= 2, `${seen} places were seen`);
-    const [calls, triangles] = await page
-      .locator(".scope")
-      .evaluate((e) => [Number(e.dataset.calls), Number(e.dataset.triangles)]);
-    process.stdout.write(`  scope: ${calls} calls, ${triangles} triangles\n`);
-    expect(calls > 0 && calls <= MOST_CALLS, `${calls} draw calls`);
-    expect(triangles <= MOST_TRIANGLES, `${triangles} triangles`);
+    await expectDrawnInTime(page, "radiocarpal");
   });
   await check(page, "the probe presses, and the end is scored", async () => {
     await page.keyboard.press("h");
@@ -158,6 +163,7 @@ export async function examination(browser, station) {
     }
     const seen = await page.locator(".scope-points .is-seen").count();
     expect(seen >= 1, `${seen} midcarpal places were seen`);
+    await expectDrawnInTime(page, "midcarpal");
   });
   await check(page, "what was found is reported, and judged", async () => {
     await page.keyboard.press("9");
