@@ -28,6 +28,7 @@ struct PhantomArguments {
   std::string format = "dicom";
   std::vector<std::string> conditions;
   double severity = 0.5;
+  std::vector<int> filled_voxels;
   bool force = false;
 };
 
@@ -39,6 +40,10 @@ void run(const PhantomArguments& arguments) {
   options.side = side_of(arguments.side).value();
   for (const std::string& name : arguments.conditions) {
     phantom::apply(phantom::condition_of(name).value(), arguments.severity, options.scan);
+  }
+  if (!arguments.filled_voxels.empty()) {
+    options.filled_voxels = {arguments.filled_voxels[0], arguments.filled_voxels[1],
+                             arguments.filled_voxels[2]};
   }
   const auto format =
       arguments.format == "dicom" ? phantom::CtFormat::Dicom : phantom::CtFormat::Nifti;
@@ -88,6 +93,12 @@ void add_phantom_command(CLI::App& app) {
   command->add_option("--severity", arguments->severity, "Of all that --with names")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command
+      ->add_option("--filled-voxels", arguments->filled_voxels,
+                   "Voxels along x, y and z of a scan that the bones fill to its edges, to measure "
+                   "what large scans cost")
+      ->expected(3)
+      ->check(CLI::Range(16, 1024));
   command->add_flag("--force", arguments->force, "Replace the folder where it is there already");
   command->callback([arguments] { run(*arguments); });
 }

@@ -33,6 +33,13 @@ namespace {
 /// The hand is extended by about 28 degrees in the model's frame; the scanner's table lies midway.
 constexpr double kBetweenForearmAndHandDegrees = 14.0;
 constexpr double kAirAroundMm = 4.0;
+/// Around the bones where they fill the field; what reconstruction keeps of it, too.
+constexpr double kFleshAroundMm = 4.0;
+/// Spacing of voxels that scanners have.
+constexpr double kFinestMm = 0.15;
+constexpr double kCoarsestMm = 2.0;
+/// Where the bones fill the field it is smaller than a scanner's, and so are its voxels.
+constexpr double kFinestFilledMm = 0.1;
 /// Between skin and splint, of so much HU.
 constexpr double kPaddingMm = 3.0;
 constexpr double kPaddingHu = -850;
@@ -165,7 +172,7 @@ void check(const PhantomOptions& o) {
                        " is not between 0.7 and 1.4; wrists of adults are within 0.85 to 1.15");
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!(o.spacing[i] >= 0.15 && o.spacing[i] <= 2.0)) {
+    if (!(o.spacing[i] >= kFinestMm && o.spacing[i] <= kCoarsestMm)) {
       throw InvalidInput("phantom: spacing " + std::to_string(o.spacing[i]) +
                          " mm is not between 0.15 and 2 mm");
     }
@@ -248,6 +255,47 @@ Aabb hand_box(const Scene& scene) {
   return box;
 }
 
+/// What `box` has of the bones and what lies next to them.
+Aabb within_reach_of_bones(const Scene& scene, const Aabb& box) {
+  constexpr double kStepMm = 1.0;
+  const auto patient_from_wrist = scene.wrist_from_patient.inverse();
+  Aabb bones;
+  for (const Shape& shape : scene.bones.shapes()) {
+    const Aabb& own = shape.bounds;
+    for (double x = own.low.x; x <= own.high.x; x += kStepMm) {
+      for (double y = own.low.y; y <= own.high.y; y += kStepMm) {
+        for (double z = own.low.z; z <= own.high.z; z += kStepMm) {
+          const Vec3 q{x, y, z};
+          const Vec3 p = (patient_from_wrist * Point<frame::Wrist>{q * scene.scale}).v;
+          if (box.contains(p) && scene.bones.value(shape, q) < 0) bones.include(p);
+        }
+      }
+    }
+  }
+  bones = bones.grown(kFleshAroundMm);
+  for (std::size_t i = 0; i < 3; ++i) {
+    bones.low[i] = std::max(bones.low[i], box.low[i]);
+    bones.high[i] = std::min(bones.high[i], box.high[i]);
+  }
+  return bones;
+}
+
+/// The box in so many voxels.
+GridGeometry divided(const Aabb& box, const std::array<int, 3>& voxels) {
+  GridGeometry g;
+  g.size = voxels;
+  g.origin = box.low;
+  for (std::size_t i = 0; i < 3; ++i) {
+    g.spacing[i] = box.extent()[i] / voxels[i];
+    if (g.spacing[i] >= kFinestFilledMm && g.spacing[i] <= kCoarsestMm) continue;
+    throw InvalidInput("phantom: " + std::to_string(voxels[i]) + " voxels along axis " +
+                       std::to_string(i) + " of the bones would be " +
+                       std::to_string(g.spacing[i]) +
+                       " mm, not between 0.1 and 2 mm; give another number or another scale");
+  }
+  return g;
+}
+
 GridGeometry field_of_view(const Scene& scene, const PhantomOptions& options) {
   Aabb box = hand_box(scene);
   const double widest = options.scan.width_mm * scene.scale;
@@ -260,6 +308,9 @@ GridGeometry field_of_view(const Scene& scene, const PhantomOptions& options) {
     const double by = (kAirAroundMm + options.scan.cut_off_mm) * scene.scale;
     const bool is_low = Rng(options.seed ^ 0xC07ULL).uniform() < 0.5;
     (is_low ? box.low.x : box.high.x) += is_low ? by : -by;
+  }
+  if (options.filled_voxels) {
+    return divided(within_reach_of_bones(scene, box), *options.filled_voxels);
   }
   GridGeometry g;
   g.spacing = options.spacing;

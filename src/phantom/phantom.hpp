@@ -5,6 +5,7 @@
 // it says that it is simulated.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -23,7 +24,10 @@ struct PhantomOptions {
   Side side = Side::Left;
   double scale = 1.0;           ///< of the whole wrist, 0.7 to 1.4
   Vec3 spacing{0.3, 0.3, 0.5};  ///< mm; 0.15 to 2
-  ScanOptions scan;             ///< what this scanner and this patient do otherwise
+  /// Where given, the field ends 4 mm beyond the bones and is divided into so many voxels of 0.1 to
+  /// 2 mm; what a scan costs at the most is measured on it.
+  std::optional<std::array<int, 3>> filled_voxels;
+  ScanOptions scan;  ///< what this scanner and this patient do otherwise
 };
 
 struct Phantom {

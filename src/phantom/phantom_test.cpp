@@ -237,6 +237,31 @@ TEST(Phantom, LiesInThePatientAsItsPoseSays) {
   }
 }
 
+TEST(Phantom, BonesFillAScanOfAGivenSize) {
+  PhantomOptions options;
+  options.filled_voxels = {96, 80, 112};
+  const Phantom phantom = make_phantom(options);
+  const GridGeometry& g = phantom.ct.geometry();
+  ASSERT_EQ(g.size, *options.filled_voxels);
+  VoxelIndex low{g.size[0], g.size[1], g.size[2]};
+  VoxelIndex high{-1, -1, -1};
+  for (std::size_t i = 0; i < phantom.labels.values().size(); ++i) {
+    if (phantom.labels[i] == 0) continue;
+    const VoxelIndex v = g.index_of(i);
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  constexpr double kMostMm = 5.5;  // 4 mm and what a step of 1 mm misses of a corner
+  EXPECT_LE(low.x * g.spacing.x, kMostMm);
+  EXPECT_LE(low.y * g.spacing.y, kMostMm);
+  EXPECT_LE(low.z * g.spacing.z, kMostMm);
+  EXPECT_LE((g.size[0] - 1 - high.x) * g.spacing.x, kMostMm);
+  EXPECT_LE((g.size[1] - 1 - high.y) * g.spacing.y, kMostMm);
+  EXPECT_LE((g.size[2] - 1 - high.z) * g.spacing.z, kMostMm);
+  options.filled_voxels = {1000, 80, 112};
+  EXPECT_THROW((void)make_phantom(options), InvalidInput);
+}
+
 TEST(Phantom, ScalesTheWholeWrist) {
   PhantomOptions small = coarse(FractureKind::None);
   small.scale = 0.9;
