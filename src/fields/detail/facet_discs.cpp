@@ -18,6 +18,11 @@ namespace {
 /// multiplied.
 constexpr double kSlackShare = 1.0 / 2048;
 
+/// Sine of a triangle's angle below which its normal is rounding: it may point along a side, and
+/// the disc across it holds little of the triangle. A few thousand times what a product is off by,
+/// so that what is left of that is far below the slack.
+constexpr double kFlattest = 1e-11;
+
 struct Disc {
   Vec3 centre;
   double radius = 0;
@@ -30,9 +35,12 @@ Disc disc_around(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a;
   const Vec3 ac = c - a;
   const Vec3 across = cross(ab, ac);
-  disc.normal = normalized_or(across, {0, 0, 0});
+  if (squared_length(across) > kFlattest * kFlattest * squared_length(ab) * squared_length(ac)) {
+    disc.normal = normalized_or(across, {0, 0, 0});
+  }
   const double twice_squared = 2 * squared_length(across);
-  const bool is_acute = dot(ab, ac) > 0 && dot(b - a, b - c) > 0 && dot(c - a, c - b) > 0;
+  const bool is_acute = squared_length(disc.normal) > 0 && dot(ab, ac) > 0 &&
+                        dot(b - a, b - c) > 0 && dot(c - a, c - b) > 0;
   if (is_acute && twice_squared > 0) {
     disc.centre =
         a + (cross(across, ab) * squared_length(ac) + cross(ac, across) * squared_length(ab)) /
@@ -50,6 +58,16 @@ Disc disc_around(const Vec3& a, const Vec3& b, const Vec3& c) {
   }
   return disc;
 }
+
+/// A point seen from a disc.
+struct Seen {
+  float x, y, z;                       ///< from the disc's centre
+  float normal_x, normal_y, normal_z;  ///< of the disc
+  float height;                        ///< over the disc's plane
+  float off_axis;
+  float beyond;   ///< the disc's rim, off the axis
+  float squared;  ///< distance from the disc
+};
 
 float at_least_0(float x) noexcept { return x > 0.0F ? x : 0.0F; }
 
@@ -91,7 +109,8 @@ void FacetDiscs::resize(std::size_t count) {
 
 /// With h the height of p over the disc's plane and g its distance from the axis, the nearest
 /// point of the disc is sqrt(h^2 + max(0, g - radius)^2) away.
-void FacetDiscs::measure_from(const Vec3& p) noexcept {
+template <typename Judge>
+void FacetDiscs::measure_from(const Vec3& p, Judge judge) noexcept {
   const Vec3 q = p - origin_;
   const auto px = static_cast<float>(q.x);
   const auto py = static_cast<float>(q.y);
@@ -105,12 +124,14 @@ void FacetDiscs::measure_from(const Vec3& p) noexcept {
     const float height = x * normal_x_[i] + y * normal_y_[i] + z * normal_z_[i];
     const float off_axis = std::sqrt(at_least_0(x * x + y * y + z * z - height * height));
     const float beyond = at_least_0(off_axis - radius_[i]);
-    lower_[i] = height * height + beyond * beyond;
+    const float squared = height * height + beyond * beyond;
+    lower_[i] = judge(
+        {x, y, z, normal_x_[i], normal_y_[i], normal_z_[i], height, off_axis, beyond, squared});
   }
 }
 
 NearestFacet FacetDiscs::nearest(const Vec3& p, double limit_mm, std::uint32_t hint) {
-  measure_from(p);
+  measure_from(p, [](const Seen& seen) { return seen.squared; });
   NearestFacet best{limit_mm * limit_mm, NearestFacet::kNone, {}};
   float reach = 0;
   const auto set_reach = [&] {
@@ -152,30 +173,21 @@ std::uint32_t FacetDiscs::keep_nearest_in(const FacetBall& ball,
   const auto ux = static_cast<float>(towards.x);
   const auto uy = static_cast<float>(towards.y);
   const auto uz = static_cast<float>(towards.z);
-  const Vec3 q = ball.centre - origin_;
-  const auto px = static_cast<float>(q.x);
-  const auto py = static_cast<float>(q.y);
-  const auto pz = static_cast<float>(q.z);
-  constexpr float kTiny = 1e-12F;
-  const std::size_t count = size();
-  // What is left out is put at infinity.
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = px - x_[i];
-    const float y = py - y_[i];
-    const float z = pz - z_[i];
-    const float height = x * normal_x_[i] + y * normal_y_[i] + z * normal_z_[i];
-    const float off_axis = std::sqrt(at_least_0(x * x + y * y + z * z - height * height));
-    const float beyond = at_least_0(off_axis - radius_[i]);
-    const float squared = height * height + beyond * beyond;
-    const float distance = std::sqrt(squared);
-    const float upwards = height * (ux * normal_x_[i] + uy * normal_y_[i] + uz * normal_z_[i]);
-    const float sideways = (x * ux + y * uy + z * uz - upwards) * (beyond / (off_axis + kTiny));
+  // What is left out is put at infinity. By value: nothing has to be read again for each disc.
+  measure_from(ball.centre, [=](const Seen& seen) {
+    constexpr float kTiny = 1e-12F;
+    const float distance = std::sqrt(seen.squared);
+    const float upwards =
+        seen.height * (ux * seen.normal_x + uy * seen.normal_y + uz * seen.normal_z);
+    const float sideways = (seen.x * ux + seen.y * uy + seen.z * uz - upwards) *
+                           (seen.beyond / (seen.off_axis + kTiny));
     const float same = (upwards + sideways) / (distance + kTiny);
     const float turned = std::sqrt(at_least_0(2.0F - 2.0F * same));
-    const bool is_left_out = squared > farthest_squared || distance - radius * turned > not_beyond;
-    lower_[i] = is_left_out ? std::numeric_limits<float>::infinity() : squared;
-  }
+    const bool is_left_out =
+        seen.squared > farthest_squared || distance - radius * turned > not_beyond;
+    return is_left_out ? std::numeric_limits<float>::infinity() : seen.squared;
+  });
+  const std::size_t count = size();
   kept.resize(count);
   std::size_t next = 0;
   std::uint32_t best = NearestFacet::kNone;

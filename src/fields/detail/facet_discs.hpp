@@ -58,8 +58,9 @@ class FacetDiscs {
 
  private:
   void resize(std::size_t count);
-  /// Squared distance of p from each disc into lower_.
-  void measure_from(const Vec3& p) noexcept;
+  /// What `judge` makes of how p is seen from each disc, into lower_.
+  template <typename Judge>
+  void measure_from(const Vec3& p, Judge judge) noexcept;
 
   const TriangleMesh* mesh_;
   Vec3 origin_;                                        ///< of the numbers below
