@@ -10,13 +10,18 @@
 
 #include <algorithm>
 #include <csignal>
+#include <exception>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "case_io/ply.hpp"
 #include "case_io/small_case_test_support.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace carpus::case_io {
 namespace {
@@ -262,6 +267,76 @@ TEST_F(CaseFolder, AFullDiskLeavesTheOldCaseAndNothingElse) {
     expect_same_case(small_case(), read_case(target()));
     EXPECT_EQ(entries(), 1) << limit;
   }
+}
+
+/// A scan that packs well lies there unpacked for a moment, and is then far larger than any file of
+/// the case: a disk may have room for the case and none for that. What fails on one thread must
+/// reach the caller from any other, too.
+TEST_F(CaseFolder, AFullDiskWhileAVolumeLiesUnpackedLeavesTheOldCaseAndNothingElse) {
+  install_parallel_executor([](std::size_t count, std::size_t,
+                               const std::function<void(std::size_t, std::size_t)>& body) {
+    std::vector<std::exception_ptr> failures(count);
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < count; ++i) {
+      threads.emplace_back([&, i] {
+        try {
+          body(i, i + 1);
+        } catch (...) {
+          failures[i] = std::current_exception();
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const std::exception_ptr& failure : failures) {
+      if (failure) std::rethrow_exception(failure);
+    }
+  });
+  cases::CaseData data = small_case();
+  GridGeometry g = data.ct.geometry();
+  g.size = {64, 60, 50};
+  data.ct = Grid<std::int16_t>(g, std::int16_t{-1000});
+  data.labels = Grid<std::uint8_t>(g);
+  write_case(data, target());
+  const cases::CaseData old = data;
+  data.pseudonym = "another";
+  std::uintmax_t largest = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(target())) {
+    if (entry.is_regular_file()) largest = std::max(largest, entry.file_size());
+  }
+  constexpr std::uintmax_t kHeader = 352;
+  const std::uintmax_t labels = kHeader + g.voxel_count();
+  const std::uintmax_t ct = kHeader + sizeof(std::int16_t) * g.voxel_count();
+  ASSERT_LT(largest, labels);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto message_with_room_for = [&](std::uintmax_t bytes) -> std::string {
+    rlimit small = before;
+    small.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &small);
+    std::string message = "no error";
+    try {
+      write_case(data, target(), Overwrite::Replace);
+    } catch (const IoError& error) {
+      message = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    return message;
+  };
+  for (const std::uintmax_t bytes : {largest, labels - 1, labels, ct / 2, ct - 1}) {
+    SCOPED_TRACE(std::to_string(bytes) + " of " + std::to_string(ct) + " bytes");
+    EXPECT_THAT(message_with_room_for(bytes),
+                AllOf(HasSubstr("could not be written whole"), HasSubstr("make room")));
+    expect_same_case(old, read_case(target()));
+    EXPECT_EQ(entries(), 1);
+  }
+  EXPECT_EQ(message_with_room_for(ct), "no error");
+  expect_same_case(data, read_case(target()));
+  EXPECT_EQ(entries(), 1);
+  for (const auto& entry : fs::recursive_directory_iterator(target())) {
+    EXPECT_NE(entry.path().extension(), ".nii") << "the unpacked one is no file of the case";
+  }
+  install_parallel_executor({});
 }
 
 TEST_F(CaseFolder, OfANewerVersionIsRefusedByName) {
