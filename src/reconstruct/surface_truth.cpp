@@ -74,6 +74,34 @@ bool is_beyond(const std::vector<Cut>& cuts, const Vec3& p) {
   });
 }
 
+/// A finer surface says no more of a bone, and comparing it takes minutes.
+constexpr std::size_t kMostFacets = 2'000'000;
+/// No scan reaches farther from its origin [mm].
+constexpr double kFarthestMm = 10'000;
+
+/// @throws InvalidInput naming the file and what to do.
+void check_true_surface(const fs::path& file, const TriangleMesh& surface) {
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput(file.string() + ": " + why);
+  };
+  if (surface.facets.empty()) {
+    refuse("holds no facets; give the bone's surface in triangles, or take the file away");
+  }
+  if (surface.facets.size() > kMostFacets) {
+    refuse("has " + std::to_string(surface.facets.size()) + " facets, more than " +
+           std::to_string(kMostFacets) + "; simplify it, edges of 0.1 mm are fine enough");
+  }
+  for (const Vec3& p : surface.vertices) {
+    if (length(p) <= kFarthestMm) continue;  // not so what is no number
+    refuse(
+        "has a vertex more than 10 m from the origin, or at no place at all; export it again in "
+        "mm, in the scan's frame (LPS)");
+  }
+  if (!(area_of(surface) > 0)) {
+    refuse("has no facet with an area; export the bone's surface again");
+  }
+}
+
 /// A distance and how much of a surface has it.
 struct Weighed {
   double mm = 0;
@@ -107,11 +135,14 @@ std::vector<TrueSurface> read_true_surfaces(const fs::path& folder) {
   std::vector<TrueSurface> result;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::uint8_t label = label_of_true_bone(entry.path().stem().string());
-    if (label == kBackgroundLabel || !entry.is_regular_file()) continue;
-    MeshIn<frame::Patient> surface(case_io::read_surface(entry.path()));
-    if (surface.facets.empty()) {
-      throw InvalidInput(entry.path().string() + ": holds points and no surface");
+    if (label == kBackgroundLabel) continue;
+    if (!entry.is_regular_file()) {
+      throw InvalidInput(entry.path().string() +
+                         ": is named as a bone and is no file; give the bone's surface in its "
+                         "place, or take it away");
     }
+    MeshIn<frame::Patient> surface(case_io::read_surface(entry.path()));
+    check_true_surface(entry.path(), surface);
     result.push_back({label, std::move(surface)});
   }
   if (result.empty()) {
@@ -120,6 +151,13 @@ std::vector<TrueSurface> read_true_surfaces(const fs::path& folder) {
   }
   std::sort(result.begin(), result.end(),
             [](const TrueSurface& a, const TrueSurface& b) { return a.label < b.label; });
+  const auto twice = std::adjacent_find(
+      result.begin(), result.end(),
+      [](const TrueSurface& a, const TrueSurface& b) { return a.label == b.label; });
+  if (twice != result.end()) {
+    throw InvalidInput(folder.string() + ": has two surfaces of the bone with label " +
+                       std::to_string(twice->label) + "; keep the one to compare with");
+  }
   return result;
 }
 

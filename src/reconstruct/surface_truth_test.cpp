@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "case_io/surface_file.hpp"
@@ -93,6 +94,80 @@ TEST_F(TrueSurfaces, SayWhatIsWrong) {
   std::ofstream(folder_ / "radius.ply")
       << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n";
   EXPECT_THROW((void)read_true_surfaces(folder_), IoError);
+}
+
+/// What reading `folder` says; "no error" where it is read.
+std::string complaint_of(const fs::path& folder) {
+  try {
+    (void)read_true_surfaces(folder);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A surface of two triangles with a first vertex at `x` and facets as given.
+void write_off(const fs::path& file, const std::string& x, const std::string& facets, int count) {
+  std::ofstream(file) << "OFF\n4 " << count << " 0\n"
+                      << x << " 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                      << facets;
+}
+
+TEST_F(TrueSurfaces, ThatHaveNoNumbersAreRefusedByName) {
+  for (const char* const x : {"nan", "inf", "-inf", "1e300", "20000"}) {
+    write_off(folder_ / "radius.off", x, "3 0 1 2\n3 0 2 3\n", 2);
+    const std::string said = complaint_of(folder_);
+    EXPECT_NE(said.find("radius.off"), std::string::npos) << x << ": " << said;
+  }
+  write_off(folder_ / "radius.off", "20000", "3 0 1 2\n", 1);
+  EXPECT_NE(complaint_of(folder_).find("export it again in mm"), std::string::npos);
+  fs::remove(folder_ / "radius.off");
+  TriangleMesh mesh = rod(4, 8);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const char* const name : {"radius.ply", "radius.stl", "radius.obj"}) {
+      mesh.vertices[3].y = bad;
+      case_io::write_surface(folder_ / name, mesh);
+      const std::string said = complaint_of(folder_);
+      EXPECT_NE(said.find(name), std::string::npos) << said;
+      EXPECT_NE(said.find(';'), std::string::npos) << "does not say what to do: " << said;
+      fs::remove(folder_ / name);
+    }
+  }
+}
+
+TEST_F(TrueSurfaces, WithoutASurfaceAreRefused) {
+  std::ofstream(folder_ / "lunate.xyz") << "1 2 3\n4 5 6\n";
+  EXPECT_NE(complaint_of(folder_).find("holds no facets; give"), std::string::npos);
+  fs::remove(folder_ / "lunate.xyz");
+  write_off(folder_ / "lunate.off", "0", "", 0);
+  EXPECT_NE(complaint_of(folder_).find("holds no facets; give"), std::string::npos);
+  write_off(folder_ / "lunate.off", "0", "3 0 0 1\n3 1 1 1\n", 2);
+  EXPECT_NE(complaint_of(folder_).find("no facet with an area; export"), std::string::npos);
+  std::ofstream(folder_ / "lunate.off").close();
+  EXPECT_NE(complaint_of(folder_).find("lunate.off"), std::string::npos);
+}
+
+TEST_F(TrueSurfaces, OfMillionsOfFacetsAreRefused) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.facets.assign(2'000'000, {0, 1, 2});
+  case_io::write_surface(folder_ / "capitate.ply", mesh);
+  EXPECT_EQ(complaint_of(folder_), "no error");
+  mesh.facets.push_back({0, 1, 2});
+  case_io::write_surface(folder_ / "capitate.ply", mesh);
+  EXPECT_NE(complaint_of(folder_).find("has 2000001 facets, more than 2000000; simplify it"),
+            std::string::npos);
+}
+
+TEST_F(TrueSurfaces, FoldersAndFilesAreToldApart) {
+  fs::create_directory(folder_ / "radius.ply");
+  EXPECT_NE(complaint_of(folder_).find("is no file; give the bone's surface in its place"),
+            std::string::npos);
+  fs::remove(folder_ / "radius.ply");
+  case_io::write_surface(folder_ / "radius.ply", rod(4, 8));
+  EXPECT_NE(complaint_of(folder_ / "radius.ply").find("is no folder; give one"), std::string::npos);
+  case_io::write_surface(folder_ / "radius.stl", rod(4, 8));
+  EXPECT_NE(complaint_of(folder_).find("keep the one to compare with"), std::string::npos);
 }
 
 }  // namespace
