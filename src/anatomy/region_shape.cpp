@@ -89,16 +89,29 @@ SquareMatrix<3> covariance_of(const Moments& m) {
            {0, 0, entry(2, c.z, c.z)}}};
 }
 
-std::vector<std::vector<Vec3>> points_of_long_bones(const GridView<const std::uint16_t>& labels,
-                                                    const std::vector<BodyShape>& shapes) {
+/// Where the voxels of each long bone lie in memory: points would take six times as much, and those
+/// of one bone at a time are enough.
+std::vector<std::vector<std::uint32_t>> voxels_of_long_bones(
+    const GridView<const std::uint16_t>& labels,
+    const std::vector<BodyShape>& shapes) {
+  CARPUS_CHECK(labels.values().size() <= std::numeric_limits<std::uint32_t>::max());
   std::vector<char> is_long;
-  for (const BodyShape& shape : shapes) {
-    is_long.push_back(shape.is_cut || is_whole_long_bone(shape) ? 1 : 0);
+  std::vector<std::vector<std::uint32_t>> voxels(shapes.size());
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    is_long.push_back(shapes[k].is_cut || is_whole_long_bone(shapes[k]) ? 1 : 0);
+    if (is_long[k] != 0) voxels[k].reserve(static_cast<std::size_t>(shapes[k].moments.count));
   }
-  std::vector<std::vector<Vec3>> points(shapes.size());
-  for_region_voxels(labels, [&](std::uint16_t label, const VoxelIndex&, const Vec3& p) {
-    if (is_long[label - std::size_t{1}] != 0) points[label - std::size_t{1}].push_back(p);
-  });
+  for (std::size_t i = 0; i < labels.values().size(); ++i) {
+    if (labels[i] == 0 || is_long[labels[i] - std::size_t{1}] == 0) continue;
+    voxels[labels[i] - std::size_t{1}].push_back(static_cast<std::uint32_t>(i));
+  }
+  return voxels;
+}
+
+std::vector<Vec3> centres_of(const GridGeometry& g, const std::vector<std::uint32_t>& voxels) {
+  std::vector<Vec3> points;
+  points.reserve(voxels.size());
+  for (const std::uint32_t i : voxels) points.push_back(centre_of(g, g.index_of(i)));
   return points;
 }
 
@@ -134,13 +147,14 @@ void measure_both_ends(const std::vector<Vec3>& points, BodyShape& shape) {
 void measure_ends(const GridView<const std::uint16_t>& labels,
                   const std::vector<CutFace>& faces,
                   std::vector<BodyShape>& shapes) {
-  const auto points = points_of_long_bones(labels, shapes);
+  const auto voxels = voxels_of_long_bones(labels, shapes);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (points[i].empty()) continue;
+    if (voxels[i].empty()) continue;
+    const std::vector<Vec3> points = centres_of(labels.geometry(), voxels[i]);
     if (shapes[i].is_cut) {
-      measure_cut_body(points[i], faces[i].weighted_sum / faces[i].area_mm2, shapes[i]);
+      measure_cut_body(points, faces[i].weighted_sum / faces[i].area_mm2, shapes[i]);
     } else {
-      measure_both_ends(points[i], shapes[i]);
+      measure_both_ends(points, shapes[i]);
     }
     std::erase_if(shapes[i].ends, [](const JointEnd& end) { return end.length_mm() < 1; });
   }

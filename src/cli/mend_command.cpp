@@ -91,8 +91,8 @@ void run(const Arguments& a) {
     std::printf("%-18s %8.1f mm3 %6zu facets\n", name_of_label(bone.label, is_broken).c_str(),
                 bone.volume_mm3, bone.surface.facets.size());
   }
-  for (const auto& [name, seconds] : clock.stages()) {
-    std::fprintf(stderr, "%-10s %.2f s\n", name.c_str(), seconds);
+  for (const reconstruct::StageTime& each : clock.stages()) {
+    std::fprintf(stderr, "%-10s %.2f s\n", each.name.c_str(), each.seconds);
   }
 }
 

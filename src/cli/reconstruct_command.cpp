@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -74,6 +75,27 @@ double peak_memory_bytes() {
   ::getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
+
+/// What each stage of the work has brought the program's memory to.
+class StagePeaks {
+ public:
+  void begin(std::string_view stage) {
+    if (stage == current_) return;
+    end();
+    current_ = stage;
+  }
+  void end() { peaks_[current_] = peak_memory_bytes(); }
+  void put_into(std::vector<reconstruct::StageTime>& stages) const {
+    for (reconstruct::StageTime& stage : stages) {
+      const auto found = peaks_.find(stage.name);
+      if (found != peaks_.end()) stage.peak_memory_bytes = found->second;
+    }
+  }
+
+ private:
+  std::string current_ = "read";
+  std::map<std::string, double> peaks_;
+};
 
 /// Said before minutes of work, and never deletes a folder that is not a case.
 void check_target(const Arguments& a) {
@@ -206,7 +228,11 @@ void run(const Arguments& a) {
   options.provenance.made_by = kProgramVersion;
   options.provenance.made_at = utc_now();
   options.provenance.conventions = conventions;
-  options.progress = show_progress;
+  StagePeaks peaks;
+  options.progress = [&](std::string_view stage, double fraction) {
+    peaks.begin(stage);
+    show_progress(stage, fraction);
+  };
   reconstruct::Reconstruction result = make_case(a, std::move(ct), options);
   for (const std::string& text : result.warnings) warn(text);
 
@@ -216,6 +242,7 @@ void run(const Arguments& a) {
   }
   std::vector<reconstruct::LabelDice> dice;
   if (!a.truth.empty()) dice = reconstruct::compare_labels(result.data.labels.view(), truth);
+  peaks.begin("write");
   const auto writing = reconstruct::StageClock::Clock::now();
   std::string picture;
   side_by_side({[&] {
@@ -231,9 +258,12 @@ void run(const Arguments& a) {
   records::write_file_atomically(a.out / case_io::kPreviewFile, picture);
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
+  peaks.begin("soft tissue");
   const auto generating = reconstruct::StageClock::Clock::now();
   const std::string soft_tissue = generate_soft_tissue(result.data, a.out);
   result.stages.push_back({"soft tissue", reconstruct::StageClock::seconds_since(generating)});
+  peaks.end();
+  peaks.put_into(result.stages);
   reconstruct::ReconstructionReport report = reconstruct::make_report(result, dice, surfaces);
   report.peak_memory_bytes = peak_memory_bytes();
   std::fputs(reconstruct::text_of(report).c_str(), stdout);

@@ -121,7 +121,10 @@ Task find_markers(const Grid<std::int16_t>& part, const VoxelIndex& offset, cons
                        std::to_string(std::lround(found.densest_hu)) +
                        " HU); is this a CT in HU? Else give --markers");
   }
-  Task task{std::move(found.hu), std::move(found.markers), offset, found.outside()};
+  const auto& size = found.markers.geometry().size;
+  const VoxelIndex& low = found.offset;
+  const VoxelBox box{low, {low.x + size[0] - 1, low.y + size[1] - 1, low.z + size[2] - 1}};
+  Task task{imaging::crop(part.view(), box), std::move(found.markers), offset, found.outside()};
   task.offset = {offset.x + found.offset.x, offset.y + found.offset.y, offset.z + found.offset.z};
   return task;
 }

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/text_format.hpp"
+#include "imaging/region_merging.hpp"
 #include "phantom/phantom.hpp"
 #include "reconstruct/bone_surface.hpp"
 #include "reconstruct/ground_truth.hpp"
@@ -66,9 +67,12 @@ void name_and_measure(const phantom::Phantom& made, StudiedScan& scan) {
   label_by_fields(fields, numbers, labels.view());
   std::vector<LabelSurface> surfaces;
   for (std::size_t i = 0; i < meshes.size(); ++i) surfaces.push_back({numbers[i], &meshes[i]});
-  const auto evidence = measure_evidence(
-      labels.view(), named.segmentation.regions.view(), named.segmentation.edge_excess.view(),
-      named.segmentation.smoothed_hu.view(), surfaces, named.naming);
+  const auto evidence =
+      measure_evidence(labels.view(),
+                       imaging::measure_regions(named.segmentation.regions.view(),
+                                                named.segmentation.edge_excess.view()),
+                       named.segmentation.edge_excess.view(), named.segmentation.smoothed_hu.view(),
+                       surfaces, named.naming);
   const auto whole = on_whole_scan(labels, named.segmentation.offset, made.ct.geometry());
   for (StudiedBone& bone : scan.bones) {
     for (const BoneEvidence& each : evidence) {

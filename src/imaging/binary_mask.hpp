@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
+#include "imaging/block_view.hpp"
 
 namespace carpus::imaging {
 
@@ -25,12 +26,6 @@ struct Components {
 /// bridges and crumbs one voxel thick. Beyond the volume counts as set.
 [[nodiscard]] Grid<std::uint8_t> opened_by_one_voxel(const GridView<const std::uint8_t>& mask);
 
-/// First and last voxel of a block, both inside.
-struct VoxelBox {
-  VoxelIndex low;
-  VoxelIndex high;
-};
-
 /// The smallest block of voxels above `threshold`, grown by margin_mm and cut at the volume; empty
 /// if there are none.
 [[nodiscard]] std::optional<VoxelBox> box_above(const GridView<const float>& image,
@@ -40,13 +35,7 @@ struct VoxelBox {
 /// The block as a grid of its own, in the same place in the patient.
 template <typename T>
 [[nodiscard]] Grid<T> crop(const GridView<const T>& image, const VoxelBox& box) {
-  GridGeometry geometry = image.geometry();
-  geometry.origin = image.geometry().patient_from_voxel({static_cast<double>(box.low.x),
-                                                         static_cast<double>(box.low.y),
-                                                         static_cast<double>(box.low.z)});
-  geometry.size = {box.high.x - box.low.x + 1, box.high.y - box.low.y + 1,
-                   box.high.z - box.low.z + 1};
-  Grid<T> result(geometry);
+  Grid<T> result(block_geometry(image.geometry(), box));
   std::size_t out = 0;
   for (int z = box.low.z; z <= box.high.z; ++z) {
     for (int y = box.low.y; y <= box.high.y; ++y) {

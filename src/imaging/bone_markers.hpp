@@ -6,9 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/progress.hpp"
 #include "geometry/grid.hpp"
+#include "imaging/block_view.hpp"
 #include "imaging/watershed.hpp"
 
 namespace carpus::imaging {
@@ -45,10 +47,10 @@ enum class SegmentationStatus : std::uint8_t {
 /// The part of a scan that is dense, and the same smoothed: serves every attempt at its bones.
 struct SmoothedScan {
   bool holds_bone = false;  ///< something is as dense; else the rest but densest_hu is empty
-  Grid<std::int16_t> hu;    ///< the CT
-  Grid<float> smoothed_hu;  ///< with smoothing_sigma_mm
-  VoxelIndex offset;        ///< voxel of the scan at which the part begins
-  double densest_hu = 0;    ///< of the smoothed scan
+  std::optional<BlockView<std::int16_t>> hu;  ///< the CT, which must outlive this
+  Grid<float> smoothed_hu;                    ///< with smoothing_sigma_mm
+  VoxelIndex offset;                          ///< voxel of the scan at which the part begins
+  double densest_hu = 0;                      ///< of the smoothed scan
 };
 
 [[nodiscard]] SmoothedScan smooth_scan(const GridView<const std::int16_t>& ct,
@@ -56,15 +58,17 @@ struct SmoothedScan {
 
 /// What is known of a scan's bones before their edges are.
 struct BoneMarkers {
+  static constexpr std::uint8_t kDeep = 1;
+  static constexpr std::uint8_t kRim = 2;
+
   SegmentationStatus status = SegmentationStatus::Failed;
   RegionLabel bone_count = 0;
   /// On the part of the scan that holds bone: 1..bone_count inside each bone, outside() between
   /// and around them, 0 where the water has to decide.
   Grid<RegionLabel> markers;
-  Grid<std::int16_t> hu;      ///< the CT, same part
-  Grid<float> smoothed_hu;    ///< smoothed with smoothing_sigma_mm
-  Grid<std::uint8_t> mask;    ///< 1 in bone and the marrow that it encloses
-  Grid<float> depth;          ///< distance into the mask [mm]
+  Grid<float> smoothed_hu;  ///< smoothed with smoothing_sigma_mm
+  /// In bone and the marrow that it encloses kRim, up to rim_depth_mm deep, or kDeep; else 0.
+  Grid<std::uint8_t> mask;
   VoxelIndex offset;          ///< voxel of the scan at which the part begins
   double soft_tissue_hu = 0;  ///< median density around the bones
   double densest_hu = 0;      ///< of the smoothed scan

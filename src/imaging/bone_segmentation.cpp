@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "imaging/edge_excess.hpp"
@@ -14,23 +15,6 @@
 #include "imaging/region_merging.hpp"
 
 namespace carpus::imaging {
-namespace {
-
-/// What a voxel of the mask may be besides 0, which is outside.
-constexpr std::uint8_t kDeep = 1;
-constexpr std::uint8_t kRim = 2;
-
-/// All that is still wanted of the depth goes into the mask: volumes are large.
-void mark_rim(double rim_depth_mm, BoneMarkers& found) {
-  for (std::size_t i = 0; i < found.mask.values().size(); ++i) {
-    if (found.mask[i] == 0) continue;
-    found.mask[i] = static_cast<double>(found.depth[i]) <= rim_depth_mm ? kRim : kDeep;
-  }
-  found.depth = {};
-}
-
-}  // namespace
-
 BoneSegmentation segment_bones(const GridView<const std::int16_t>& ct,
                                const BoneSegmentationOptions& options,
                                const Progress& progress) {
@@ -42,6 +26,7 @@ BoneSegmentation segment_bones(SmoothedScan scan,
                                const BoneSegmentationOptions& options,
                                const Progress& progress) {
   constexpr double kMarkersShare = 0.7;
+  const std::optional<BlockView<std::int16_t>> hu = scan.hu;
   BoneMarkers found = find_bone_markers(
       std::move(scan), options,
       [&](std::string_view stage, double fraction) { progress(stage, kMarkersShare * fraction); });
@@ -56,13 +41,9 @@ BoneSegmentation segment_bones(SmoothedScan scan,
   result.regions = std::move(found.markers);
 
   progress("gradient", kMarkersShare);
-  mark_rim(options.rim_depth_mm, found);
-  {
-    const Grid<float> gradient = gradient_magnitude(found.hu.view(), options.edge_sigma_mm);
-    found.hu = {};
-    progress("watershed", 0.8);
-    flood_from_markers(gradient.view(), {}, {}, result.regions.view());
-  }
+  Grid<float> gradient = gradient_magnitude(*hu, options.edge_sigma_mm);
+  progress("watershed", 0.8);
+  flood_from_markers(std::move(gradient), {}, result.regions.view());
   for (RegionLabel& label : result.regions.values()) {
     if (label == found.outside()) label = 0;
   }
@@ -70,7 +51,7 @@ BoneSegmentation segment_bones(SmoothedScan scan,
   result.edge_excess = measure_edge_excess(result.smoothed_hu.view(), found.mask.view(),
                                            static_cast<float>(found.soft_tissue_hu), options);
   for (std::size_t i = 0; i < result.regions.values().size(); ++i) {
-    if (found.mask[i] != kDeep && result.edge_excess[i] < 0) {
+    if (found.mask[i] != BoneMarkers::kDeep && result.edge_excess[i] < 0) {
       result.regions[i] = 0;
     }
   }

@@ -18,7 +18,7 @@ using Rows = std::span<const float* const>;
 namespace {
 
 template <typename T>
-Grid<float> smoothed(const GridView<const T>& image, double sigma_mm) {
+Grid<float> smoothed(const BlockView<T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 1> kOrders{{{0, 0, 0}}};
   const auto copy_row = [](Rows rows, float* out, std::size_t count) {
@@ -29,7 +29,7 @@ Grid<float> smoothed(const GridView<const T>& image, double sigma_mm) {
 }
 
 template <typename T>
-Grid<float> gradient_of(const GridView<const T>& image, double sigma_mm) {
+Grid<float> gradient_of(const BlockView<T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 3> kOrders{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const auto norm = [](Rows rows, float* out, std::size_t count) {
@@ -43,7 +43,7 @@ Grid<float> gradient_of(const GridView<const T>& image, double sigma_mm) {
 }
 
 template <typename T>
-Grid<float> sheets_of(const GridView<const T>& image, double sigma_mm) {
+Grid<float> sheets_of(const BlockView<T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 6> kOrders{
       {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
@@ -62,21 +62,21 @@ Grid<float> sheets_of(const GridView<const T>& image, double sigma_mm) {
 }  // namespace
 
 Grid<float> gaussian_smooth(const GridView<const float>& image, double sigma_mm) {
-  return smoothed(image, sigma_mm);
+  return smoothed<float>(image, sigma_mm);
 }
-Grid<float> gaussian_smooth(const GridView<const std::int16_t>& image, double sigma_mm) {
+Grid<float> gaussian_smooth(const BlockView<std::int16_t>& image, double sigma_mm) {
   return smoothed(image, sigma_mm);
 }
 Grid<float> gradient_magnitude(const GridView<const float>& image, double sigma_mm) {
-  return gradient_of(image, sigma_mm);
+  return gradient_of<float>(image, sigma_mm);
 }
-Grid<float> gradient_magnitude(const GridView<const std::int16_t>& image, double sigma_mm) {
+Grid<float> gradient_magnitude(const BlockView<std::int16_t>& image, double sigma_mm) {
   return gradient_of(image, sigma_mm);
 }
 Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_mm) {
-  return sheets_of(image, sigma_mm);
+  return sheets_of<float>(image, sigma_mm);
 }
-Grid<float> dark_sheet_measure(const GridView<const std::int16_t>& image, double sigma_mm) {
+Grid<float> dark_sheet_measure(const BlockView<std::int16_t>& image, double sigma_mm) {
   return sheets_of(image, sigma_mm);
 }
 

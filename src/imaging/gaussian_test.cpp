@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/rng.hpp"
+#include "imaging/binary_mask.hpp"
 #include "imaging/detail/derivative_engine.hpp"
 
 namespace carpus::imaging {
@@ -94,6 +97,27 @@ TEST(Gaussian, CommutesWithFlippingAnAxis) {
     const VoxelIndex v = g.index_of(i);
     ASSERT_NEAR(a[i], (b[VoxelIndex{16 - v.x, v.y, v.z}]), 1e-4);
   }
+}
+
+/// What lies beyond a block's faces is not looked at: they are mirrors.
+TEST(Gaussian, OfABlockIsThatOfItsCopy) {
+  GridGeometry g;
+  g.size = {24, 19, 90};
+  g.spacing = {0.3, 0.4, 0.5};
+  Grid<std::int16_t> image(g);
+  Rng rng(5);
+  for (std::int16_t& v : image.values()) v = static_cast<std::int16_t>(rng.below(2000));
+  const GridView<const std::int16_t> whole = std::as_const(image).view();
+  const VoxelBox box{{3, 0, 7}, {20, 17, 88}};
+  const BlockView<std::int16_t> block(whole, box);
+  const Grid<std::int16_t> copy = crop(whole, box);
+  ASSERT_EQ(block.geometry(), copy.geometry());
+  const auto same = [](const Grid<float>& a, const Grid<float>& b) {
+    return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end());
+  };
+  EXPECT_TRUE(same(gaussian_smooth(block, 0.4), gaussian_smooth(copy.view(), 0.4)));
+  EXPECT_TRUE(same(gradient_magnitude(block, 0.4), gradient_magnitude(copy.view(), 0.4)));
+  EXPECT_TRUE(same(dark_sheet_measure(block, 0.7), dark_sheet_measure(copy.view(), 0.7)));
 }
 
 TEST(GradientMagnitude, OfARampIsItsSlopePerMillimetreWhateverTheVoxels) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "imaging/detail/run_components.hpp"
+
 namespace carpus::imaging {
 namespace {
 
@@ -98,8 +100,11 @@ class Merger {
 
 }  // namespace
 
-RegionTable measure_regions(const GridView<const RegionLabel>& labels,
-                            const GridView<const float>& height) {
+namespace {
+
+/// @param height  called with a voxel of a region.
+template <typename Height>
+RegionTable measured(const GridView<const RegionLabel>& labels, const Height& height) {
   const GridGeometry& g = labels.geometry();
   RegionLabel count = 0;
   for (const RegionLabel label : labels.values()) count = std::max(count, label);
@@ -112,11 +117,11 @@ RegionTable measure_regions(const GridView<const RegionLabel>& labels,
     const RegionLabel a = labels[i];
     if (a == 0) continue;
     ++table.voxels[a];
-    table.peak[a] = std::max(table.peak[a], height[i]);
+    table.peak[a] = std::max(table.peak[a], height(i));
     const VoxelIndex v = g.index_of(i);
     const auto touch = [&](bool inside, std::size_t j, double face_mm2) {
       if (!inside || labels[j] == 0 || labels[j] == a) return;
-      const float saddle = std::min(height[i], height[j]);
+      const float saddle = std::min(height(i), height(j));
       const auto [contact, is_new] = table.contacts.try_emplace(ordered(a, labels[j]));
       contact->second.area_mm2 += face_mm2;
       contact->second.saddle = is_new ? saddle : std::max(contact->second.saddle, saddle);
@@ -126,6 +131,17 @@ RegionTable measure_regions(const GridView<const RegionLabel>& labels,
     touch(v.z + 1 < g.size[2], i + dz, g.spacing.x * g.spacing.y);
   }
   return table;
+}
+
+}  // namespace
+
+RegionTable measure_regions(const GridView<const RegionLabel>& labels,
+                            const GridView<const float>& height) {
+  return measured(labels, [&](std::size_t i) { return height[i]; });
+}
+
+RegionTable measure_regions(const GridView<const RegionLabel>& labels, const MaskedValues& height) {
+  return measured(labels, [&](std::size_t i) { return height[i]; });
 }
 
 std::vector<RegionLabel> merge_regions(RegionTable table,
@@ -156,53 +172,26 @@ std::size_t keep_largest_components(const GridView<RegionLabel>& labels) {
 std::size_t part_components(const GridView<RegionLabel>& labels,
                             std::size_t least_voxels,
                             RegionLabel& count) {
-  const GridGeometry& g = labels.geometry();
-  const auto dy = static_cast<std::size_t>(g.size[0]);
-  const std::size_t dz = dy * static_cast<std::size_t>(g.size[1]);
-  std::vector<std::uint32_t> component(labels.values().size(), 0);
-  std::vector<std::size_t> size_of{0};
-  std::vector<std::uint32_t> best_of;  // [region] its largest component so far
-  std::vector<std::size_t> stack;
-  for (std::size_t seed = 0; seed < component.size(); ++seed) {
-    const RegionLabel label = labels[seed];
-    if (label == 0 || component[seed] != 0) continue;
-    const auto number = static_cast<std::uint32_t>(size_of.size());
-    size_of.push_back(0);
-    component[seed] = number;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const std::size_t i = stack.back();
-      stack.pop_back();
-      ++size_of[number];
-      const VoxelIndex v = g.index_of(i);
-      const auto visit = [&](bool inside, std::size_t j) {
-        if (!inside || labels[j] != label || component[j] != 0) return;
-        component[j] = number;
-        stack.push_back(j);
-      };
-      visit(v.x > 0, i - 1);
-      visit(v.x + 1 < g.size[0], i + 1);
-      visit(v.y > 0, i - dy);
-      visit(v.y + 1 < g.size[1], i + dy);
-      visit(v.z > 0, i - dz);
-      visit(v.z + 1 < g.size[2], i + dz);
-    }
+  const detail::RunComponents runs{GridView<const RegionLabel>(labels)};
+  const std::vector<std::size_t>& size_of = runs.voxels();
+  std::vector<std::uint32_t> best_of;  // [region] its largest component, the first of equals
+  std::vector<char> is_counted(size_of.size(), 0);
+  runs.for_each([&](std::size_t first, std::size_t, std::uint32_t piece) {
+    if (std::exchange(is_counted[piece], 1) != 0) return;
+    const RegionLabel label = labels[first];
     if (best_of.size() <= label) best_of.resize(label + std::size_t{1}, 0);
-    if (size_of[number] > size_of[best_of[label]]) best_of[label] = number;
-  }
+    if (size_of[piece] > size_of[best_of[label]]) best_of[label] = piece;
+  });
   std::vector<RegionLabel> own_label(size_of.size(), 0);
   std::size_t removed = 0;
-  for (std::size_t i = 0; i < component.size(); ++i) {
-    if (labels[i] == 0 || component[i] == best_of[labels[i]]) continue;
-    const std::uint32_t piece = component[i];
-    if (size_of[piece] >= least_voxels) {
-      if (own_label[piece] == 0) own_label[piece] = ++count;
-      labels[i] = own_label[piece];
-    } else {
-      labels[i] = 0;
-      ++removed;
-    }
-  }
+  runs.for_each([&](std::size_t first, std::size_t end, std::uint32_t piece) {
+    if (piece == best_of[labels[first]]) return;
+    const bool is_kept = size_of[piece] >= least_voxels;
+    if (is_kept && own_label[piece] == 0) own_label[piece] = ++count;
+    if (!is_kept) removed += end - first;
+    std::fill(labels.values().begin() + static_cast<std::ptrdiff_t>(first),
+              labels.values().begin() + static_cast<std::ptrdiff_t>(end), own_label[piece]);
+  });
   return removed;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/grid.hpp"
+#include "imaging/masked_values.hpp"
 #include "imaging/watershed.hpp"
 
 namespace carpus::imaging {
@@ -30,6 +31,9 @@ struct RegionTable {
 /// Measures `labels`; `height` is e.g. the distance to the background [mm].
 [[nodiscard]] RegionTable measure_regions(const GridView<const RegionLabel>& labels,
                                           const GridView<const float>& height);
+/// The same with the heights of a mask that holds all regions.
+[[nodiscard]] RegionTable measure_regions(const GridView<const RegionLabel>& labels,
+                                          const MaskedValues& height);
 
 struct MergeOptions {
   /// Touching regions are one body if the neck between them is at least this part of the smaller

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <new>
 #include <vector>
 
 namespace carpus::imaging {
@@ -109,20 +111,20 @@ class Voxel {
 };
 static_assert(sizeof(Voxel) == 2);
 
-/// The relief in levels between its least and greatest finite value where `is_open` holds.
+/// The relief in levels between its least and greatest finite value among those that are open.
 class Quantiser {
  public:
-  template <typename IsOpen>
-  Quantiser(std::span<const float> relief, int levels, const IsOpen& is_open)
+  /// @param for_each_open  calls what it is given with the relief of each open voxel.
+  template <typename ForEachOpen>
+  Quantiser(int levels, const ForEachOpen& for_each_open)
       : top_(static_cast<std::size_t>(levels - 1)) {
     float high = -std::numeric_limits<float>::infinity();
     low_ = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < relief.size(); ++i) {
-      const float v = relief[i];
-      if (!is_open(i) || !std::isfinite(v)) continue;
+    for_each_open([&](float v) {
+      if (!std::isfinite(v)) return;
       low_ = std::min(low_, v);
       high = std::max(high, v);
-    }
+    });
     scale_ = high > low_ ? static_cast<float>(levels - 1) / (high - low_) : 0.0F;
   }
   [[nodiscard]] std::size_t operator()(float v) const {
@@ -138,30 +140,18 @@ class Quantiser {
 
 class Flood {
  public:
-  Flood(const GridView<const float>& relief,
-        std::span<const std::uint8_t> mask,
+  /// @param voxels  of `labels`, each Open at its level, Marker or Outside.
+  Flood(std::span<Voxel> voxels,
         const WatershedOptions& options,
         const GridView<RegionLabel>& labels)
       : options_(options),
-        neighbours_(relief.geometry(), options.space, options.connectivity),
+        neighbours_(labels.geometry(), options.space, options.connectivity),
         queue_(options.levels),
-        voxels_(relief.values().size()),
+        voxels_(voxels),
         labels_(labels) {
-    const auto is_open = [&](std::size_t i) {
-      return labels[i] == 0 && (mask.empty() || mask[i] != 0);
-    };
-    const Quantiser level_of(relief.values(), options.levels, is_open);
-    for (std::size_t i = 0; i < voxels_.size(); ++i) {
-      if (is_open(i)) {
-        voxels_[i] = Voxel(Voxel::State::Open, level_of(relief[i]));
-        ++to_flood_;
-      } else if (labels[i] != 0) {
-        voxels_[i] = Voxel(Voxel::State::Marker, 0);
-      } else {
-        voxels_[i] = Voxel(Voxel::State::Outside, 0);
-      }
-    }
-    mark_inner(relief.geometry().size);
+    to_flood_ = static_cast<std::size_t>(std::count_if(
+        voxels.begin(), voxels.end(), [](Voxel v) { return v.state() == Voxel::State::Open; }));
+    mark_inner(labels.geometry().size);
   }
 
   void run() {
@@ -253,11 +243,20 @@ class Flood {
   WatershedOptions options_;
   Neighbourhood neighbours_;
   LevelQueue queue_;
-  std::vector<Voxel> voxels_;
+  std::span<Voxel> voxels_;
   GridView<RegionLabel> labels_;
   std::size_t to_flood_ = 0;
   std::size_t settled_ = 0;
 };
+
+Voxel closed_voxel(RegionLabel label) {
+  return {label != 0 ? Voxel::State::Marker : Voxel::State::Outside, 0};
+}
+
+void check(const WatershedOptions& options, const GridView<RegionLabel>& labels) {
+  CARPUS_CHECK(options.levels > 0 && options.levels <= kMostLevels);
+  CARPUS_CHECK(labels.values().size() < kEnd);
+}
 
 }  // namespace
 
@@ -265,12 +264,68 @@ void flood_from_markers(const GridView<const float>& relief,
                         std::span<const std::uint8_t> mask,
                         const WatershedOptions& options,
                         const GridView<RegionLabel>& labels) {
-  CARPUS_CHECK(options.levels > 0 && options.levels <= kMostLevels);
+  check(options, labels);
   CARPUS_CHECK(labels.values().size() == relief.values().size());
   CARPUS_CHECK(mask.empty() || mask.size() == relief.values().size());
-  CARPUS_CHECK(relief.values().size() < kEnd);
-  Flood flood(relief, mask, options, labels);
-  flood.run();
+  const std::size_t count = labels.values().size();
+  const auto is_open = [&](std::size_t i) {
+    return labels[i] == 0 && (mask.empty() || mask[i] != 0);
+  };
+  const Quantiser level_of(options.levels, [&](const auto& visit) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_open(i)) visit(relief[i]);
+    }
+  });
+  std::vector<Voxel> voxels(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    voxels[i] =
+        is_open(i) ? Voxel(Voxel::State::Open, level_of(relief[i])) : closed_voxel(labels[i]);
+  }
+  Flood(voxels, options, labels).run();
+}
+
+void flood_from_markers(Grid<float> relief,
+                        const WatershedOptions& options,
+                        const GridView<RegionLabel>& labels) {
+  check(options, labels);
+  CARPUS_CHECK(labels.values().size() == relief.values().size());
+  const std::span<float> heights = relief.values();
+  if (heights.empty()) return;
+  const Quantiser level_of(options.levels, [&](const auto& visit) {
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      if (labels[i] == 0) visit(heights[i]);
+    }
+  });
+  // A voxel is half as long as a height and lies no farther on: where it goes, the heights have
+  // been read. It is made there anew, so that nothing is read as what it is not.
+  static_assert(sizeof(Voxel) <= sizeof(float) && alignof(Voxel) <= alignof(float));
+  auto* const memory = reinterpret_cast<std::byte*>(heights.data());
+  Voxel* first = nullptr;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const Voxel voxel =
+        labels[i] == 0 ? Voxel(Voxel::State::Open, level_of(heights[i])) : closed_voxel(labels[i]);
+    Voxel* const made = new (memory + i * sizeof(Voxel)) Voxel(voxel);
+    if (i == 0) first = made;
+  }
+  Flood({first, heights.size()}, options, labels).run();
+}
+
+void flood_depths_from_markers(const MaskedValues& depth,
+                               const WatershedOptions& options,
+                               const GridView<RegionLabel>& labels) {
+  check(options, labels);
+  CARPUS_CHECK(labels.values().size() == depth.geometry().voxel_count());
+  const Quantiser level_of(options.levels, [&](const auto& visit) {
+    depth.for_each([&](std::size_t i, float value) {
+      if (labels[i] == 0) visit(-value);
+    });
+  });
+  std::vector<Voxel> voxels(labels.values().size());
+  for (std::size_t i = 0; i < voxels.size(); ++i) voxels[i] = closed_voxel(labels[i]);
+  depth.for_each([&](std::size_t i, float value) {
+    if (labels[i] == 0) voxels[i] = Voxel(Voxel::State::Open, level_of(-value));
+  });
+  Flood(voxels, options, labels).run();
 }
 
 }  // namespace carpus::imaging

@@ -11,6 +11,7 @@
 
 #include "core/progress.hpp"
 #include "geometry/grid.hpp"
+#include "imaging/masked_values.hpp"
 #include "imaging/neighbourhood.hpp"
 
 namespace carpus::imaging {
@@ -41,5 +42,15 @@ void flood_from_markers(const GridView<const float>& relief,
                         std::span<const std::uint8_t> mask,
                         const WatershedOptions& options,
                         const GridView<RegionLabel>& labels);
+
+/// The same on all of the grid, in the memory of `relief`, which is used up.
+void flood_from_markers(Grid<float> relief,
+                        const WatershedOptions& options,
+                        const GridView<RegionLabel>& labels);
+
+/// The same within the mask of `depth`, from the deepest places upwards.
+void flood_depths_from_markers(const MaskedValues& depth,
+                               const WatershedOptions& options,
+                               const GridView<RegionLabel>& labels);
 
 }  // namespace carpus::imaging

@@ -8,8 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/rng.hpp"
@@ -238,6 +242,31 @@ RC_GTEST_PROP(Watershed, SliceBySliceNeverCrossesSlices, ()) {
   }
 }
 
+RC_GTEST_PROP(Watershed, InItsReliefsOwnMemoryIsTheSame, ()) {
+  Problem p = random_problem(*rc::gen::arbitrary<std::uint64_t>());
+  p.relief[p.relief.values().size() / 2] = std::numeric_limits<float>::infinity();
+  const Grid<RegionLabel> expected = flooded(p, {});
+  flood_from_markers(std::move(p.relief), {}, p.markers.view());
+  RC_ASSERT(
+      std::equal(expected.values().begin(), expected.values().end(), p.markers.values().begin()));
+}
+
+RC_GTEST_PROP(Watershed, OfDepthsIsThatOfTheReliefUpsideDown, ()) {
+  const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
+  const Problem p = random_problem(seed);
+  Rng rng(seed + 1);
+  Grid<std::uint8_t> mask(p.relief.geometry());
+  for (std::uint8_t& m : mask.values()) m = rng.uniform() < 0.7 ? 1 : 0;
+  Grid<float> upside_down = p.relief;
+  for (float& value : upside_down.values()) value = -value;
+  Grid<RegionLabel> expected = p.markers;
+  flood_from_markers(upside_down.view(), mask.values(), {}, expected.view());
+  Grid<RegionLabel> labels = p.markers;
+  flood_depths_from_markers({p.relief.view(), std::as_const(mask).view()}, {}, labels.view());
+  RC_ASSERT(
+      std::equal(expected.values().begin(), expected.values().end(), labels.values().begin()));
+}
+
 TEST(Watershed, MeetsOnTheCrestBetweenTwoValleys) {
   GridGeometry g;
   g.size = {11, 1, 1};
@@ -274,6 +303,106 @@ TEST(ProminentPeaks, AreThoseThatStandOutBySaddleAndHeight) {
             (std::vector<std::size_t>{1, 3, 5, 7, 11, 9}));
   EXPECT_EQ(prominent_peaks(height.view(), mask.view(), {2.0, 0.0}),
             (std::vector<std::size_t>{1, 5, 11}));
+}
+
+/// Whether voxel i is higher than j; of equals the first.
+bool is_above(const Grid<float>& height, std::size_t i, std::size_t j) {
+  return height[i] != height[j] ? height[i] > height[j] : i < j;
+}
+
+/// From where one has to climb down to, to get from voxel i to a higher one; none above the highest
+/// of its component.
+std::optional<float> saddle_above(const Grid<float>& height,
+                                  const Grid<std::uint8_t>& mask,
+                                  std::size_t i) {
+  std::optional<float> best;
+  for (std::size_t t = 0; t < mask.values().size(); ++t) {
+    if (mask[t] == 0 || height[t] > height[i] || (best && height[t] <= *best)) continue;
+    Grid<std::uint8_t> above(mask.geometry());
+    for (std::size_t k = 0; k < above.values().size(); ++k) {
+      above[k] = mask[k] != 0 && height[k] >= height[t] ? 1 : 0;
+    }
+    const Components c = connected_components(above.view());
+    for (std::size_t j = 0; j < above.values().size(); ++j) {
+      if (c.labels[j] == c.labels[i] && is_above(height, j, i)) best = height[t];
+    }
+  }
+  return best;
+}
+
+TEST(ProminentPeaks, AreThoseOfTheDefinition) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Rng rng(seed);
+    GridGeometry g;
+    g.size = {static_cast<int>(1 + rng.below(5)), static_cast<int>(1 + rng.below(5)),
+              static_cast<int>(1 + rng.below(5))};
+    Grid<float> height(g);
+    Grid<std::uint8_t> mask(g);
+    // With ties, zeros of both signs, negative and nearly equal heights.
+    for (float& h : height.values()) {
+      h = static_cast<float>(rng.below(6)) - 2.0F;
+      if (rng.below(3) == 0) h = h == 0 ? -0.0F : std::nextafter(h, 100.0F);
+    }
+    for (std::uint8_t& m : mask.values()) m = rng.uniform() < 0.8 ? 1 : 0;
+    constexpr PeakOptions kOptions{1.0, -1.5};
+    std::vector<std::size_t> expected;
+    for (std::size_t i = 0; i < mask.values().size(); ++i) {
+      if (mask[i] == 0 || static_cast<double>(height[i]) < kOptions.min_height) continue;
+      const std::optional<float> saddle = saddle_above(height, mask, i);
+      const bool stands_out =
+          !saddle ||
+          static_cast<double>(height[i]) - static_cast<double>(*saddle) >= kOptions.min_prominence;
+      if (stands_out) expected.push_back(i);
+    }
+    std::sort(expected.begin(), expected.end(),
+              [&](std::size_t a, std::size_t b) { return is_above(height, a, b); });
+    EXPECT_EQ(prominent_peaks(std::as_const(height).view(), std::as_const(mask).view(), kOptions),
+              expected)
+        << "seed " << seed;
+  }
+}
+
+RC_GTEST_PROP(RegionMerging, PartsEachRegionIntoItsComponents, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+  GridGeometry g;
+  g.size = {static_cast<int>(1 + rng.below(9)), static_cast<int>(1 + rng.below(9)),
+            static_cast<int>(1 + rng.below(9))};
+  constexpr RegionLabel kMost = 3;
+  Grid<RegionLabel> before(g);
+  for (RegionLabel& label : before.values()) {
+    label = static_cast<RegionLabel>(rng.below(std::size_t{kMost} + 1));
+  }
+  const std::size_t least = 1 + rng.below(12);
+  Grid<RegionLabel> parted = before;
+  RegionLabel count = kMost;
+  const std::size_t removed = part_components(parted.view(), least, count);
+  std::size_t expected_removed = 0;
+  RegionLabel new_regions = 0;
+  for (RegionLabel region = 1; region <= kMost; ++region) {
+    Grid<std::uint8_t> own(g);
+    for (std::size_t i = 0; i < own.values().size(); ++i) own[i] = before[i] == region ? 1 : 0;
+    const Components c = connected_components(own.view());
+    std::vector<RegionLabel> given(c.voxels.size(), 0);
+    for (std::size_t i = 0; i < own.values().size(); ++i) {
+      const std::uint32_t piece = c.labels[i];
+      if (piece == 0) continue;
+      const bool is_largest = piece == c.largest();
+      const bool is_kept = c.voxels[piece] >= least;
+      if (is_largest) RC_ASSERT(parted[i] == region);
+      if (!is_largest && is_kept) {
+        RC_ASSERT(parted[i] > kMost);
+        if (given[piece] == 0) ++new_regions;
+        RC_ASSERT(given[piece] == 0 || given[piece] == parted[i]);
+        given[piece] = parted[i];
+      }
+      if (!is_largest && !is_kept) {
+        RC_ASSERT(parted[i] == 0);
+        ++expected_removed;
+      }
+    }
+  }
+  RC_ASSERT(removed == expected_removed);
+  RC_ASSERT(count == kMost + new_regions);
 }
 
 TEST(RegionMerging, JoinsOverAWideNeckOnly) {

@@ -65,17 +65,15 @@ bool is_at_border(const Labels& labels, const VoxelIndex& v, std::uint8_t label)
   });
 }
 
-Grid<float> scalar_field(const Labels& labels,
-                         std::uint8_t label,
-                         const GridView<const float>& edge_excess) {
-  Grid<float> field(labels.geometry());
+/// @param field  the edge's excess, in whose place the field comes.
+Grid<float> scalar_field(const Labels& labels, std::uint8_t label, Grid<float> field) {
   for (std::size_t i = 0; i < field.values().size(); ++i) {
     const bool inside = labels[i] == label;
     const bool border = is_at_border(labels, labels.geometry().index_of(i), label);
     if (inside) {
-      field[i] = border ? std::clamp(edge_excess[i], kLeast, kFar) : kFar;
+      field[i] = border ? std::clamp(field[i], kLeast, kFar) : kFar;
     } else {
-      field[i] = border && labels[i] == 0 ? std::clamp(edge_excess[i], -kFar, -kLeast) : -kFar;
+      field[i] = border && labels[i] == 0 ? std::clamp(field[i], -kFar, -kLeast) : -kFar;
     }
   }
   return field;
@@ -160,8 +158,8 @@ BoneField build_bone_field(const Labels& labels,
                            const BoneSurfaceOptions& options) {
   const imaging::VoxelBox box = box_of(labels, label);
   if (box.high.x < 0) return {};
-  const Grid<float> sharp = scalar_field(imaging::crop(labels, box).view(), label,
-                                         imaging::crop(edge_excess, box).view());
+  const Grid<float> sharp =
+      scalar_field(imaging::crop(labels, box).view(), label, imaging::crop(edge_excess, box));
   return {imaging::gaussian_smooth(sharp.view(), options.field_sigma_mm), box.low};
 }
 

@@ -16,7 +16,6 @@
 #include "hull/fast_hull.hpp"
 #include "hull/polytope_measures.hpp"
 #include "imaging/binary_mask.hpp"
-#include "imaging/region_merging.hpp"
 #include "mesh/normals.hpp"
 #include "reconstruct/named_segmentation.hpp"
 
@@ -225,14 +224,11 @@ void compare_volumes(std::vector<BoneEvidence>& bones) {
 
 /// A shaft that was cut off its own base or head by mistake is a body without a name that goes on
 /// where the bone ends.
-/// @param any_depth  how deep a region is does not matter here; a volume of zeros would be the
-/// largest
-void measure_severed(const GridView<const imaging::RegionLabel>& regions,
-                     const GridView<const float>& any_depth,
+void measure_severed(const imaging::RegionTable& table,
+                     double voxel_mm3,
                      const anatomy::BoneNaming& naming,
                      std::vector<BoneEvidence>& bones) {
   constexpr double kGrownOnMm2 = 8;
-  const imaging::RegionTable table = imaging::measure_regions(regions, any_depth);
   const auto is_named = [&](std::size_t region) {
     return region <= naming.regions.size() && naming.regions[region - 1].has_value();
   };
@@ -244,8 +240,7 @@ void measure_severed(const GridView<const imaging::RegionLabel>& regions,
     const std::uint8_t label = label_for(*naming.regions[named - 1]);
     for (BoneEvidence& bone : bones) {
       if (bone.label != label || !(bone.volume_mm3 > 0)) continue;
-      bone.severed += static_cast<double>(table.voxels[nameless]) *
-                      regions.geometry().voxel_volume_mm3() / bone.volume_mm3;
+      bone.severed += static_cast<double>(table.voxels[nameless]) * voxel_mm3 / bone.volume_mm3;
     }
   }
 }
@@ -255,7 +250,7 @@ double excess_over(double value, double limit) { return std::max(0.0, value - li
 }  // namespace
 
 std::vector<BoneEvidence> measure_evidence(const Labels& labels,
-                                           const GridView<const imaging::RegionLabel>& regions,
+                                           const imaging::RegionTable& regions,
                                            const GridView<const float>& edge_excess,
                                            const GridView<const float>& smoothed_hu,
                                            std::span<const LabelSurface> surfaces,
@@ -298,7 +293,7 @@ std::vector<BoneEvidence> measure_evidence(const Labels& labels,
     for (std::size_t i = begin; i < end; ++i) measure(result[i]);
   });
   compare_volumes(result);
-  measure_severed(regions, edge_excess, naming, result);
+  measure_severed(regions, voxel_mm3, naming, result);
   return result;
 }
 

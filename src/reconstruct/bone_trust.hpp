@@ -13,7 +13,7 @@
 #include "anatomy/bone_naming.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "imaging/watershed.hpp"
+#include "imaging/region_merging.hpp"
 
 namespace carpus::reconstruct {
 
@@ -66,17 +66,18 @@ struct LabelSurface {
 /// Measures each label of `labels` but 0, in their order, with the naming that made them.
 ///
 /// @param labels  bones, by their numbers (anatomy/bone_id.hpp), on the segmented part of the scan
-/// @param regions  imaging::BoneSegmentation::regions, same grid: with those that have no name
+/// @param regions  imaging::measure_regions of imaging::BoneSegmentation::regions, with those that
+/// have
+///     no name; heights do not matter
 /// @param edge_excess  imaging::BoneSegmentation::edge_excess, same grid
 /// @param smoothed_hu  likewise
 /// @param surfaces  of the labels; where one is missing, nothing is known of its edge
-[[nodiscard]] std::vector<BoneEvidence> measure_evidence(
-    const GridView<const std::uint8_t>& labels,
-    const GridView<const imaging::RegionLabel>& regions,
-    const GridView<const float>& edge_excess,
-    const GridView<const float>& smoothed_hu,
-    std::span<const LabelSurface> surfaces,
-    const anatomy::BoneNaming& naming);
+[[nodiscard]] std::vector<BoneEvidence> measure_evidence(const GridView<const std::uint8_t>& labels,
+                                                         const imaging::RegionTable& regions,
+                                                         const GridView<const float>& edge_excess,
+                                                         const GridView<const float>& smoothed_hu,
+                                                         std::span<const LabelSurface> surfaces,
+                                                         const anatomy::BoneNaming& naming);
 
 /// The confidence by a logistic function of the evidence, with weights that were fitted on
 /// simulated scans and judged on others (`carpus study segmentation`,

@@ -68,7 +68,8 @@ struct TwoBalls {
       if (regions[i] == 1 && labels.geometry().index_of(i).z < nameless_below) regions[i] = 3;
     }
     const auto all =
-        measure_evidence(labels.view(), regions.view(), excess.view(), hu.view(), surfaces, naming);
+        measure_evidence(labels.view(), imaging::measure_regions(regions.view(), excess.view()),
+                         excess.view(), hu.view(), surfaces, naming);
     EXPECT_EQ(all.size(), 2U);
     EXPECT_EQ(all.front().label, kLunate);
     return all.front();

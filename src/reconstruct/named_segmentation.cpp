@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "imaging/binary_mask.hpp"
+#include "imaging/block_view.hpp"
 #include "imaging/gaussian.hpp"
 
 namespace carpus::reconstruct {
@@ -47,7 +47,8 @@ imaging::SmoothedScan smoothed_again(const Grid<std::int16_t>& ct, const BoneSeg
   const auto& size = first.smoothed_hu.geometry().size;
   const VoxelIndex& low = first.offset;
   const imaging::VoxelBox box{low, {low.x + size[0] - 1, low.y + size[1] - 1, low.z + size[2] - 1}};
-  return {true, imaging::crop(ct.view(), box), first.smoothed_hu, low, first.densest_hu};
+  return {true, imaging::BlockView<std::int16_t>(ct.view(), box), first.smoothed_hu, low,
+          first.densest_hu};
 }
 
 bool fits(const BoneNaming& naming) {

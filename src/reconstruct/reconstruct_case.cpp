@@ -17,6 +17,7 @@
 #include "core/text_format.hpp"
 #include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
+#include "imaging/region_merging.hpp"
 #include "reconstruct/given_labels.hpp"
 #include "reconstruct/label_by_surfaces.hpp"
 #include "reconstruct/named_segmentation.hpp"
@@ -128,14 +129,17 @@ void check_bone(const cases::Bone& bone) {
                      "resolution. Give a CT with voxels of 0.6 mm or less.");
 }
 
-/// Surfaces, and labels that agree with them.
-void build_surfaces(const BoneSegmentation& s,
+/// Surfaces, and labels that agree with them. The segmentation's volumes are used up.
+void build_surfaces(BoneSegmentation s,
                     Grid<std::uint8_t> labels,
                     const BoneSurfaceOptions& options,
                     const BoneNaming& naming,
                     const GridView<const std::int16_t>& ct,
                     Reconstruction& result) {
   cases::CaseData& data = result.data;
+  const imaging::RegionTable regions =
+      imaging::measure_regions(s.regions.view(), s.edge_excess.view());
+  s.regions = {};  // each volume goes when nobody asks for it any more: a scan's are large
   std::vector<BoneField> fields(data.bones.size());
   std::vector<std::uint8_t> label_of;
   for (const cases::Bone& bone : data.bones) label_of.push_back(bone.label);
@@ -151,7 +155,7 @@ void build_surfaces(const BoneSegmentation& s,
   // What is known of the bones is asked of them as they were segmented: trust was fitted to that.
   std::vector<LabelSurface> surfaces;
   for (const cases::Bone& bone : data.bones) surfaces.push_back({bone.label, &bone.surface});
-  const auto evidence = measure_evidence(labels.view(), s.regions.view(), s.edge_excess.view(),
+  const auto evidence = measure_evidence(labels.view(), regions, s.edge_excess.view(),
                                          s.smoothed_hu.view(), surfaces, naming);
   for (const BoneEvidence& each : evidence) {
     for (std::size_t i = 0; i < label_of.size(); ++i) {
@@ -160,6 +164,7 @@ void build_surfaces(const BoneSegmentation& s,
   }
   std::vector<TriangleMesh*> meshes;
   for (cases::Bone& bone : data.bones) meshes.push_back(&bone.surface);
+  s.smoothed_hu = s.edge_excess = {};
   sharpen_surfaces(meshes, ct, s.soft_tissue_hu);
   label_by_surfaces({meshes.begin(), meshes.end()}, label_of, labels.view());
   data.labels = on_whole_scan(labels, s.offset, ct.geometry());
@@ -207,12 +212,12 @@ void generate_structures(Reconstruction& result) {
 
 /// Everything after the names.
 void build_case(Grid<std::int16_t> ct,
-                const NamedSegmentation& named,
+                NamedSegmentation named,
                 const ReconstructOptions& options,
                 const std::function<void(std::string_view, double)>& stage,
                 Reconstruction& result) {
-  const auto& [segmentation, naming] = named;
-  refuse_what_cannot_be_operated(naming, segmentation.region_count);
+  const BoneNaming& naming = named.naming;
+  refuse_what_cannot_be_operated(naming, named.segmentation.region_count);
   const std::vector<std::string> warnings = warnings_of(naming);
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   result.naming_cost = naming.cost;
@@ -226,7 +231,9 @@ void build_case(Grid<std::int16_t> ct,
   list_bones(naming, result);
 
   stage("surfaces", 0.45);
-  build_surfaces(segmentation, bone_labels(named), options.surface, naming, ct.view(), result);
+  Grid<std::uint8_t> labels = bone_labels(named);
+  build_surfaces(std::move(named.segmentation), std::move(labels), options.surface, naming,
+                 ct.view(), result);
   warn_of_flagged(result);
   stage("hulls", 0.6);
   for_each_bone(result, [](cases::Bone& bone, BoneFigures& f) { build_hull(bone, f); });
@@ -253,10 +260,10 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
     clock.begin(name);
     options.progress(name, fraction);
   };
-  const NamedSegmentation named = segment_and_name(
+  NamedSegmentation named = segment_and_name(
       ct, options.segmentation,
       [&](std::string_view name, double fraction) { stage(name, kSegmentationShare * fraction); });
-  build_case(std::move(ct), named, options, stage, result);
+  build_case(std::move(ct), std::move(named), options, stage, result);
   clock.end();
   result.stages = clock.stages();
   options.progress("done", 1.0);
@@ -273,9 +280,9 @@ Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
     options.progress(name, fraction);
   };
   stage("names", 0.1);
-  const GivenSegmentation given = describe_labels(ct, labels, options.segmentation);
+  GivenSegmentation given = describe_labels(ct, labels, options.segmentation);
   result.warnings = given.warnings;
-  build_case(std::move(ct), given.named, options, stage, result);
+  build_case(std::move(ct), std::move(given.named), options, stage, result);
   clock.end();
   result.stages = clock.stages();
   options.progress("done", 1.0);

@@ -200,12 +200,13 @@ std::string text_of(const ReconstructionReport& report) {
   if (report.structures > 0) append_structures(report, text);
   double total = 0;
   for (const StageTime& stage : report.stages) total += stage.seconds;
-  append(text, "\n%-28s %8s %6s %7s\n", "stage", "seconds", "share", "so far");
+  append(text, "\n%-28s %8s %6s %7s %12s\n", "stage", "seconds", "share", "so far", "peak MiB");
   double so_far = 0;
   for (const StageTime& stage : report.stages) {
     so_far += stage.seconds;
-    append(text, "%-28s %8.2f %5.1f%% %7.2f\n", stage.name.c_str(), stage.seconds,
-           total > 0 ? 100 * stage.seconds / total : 0.0, so_far);
+    append(text, "%-28s %8.2f %5.1f%% %7.2f %12.0f\n", stage.name.c_str(), stage.seconds,
+           total > 0 ? 100 * stage.seconds / total : 0.0, so_far,
+           stage.peak_memory_bytes / (1024 * 1024));
   }
   if (report.peak_memory_bytes && report.voxels > 0) {
     const auto voxels = static_cast<double>(report.voxels);
@@ -246,7 +247,9 @@ std::string json_of(const ReconstructionReport& report) {
   json["dice_min"] = number_or_null(report.dice_min);
   json["stages"] = nlohmann::ordered_json::array();
   for (const StageTime& stage : report.stages) {
-    json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    json["stages"].push_back({{"name", stage.name},
+                              {"seconds", stage.seconds},
+                              {"peak_memory_bytes", stage.peak_memory_bytes}});
   }
   if (report.peak_memory_bytes) json["peak_memory_bytes"] = *report.peak_memory_bytes;
   json["conventions"] = report.conventions;

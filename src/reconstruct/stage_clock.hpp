@@ -15,6 +15,8 @@ namespace carpus::reconstruct {
 struct StageTime {
   std::string name;
   double seconds = 0;
+  /// Of the whole program up to the stage's end, where it was asked for; 0 otherwise.
+  double peak_memory_bytes = 0;
 };
 
 /// Begins a stage where the one before ends. A stage that comes back adds to its time.
@@ -26,7 +28,7 @@ class StageClock {
     end();
     current_ = 0;
     while (current_ < stages_.size() && stages_[current_].name != name) ++current_;
-    if (current_ == stages_.size()) stages_.push_back({std::string(name), 0});
+    if (current_ == stages_.size()) stages_.push_back({std::string(name)});
     started_ = Clock::now();
     running_ = true;
   }

@@ -1,9 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Per slab of slices: (1) correlate every needed slice along x, once for each distinct order in x;
-// (2) along y, once for each distinct pair of orders; (3) along z, row by row, for each requested
-// derivative; (4) combine the rows.
+// Slice by slice: (1) correlate the slice that comes within reach along x, once for each distinct
+// order in x; (2) along y, once for each distinct pair of orders; (3) along z, row by row, for each
+// requested derivative; (4) combine the rows.
 #include "imaging/detail/derivative_engine.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 
 /// A Gaussian is cut off where it has fallen to e^-8.
 constexpr double kKernelReach = 4.0;
-/// Slices of intermediate results held at once; bounds memory on large scans.
-constexpr int kSlabSlices = 32;
+/// Slices that one task takes at least: each begins with those that its kernels reach before them.
+constexpr std::size_t kSlices = 32;
 /// Values summed together; a fixed count lets the compiler use vector registers.
 constexpr std::size_t kBlock = 16;
 
@@ -96,21 +96,25 @@ Plan make_plan(const GridGeometry& geometry,
 }
 
 template <typename T>
-void correlate_x(const Plan& plan, const T* slice, const Kernel& kernel, float* out) {
+void correlate_x(const Plan& plan,
+                 const BlockView<T>& input,
+                 int z,
+                 const Kernel& kernel,
+                 float* out) {
   const int nx = plan.geometry.size[0];
   const int radius = radius_of(kernel);
   std::vector<float> padded(plan.nx() + 2 * static_cast<std::size_t>(radius));
   std::vector<const float*> rows(kernel.size());
   for (std::size_t t = 0; t < rows.size(); ++t) rows[t] = padded.data() + t;
-  for (std::size_t y = 0; y < plan.ny(); ++y) {
-    const T* row = slice + y * plan.nx();
+  for (int y = 0; y < plan.geometry.size[1]; ++y) {
+    const T* row = input.row(y, z);
     std::copy_n(row, plan.nx(), padded.begin() + radius);
     for (int i = 0; i < radius; ++i) {
       padded[static_cast<std::size_t>(i)] = static_cast<float>(row[mirrored(i - radius, nx)]);
       const int right = radius + nx + i;
       padded[static_cast<std::size_t>(right)] = static_cast<float>(row[mirrored(nx + i, nx)]);
     }
-    weighted_sum(rows, kernel, out + y * plan.nx(), plan.nx());
+    weighted_sum(rows, kernel, out + static_cast<std::size_t>(y) * plan.nx(), plan.nx());
   }
 }
 
@@ -127,6 +131,10 @@ void correlate_y(const Plan& plan, const float* slice, const Kernel& kernel, flo
   }
 }
 
+const Kernel& kernel_along_z(const Plan& plan, std::size_t order) {
+  return plan.kernels[2][static_cast<std::size_t>(plan.orders[order][2])];
+}
+
 int z_radius_of(const Plan& plan) {
   int radius = 0;
   for (const Kernel& kernel : plan.kernels[2]) {
@@ -135,58 +143,81 @@ int z_radius_of(const Plan& plan) {
   return radius;
 }
 
-/// Planes of one slab and its margins, per pair of orders in x and y.
+/// The planes that a slice's kernels reach along z, per pair of orders in x and y. A plane goes
+/// into the place of the one that is left behind.
 template <typename T>
-std::vector<std::vector<float>> filter_planes(const Plan& plan,
-                                              const GridView<const T>& input,
-                                              int begin,
-                                              int end) {
-  const auto count = static_cast<std::size_t>(end - begin);
-  std::vector<std::vector<float>> planes(plan.xy_pairs.size(),
-                                         std::vector<float>(count * plan.plane()));
-  std::vector<float> along_x(plan.plane());
-  for (int z = begin; z < end; ++z) {
-    const auto source = static_cast<std::size_t>(mirrored(z, plan.geometry.size[2]));
+class PlaneRing {
+ public:
+  PlaneRing(const Plan& plan, const BlockView<T>& input)
+      : plan_(plan),
+        input_(input),
+        count_(2 * z_radius_of(plan) + 1),
+        planes_(plan.xy_pairs.size(),
+                std::vector<float>(static_cast<std::size_t>(count_) * plan.plane())),
+        along_x_(plan.plane()) {}
+
+  /// Brings in slice z, which may lie beyond the volume; it stays until slice z + count does.
+  void take(int z) {
+    const int source = mirrored(z, plan_.geometry.size[2]);
     int done_order = -1;
-    for (std::size_t p = 0; p < plan.xy_pairs.size(); ++p) {
-      const auto [order_x, order_y] = plan.xy_pairs[p];
+    for (std::size_t p = 0; p < plan_.xy_pairs.size(); ++p) {
+      const auto [order_x, order_y] = plan_.xy_pairs[p];
       if (order_x != done_order) {
-        correlate_x(plan, input.values().data() + source * plan.plane(),
-                    plan.kernels[0][static_cast<std::size_t>(order_x)], along_x.data());
+        correlate_x(plan_, input_, source, plan_.kernels[0][static_cast<std::size_t>(order_x)],
+                    along_x_.data());
         done_order = order_x;
       }
-      correlate_y(plan, along_x.data(), plan.kernels[1][static_cast<std::size_t>(order_y)],
-                  planes[p].data() + static_cast<std::size_t>(z - begin) * plan.plane());
+      correlate_y(plan_, along_x_.data(), plan_.kernels[1][static_cast<std::size_t>(order_y)],
+                  planes_[p].data() + place_of(z));
     }
   }
-  return planes;
-}
+  [[nodiscard]] const float* plane(std::size_t pair, int z) const {
+    return planes_[pair].data() + place_of(z);
+  }
+
+ private:
+  [[nodiscard]] std::size_t place_of(int z) const {
+    const int place = (z % count_ + count_) % count_;
+    return static_cast<std::size_t>(place) * plan_.plane();
+  }
+
+  const Plan& plan_;
+  const BlockView<T>& input_;
+  int count_;
+  std::vector<std::vector<float>> planes_;
+  std::vector<float> along_x_;
+};
 
 template <typename T>
-void filter_slab(const Plan& plan,
-                 const GridView<const T>& input,
-                 int begin,
-                 int end,
-                 const CombineRows& combine,
-                 std::span<float> output) {
+void filter_slices(const Plan& plan,
+                   const BlockView<T>& input,
+                   int begin,
+                   int end,
+                   const CombineRows& combine,
+                   std::span<float> output) {
   const int margin = z_radius_of(plan);
-  const auto planes = filter_planes(plan, input, begin - margin, end + margin);
+  PlaneRing<T> ring(plan, input);
+  for (int z = begin - margin; z < begin + margin; ++z) ring.take(z);
   std::vector<std::vector<float>> results(plan.orders.size(), std::vector<float>(plan.nx()));
   std::vector<const float*> result_rows;
   result_rows.reserve(results.size());
   for (const auto& row : results) result_rows.push_back(row.data());
+  std::vector<std::vector<const float*>> planes(plan.orders.size());
   std::vector<const float*> rows;
   for (int z = begin; z < end; ++z) {
+    ring.take(z + margin);
+    for (std::size_t o = 0; o < plan.orders.size(); ++o) {
+      const int radius = radius_of(kernel_along_z(plan, o));
+      planes[o].clear();
+      for (int t = -radius; t <= radius; ++t) {
+        planes[o].push_back(ring.plane(plan.pair_of_order[o], z + t));
+      }
+    }
     for (std::size_t y = 0; y < plan.ny(); ++y) {
       for (std::size_t o = 0; o < plan.orders.size(); ++o) {
-        const Kernel& kernel = plan.kernels[2][static_cast<std::size_t>(plan.orders[o][2])];
-        const int first = z - begin + margin - radius_of(kernel);
-        rows.resize(kernel.size());
-        for (std::size_t t = 0; t < rows.size(); ++t) {
-          rows[t] = planes[plan.pair_of_order[o]].data() +
-                    (static_cast<std::size_t>(first) + t) * plan.plane() + y * plan.nx();
-        }
-        weighted_sum(rows, kernel, results[o].data(), plan.nx());
+        rows = planes[o];
+        for (const float*& row : rows) row += y * plan.nx();
+        weighted_sum(rows, kernel_along_z(plan, o), results[o].data(), plan.nx());
       }
       combine(result_rows,
               output.data() + static_cast<std::size_t>(z) * plan.plane() + y * plan.nx(),
@@ -228,29 +259,26 @@ std::vector<float> gaussian_kernel(double sigma, int order) {
 }
 
 template <typename T>
-void filter_derivatives(const GridView<const T>& input,
+void filter_derivatives(const BlockView<T>& input,
                         double sigma_mm,
                         std::span<const DerivativeOrder> orders,
                         const CombineRows& combine,
                         std::span<float> output) {
-  CARPUS_CHECK(output.size() == input.values().size());
+  CARPUS_CHECK(output.size() == input.geometry().voxel_count());
   if (output.empty()) return;
   const Plan plan = make_plan(input.geometry(), sigma_mm, orders);
   const auto slices = static_cast<std::size_t>(plan.geometry.size[2]);
-  parallel_for(slices, kSlabSlices, [&](std::size_t first, std::size_t last) {
-    for (int z = static_cast<int>(first); z < static_cast<int>(last); z += kSlabSlices) {
-      filter_slab(plan, input, z, std::min(z + kSlabSlices, static_cast<int>(last)), combine,
-                  output);
-    }
+  parallel_for(slices, kSlices, [&](std::size_t first, std::size_t last) {
+    filter_slices(plan, input, static_cast<int>(first), static_cast<int>(last), combine, output);
   });
 }
 
-template void filter_derivatives(const GridView<const float>&,
+template void filter_derivatives(const BlockView<float>&,
                                  double,
                                  std::span<const DerivativeOrder>,
                                  const CombineRows&,
                                  std::span<float>);
-template void filter_derivatives(const GridView<const std::int16_t>&,
+template void filter_derivatives(const BlockView<std::int16_t>&,
                                  double,
                                  std::span<const DerivativeOrder>,
                                  const CombineRows&,

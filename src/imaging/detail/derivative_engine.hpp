@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Several Gaussian derivatives of one volume in a single sweep: the passes they share are done
-// once, and only a slab of intermediate planes is in memory. Private to imaging.
+// once, and only as many intermediate planes are in memory as a kernel reaches. Private to imaging.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/grid.hpp"
+#include "imaging/block_view.hpp"
 
 namespace carpus::imaging::detail {
 
@@ -30,7 +30,7 @@ using CombineRows =
 /// Computes the derivatives `orders` (per mm) of `input` smoothed with sigma_mm, and hands them row
 /// by row to `combine`, which writes the result. Borders are mirrored about the volume's face.
 template <typename T>  // float, std::int16_t
-void filter_derivatives(const GridView<const T>& input,
+void filter_derivatives(const BlockView<T>& input,
                         double sigma_mm,
                         std::span<const DerivativeOrder> orders,
                         const CombineRows& combine,
