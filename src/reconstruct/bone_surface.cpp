@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -34,14 +35,17 @@ constexpr int kMargin = 5;
 imaging::VoxelBox box_of(const Labels& labels, std::uint8_t label) {
   const GridGeometry& g = labels.geometry();
   imaging::VoxelBox box{{g.size[0], g.size[1], g.size[2]}, {-1, -1, -1}};
-  std::size_t i = 0;
+  const auto nx = static_cast<std::size_t>(g.size[0]);
+  const std::uint8_t* row = labels.values().data();
   for (int z = 0; z < g.size[2]; ++z) {
-    for (int y = 0; y < g.size[1]; ++y) {
-      for (int x = 0; x < g.size[0]; ++x, ++i) {
-        if (labels[i] != label) continue;
-        box.low = {std::min(box.low.x, x), std::min(box.low.y, y), std::min(box.low.z, z)};
-        box.high = {std::max(box.high.x, x), std::max(box.high.y, y), std::max(box.high.z, z)};
-      }
+    for (int y = 0; y < g.size[1]; ++y, row += nx) {
+      const void* const found = std::memchr(row, label, nx);
+      if (found == nullptr) continue;
+      const auto first = static_cast<int>(static_cast<const std::uint8_t*>(found) - row);
+      int last = g.size[0] - 1;
+      while (row[last] != label) --last;
+      box.low = {std::min(box.low.x, first), std::min(box.low.y, y), std::min(box.low.z, z)};
+      box.high = {std::max(box.high.x, last), std::max(box.high.y, y), std::max(box.high.z, z)};
     }
   }
   if (box.high.x < 0) return box;
@@ -53,27 +57,27 @@ imaging::VoxelBox box_of(const Labels& labels, std::uint8_t label) {
   return box;
 }
 
-/// True if a face neighbour of `v` is on the other side of the label's border.
-bool is_at_border(const Labels& labels, const VoxelIndex& v, std::uint8_t label) {
-  const GridGeometry& g = labels.geometry();
-  const bool inside = labels[v] == label;
-  const std::array<VoxelIndex, 6> neighbours{
-      VoxelIndex{v.x - 1, v.y, v.z}, VoxelIndex{v.x + 1, v.y, v.z}, VoxelIndex{v.x, v.y - 1, v.z},
-      VoxelIndex{v.x, v.y + 1, v.z}, VoxelIndex{v.x, v.y, v.z - 1}, VoxelIndex{v.x, v.y, v.z + 1}};
-  return std::any_of(neighbours.begin(), neighbours.end(), [&](const VoxelIndex& n) {
-    return g.contains(n) && (labels[n] == label) != inside;
-  });
-}
-
 /// @param field  the edge's excess, in whose place the field comes.
 Grid<float> scalar_field(const Labels& labels, std::uint8_t label, Grid<float> field) {
-  for (std::size_t i = 0; i < field.values().size(); ++i) {
-    const bool inside = labels[i] == label;
-    const bool border = is_at_border(labels, labels.geometry().index_of(i), label);
-    if (inside) {
-      field[i] = border ? std::clamp(field[i], kLeast, kFar) : kFar;
-    } else {
-      field[i] = border && labels[i] == 0 ? std::clamp(field[i], -kFar, -kLeast) : -kFar;
+  const auto [nx, ny, nz] = labels.geometry().size;
+  const auto dy = static_cast<std::size_t>(nx);
+  const std::size_t dz = dy * static_cast<std::size_t>(ny);
+  std::size_t i = 0;
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x, ++i) {
+        const bool inside = labels[i] == label;
+        // A face neighbour is on the other side of the label's border.
+        const auto differs = [&](std::size_t j) { return (labels[j] == label) != inside; };
+        const bool border = (x > 0 && differs(i - 1)) || (x + 1 < nx && differs(i + 1)) ||
+                            (y > 0 && differs(i - dy)) || (y + 1 < ny && differs(i + dy)) ||
+                            (z > 0 && differs(i - dz)) || (z + 1 < nz && differs(i + dz));
+        if (inside) {
+          field[i] = border ? std::clamp(field[i], kLeast, kFar) : kFar;
+        } else {
+          field[i] = border && labels[i] == 0 ? std::clamp(field[i], -kFar, -kLeast) : -kFar;
+        }
+      }
     }
   }
   return field;

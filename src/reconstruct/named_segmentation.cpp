@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/named_segmentation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -107,10 +108,13 @@ Grid<std::uint8_t> on_whole_scan(const Grid<std::uint8_t>& part,
                                  const VoxelIndex& offset,
                                  const GridGeometry& whole) {
   Grid<std::uint8_t> labels(whole);
-  for (std::size_t i = 0; i < part.values().size(); ++i) {
-    const VoxelIndex v = part.geometry().index_of(i);
-    labels[VoxelIndex{v.x + offset.x, v.y + offset.y, v.z + offset.z}] =
-        static_cast<std::uint8_t>(part[i]);
+  const auto& [nx, ny, nz] = part.geometry().size;
+  const std::uint8_t* row = part.values().data();
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y, row += nx) {
+      const VoxelIndex first{offset.x, offset.y + y, offset.z + z};
+      std::copy_n(row, nx, labels.values().data() + whole.offset_of(first));
+    }
   }
   return labels;
 }
