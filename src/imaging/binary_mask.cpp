@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "imaging/detail/run_components.hpp"
 
 namespace carpus::imaging {
@@ -20,8 +21,8 @@ Grid<std::uint8_t> cross_step(const GridView<const std::uint8_t>& mask, bool dil
   const std::size_t dy = static_cast<std::size_t>(nx);
   const std::size_t dz = dy * static_cast<std::size_t>(ny);
   const bool wanted = dilate;
-  std::size_t i = 0;
-  for (int z = 0; z < nz; ++z) {
+  const auto step_slice = [&, nx = nx, ny = ny, nz = nz](int z) {
+    std::size_t i = static_cast<std::size_t>(z) * dz;
     for (int y = 0; y < ny; ++y) {
       for (int x = 0; x < nx; ++x, ++i) {
         const auto hit = [&](std::size_t j) { return (mask[j] != 0) == wanted; };
@@ -31,7 +32,10 @@ Grid<std::uint8_t> cross_step(const GridView<const std::uint8_t>& mask, bool dil
         result[i] = found == dilate ? 1 : 0;
       }
     }
-  }
+  };
+  parallel_for(static_cast<std::size_t>(nz), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t z = begin; z < end; ++z) step_slice(static_cast<int>(z));
+  });
   return result;
 }
 

@@ -19,6 +19,8 @@ namespace carpus::imaging {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Voxels that one task of a loop takes at least.
+constexpr std::size_t kGrain = 1U << 16U;
 /// Lines taken together: a line of the processor's cache holds so many numbers.
 constexpr std::size_t kBeside = 16;
 
@@ -129,14 +131,18 @@ Grid<float> distance_to_background(const GridView<const std::uint8_t>& mask) {
 
 Grid<float> distance_to_value(const GridView<const std::uint8_t>& mask, std::uint8_t target) {
   Grid<float> result(mask.geometry());
-  for (std::size_t i = 0; i < result.values().size(); ++i) {
-    result[i] = mask[i] != target ? std::numeric_limits<float>::infinity() : 0.0F;
-  }
+  parallel_for(result.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      result[i] = mask[i] != target ? std::numeric_limits<float>::infinity() : 0.0F;
+    }
+  });
   if (result.values().empty()) return result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     transform_axis(mask.geometry(), axis, result.values());
   }
-  for (float& v : result.values()) v = std::sqrt(v);
+  parallel_for(result.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) result[i] = std::sqrt(result[i]);
+  });
   return result;
 }
 

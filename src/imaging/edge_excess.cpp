@@ -56,9 +56,11 @@ Grid<float> measure_edge_excess(const GridView<const float>& smoothed_hu,
                                 float soft_tissue_hu,
                                 const BoneSegmentationOptions& options) {
   Grid<float> inside(smoothed_hu.geometry());
-  for (std::size_t i = 0; i < inside.values().size(); ++i) {
-    inside[i] = mask[i] != 0 ? smoothed_hu[i] : soft_tissue_hu;
-  }
+  parallel_for(inside.values().size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      inside[i] = mask[i] != 0 ? smoothed_hu[i] : soft_tissue_hu;
+    }
+  });
   Grid<float> excess = box_maximum(std::move(inside), options.rim_reach_mm);
   const auto half = static_cast<float>(options.rim_fraction);
   const auto most = std::max(half, static_cast<float>(options.thin_rim_fraction));
