@@ -106,6 +106,41 @@ TEST(ReadProcedure, TellsFilePlaceAndFieldOfEveryMistake) {
   EXPECT_EQ(problem_of(file), "lunate.json: title is missing");
 }
 
+Json with_drill() {
+  Json file = good();
+  file["drill"] = Json::parse(R"({
+    "hold": [2, 7], "hold_s": 3, "middle_deg": 13, "still_mm": 2, "round_places": 5,
+    "round_turn_deg": 180, "touch": [8], "touch_mm": 2.5, "line": [8, 11], "line_mm": 3,
+    "mark": "[E]"})");
+  return file;
+}
+
+TEST(ReadProcedure, ReadsExercisesWithAScope) {
+  const Procedure read = read_procedure(with_drill().dump(), "lunate.json", kPredicates);
+  ASSERT_TRUE(read.drill.has_value());
+  EXPECT_EQ(read.drill->hold, (std::vector<std::uint8_t>{2, 7}));
+  EXPECT_EQ(read.drill->line, (std::vector<std::uint8_t>{8, 11}));
+  EXPECT_DOUBLE_EQ(read.drill->hold_s, 3);
+  EXPECT_FALSE(read_procedure(good().dump(), "lunate.json", kPredicates).drill.has_value());
+}
+
+TEST(ReadProcedure, ExercisesThatGoNowhereAreRefused) {
+  const auto problem = [](const char* field, const Json& value) {
+    Json file = with_drill();
+    file["drill"][field] = value;
+    return problem_of(file);
+  };
+  EXPECT_NE(problem("hold", Json::array()).find("hold"), std::string::npos);
+  EXPECT_NE(problem("hold", {0}).find("0 is no place"), std::string::npos);
+  EXPECT_NE(problem("touch", {1, 32}).find("32 is no place"), std::string::npos);
+  EXPECT_NE(problem("touch", {1.5}).find("touch"), std::string::npos);
+  EXPECT_NE(problem("touch", Json::array({1, 2, 3, 4, 5, 6, 7, 8, 9})).find("1 to 8"),
+            std::string::npos);
+  EXPECT_NE(problem("line", {8}).find("one place"), std::string::npos);
+  EXPECT_NE(problem("hold_s", -1).find("hold_s"), std::string::npos);
+  EXPECT_NE(problem("holds", 1).find("holds"), std::string::npos) << "misspelt";
+}
+
 TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   Json file = good();
   for (int i = 0; i < 31; ++i) {

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arthroscopy/pathology_table.hpp"
+#include "core/error.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/world.hpp"
 
@@ -180,6 +182,42 @@ TEST(Scopes, ATipEntersByThePortalAndTheWallHoldsItWhereThereIsNoDisc) {
   hand.go(kMiddle + Vec3{-9, 0, -5}, 300);
   EXPECT_NEAR(hand.tip().z, -kHalfHigh - 0.3, 0.15) << "the rigid wall, beside the disc";
   EXPECT_TRUE(hand.now().is_disc_still);
+}
+
+procedure::Procedure drilling(std::vector<std::uint8_t> places) {
+  procedure::Procedure made = probe_alone();
+  made.drill.emplace();
+  made.drill->hold = made.drill->touch = places;
+  made.drill->line = std::move(places);
+  made.drill->hold_s = 3;
+  made.drill->touch_mm = made.drill->line_mm = 2.5;
+  return made;
+}
+
+TEST(Scopes, AnExerciseGoesOnFromAKeyframeAsItWas) {
+  const procedure::Procedure exercise = drilling({16, 16});
+  World world(wrist(), exercise, 1);
+  Hand hand(world);
+  enter(hand);
+  hand.go(kEdge);
+  const procedure::DrillFacts before = hand.now().scope.facts.drill;
+  EXPECT_GT(before.unseen_path_mm, 1.0) << "no scope sees it";
+  EXPECT_EQ(before.touched, 0);
+  World again(wrist(), exercise, 1);
+  ASSERT_TRUE(again.read_state(world.write_state()).has_value());
+  EXPECT_EQ(again.now().scope.facts.drill, before);
+  const simulation::Input still{};
+  EXPECT_EQ(again.step(still).state_hash, world.step(still).state_hash);
+}
+
+TEST(Scopes, AnExerciseAtAPlaceThatTheWristLacksIsRefusedByItsNumber) {
+  const procedure::Procedure exercise = drilling({16, 31});
+  try {
+    const World world(wrist(), exercise, 1);
+    FAIL() << "it began";
+  } catch (const InvalidInput& problem) {
+    EXPECT_NE(std::string(problem.what()).find("31"), std::string::npos) << problem.what();
+  }
 }
 
 TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {

@@ -183,10 +183,7 @@ void World::State::look_at_points(const Model& model,
   const auto count = static_cast<std::uint32_t>(points.size());
   const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
   const cases::TourPoint& point = points[turn];
-  const Vec3 at = (poses[point.body] * Point<frame::Bone>{point.at}).v;
-  const bool is_seen = point.joint == joint && arthroscopy::is_in_field(sight, at) &&
-                       distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
-                       is_in_sight(model, joint, sight.eye, at);
+  const bool is_seen = point.joint == joint && sees(model, joint, sight, place_now(model, turn));
   detail::ScopeState& state = scope_state;
   const std::uint32_t bit = 1U << point.number;
   state.in_view_ticks[turn] = is_seen ? state.in_view_ticks[turn] + count : 0;
