@@ -4,7 +4,6 @@
 // Tubes laid across the way of a wire on the synthetic wrist: what turns in one harms it, for good.
 #include <gtest/gtest.h>
 
-#include "core/rng.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/operation_test_support.hpp"
 
@@ -150,44 +149,6 @@ TEST(Structures, OfAKeyframeGoOnToTheSameHash) {
   // A case without them takes no such state.
   World other(test::wrist(), test::exercise(), 1);
   EXPECT_FALSE(other.read_state(bytes));
-}
-
-TEST(Structures, GapsAreThoseOfEveryPieceOfTheTube) {
-  cases::CaseData data = test::wrist();
-  Rng rng(5);
-  const auto anywhere = [&](double within) {
-    return Vec3{rng.normal(), rng.normal(), rng.normal()} * within;
-  };
-  cases::Structure tube{"tube", "a tendon",     anatomy::StructureKind::Tendon,
-                        1.1,    BoneId::Radius, {}};
-  Vec3 at = anywhere(10);
-  for (int i = 0; i < 60; ++i) tube.course.push_back({at += anywhere(1.5), 0.0});
-  data.structures = {tube};
-  detail::StructureWatch watch(data);
-  const std::vector<Pose<frame::Patient, frame::Bone>> still(data.bones.size());
-  watch.follow(still);
-  for (int trial = 0; trial < 500; ++trial) {
-    const Vec3 from = anywhere(20);
-    const Vec3 to = from + anywhere(20);
-    double least = 1e9;
-    for (std::size_t i = 1; i < tube.course.size(); ++i) {
-      least = std::min(
-          least, detail::segment_distance(from, to, tube.course[i - 1].at, tube.course[i].at));
-    }
-    EXPECT_NEAR(watch.gap_mm(0, from, to), least - 1.1, 1e-9);
-    EXPECT_NEAR(watch.gap_mm(0, from, to, 4.0), std::min(4.0, least - 1.1), 1e-9);
-  }
-}
-
-TEST(Structures, SegmentsKnowTheirDistance) {
-  using detail::segment_distance;
-  const Vec3 o{0, 0, 0};
-  EXPECT_DOUBLE_EQ(segment_distance({-1, 0, 0}, {1, 0, 0}, {0, -1, 2}, {0, 1, 2}), 2);
-  EXPECT_DOUBLE_EQ(segment_distance({-1, 0, 0}, {1, 0, 0}, {3, 0, 0}, {4, 0, 0}), 2);   // in line
-  EXPECT_DOUBLE_EQ(segment_distance({-1, 0, 0}, {1, 0, 0}, {-1, 3, 0}, {1, 3, 0}), 3);  // parallel
-  EXPECT_DOUBLE_EQ(segment_distance(o, o, {0, 3, 4}, {0, 3, 4}), 5);
-  EXPECT_DOUBLE_EQ(segment_distance(o, o, {-1, 2, 0}, {1, 2, 0}), 2);
-  EXPECT_DOUBLE_EQ(segment_distance({-1, 2, 0}, {1, 2, 0}, o, o), 2);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ struct World::State {
   detail::DrillState drill_state;
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
-  detail::StructureWatch structures;
+  cases::LaidStructures structures;
   detail::Tissue tissue;
   contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
   std::array<detail::BodyPose, kMaxBodies> poses{};  ///< follow from wrist and shifts

@@ -1,0 +1,16 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geometry/vec3.hpp"
+
+namespace carpus {
+
+/// Least distance of two segments [mm], points and parallel ones too. Only + - * / and sqrt.
+/// Source: [ericson2004realtime] §5.1.9.
+[[nodiscard]] double segment_distance(const Vec3& a0,
+                                      const Vec3& a1,
+                                      const Vec3& b0,
+                                      const Vec3& b1) noexcept;
+
+}  // namespace carpus
