@@ -18,6 +18,7 @@
 namespace carpus::anatomy {
 
 enum class StructureKind : std::uint8_t { Tendon = 0, Artery = 1, Nerve = 2 };
+inline constexpr std::size_t kStructureKinds = 3;
 
 /// "tendon", "artery", "nerve".
 [[nodiscard]] std::string_view name_of(StructureKind kind) noexcept;

@@ -1,20 +1,24 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Landmark by the radius's own surface -> skin mark by the table -> of the ways in near there the
-// one with most room between the pulled bones -> depth of the capsule by the joint's space. Points:
-// bone of the joint's wall, a ligament's course, the disc's middle.
+// Landmark by the radius's own surface -> skin mark by the table -> of the ways in near there,
+// which cut no nerve, artery or tendon where there is such a one, that with most room between the
+// pulled bones -> depth of the capsule by the joint's space. Points: bone of the joint's wall, a
+// ligament's course, the disc's middle.
 #include "arthroscopy/make_map.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
+#include <tuple>
 
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
+#include "cases/laid_structures.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/triangle_tree.hpp"
 
@@ -27,9 +31,19 @@ using soft_tissue::Space;
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr double kStepMm = 0.25;
+constexpr double kFarStepMm = 1.0;  // where the joint is not near
+/// A way is followed from so far outside its mark, which lies as deep as the bone that is felt.
+constexpr double kOverMarkMm = 9.0;
 constexpr double kTiltStepDeg = 5;
+/// A nerve or an artery is to lie so far from a way: a tip slips into its hole 2.5 mm beside it
+/// [E].
+constexpr double kVitalClearMm = 2.5;
+/// Of ways that cut as deep to so much the roomier is taken [E].
+constexpr double kCutStepMm = 0.5;
+constexpr double kRounding = 1e-3;  // of such a step: distances are true to rounding
 /// Room for which a mark a millimetre farther off is taken [E].
 constexpr double kPerMmOff = 0.03;
+constexpr double kPerDegLeant = 0.02;  // and for a degree [E]
 /// A place between two bones so much nearer to both is taken for each mm away from the usual [E].
 constexpr double kPerMmAside = 0.15;
 /// A scope's tip looks about from so far beyond the capsule at least [E]; farther in, where the
@@ -42,6 +56,8 @@ constexpr double kSkinOverCapsuleMm = 8.0;
 /// Cartilage of this joint: so near to the wall of its space.
 constexpr double kOnWallMm = 0.6;
 constexpr double kThinnestMm = 0.05;
+/// From the capsule outwards: beyond the skin lies nothing.
+constexpr double kToOutsideMm = 30.0;
 
 /// The case in the frame of a left wrist of the generic size.
 class Wrist {
@@ -73,15 +89,63 @@ class Wrist {
 /// The bones as the hand is pulled: how far they are, where each has gone.
 class PulledBones {
  public:
-  PulledBones(const cases::CaseData& data, double traction_n) : data_(data) {
+  PulledBones(const cases::CaseData& data, double traction_n) : data_(data), structures_(data) {
     anatomy::HandPose pose = data.hand_motion.scan;
     pose.traction_n = traction_n;
+    std::vector<Pose<frame::Patient, frame::Bone>> poses;
     for (const cases::Bone& bone : data.bones) {
-      from_patient_.push_back(cases::pose_under_block(data.hand_motion, bone.bone, pose).inverse());
+      poses.push_back(cases::pose_under_block(data.hand_motion, bone.bone, pose));
+      from_patient_.push_back(poses.back().inverse());
     }
+    structures_.follow(poses);
   }
   [[nodiscard]] const Pose<frame::Bone, frame::Patient>& inverse(std::uint8_t body) const {
     return from_patient_[body];
+  }
+  /// What of a kind lies nearest to a way, from its capsule to outside.
+  [[nodiscard]] std::optional<cases::BesideWay> beside(anatomy::StructureKind kind,
+                                                       const Vec3& capsule,
+                                                       const Vec3& inwards) const {
+    std::optional<cases::BesideWay> nearest;
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      if (data_.structures[i].kind != kind) continue;
+      const double mm = structures_.gap_mm(i, capsule, capsule - inwards * kToOutsideMm);
+      if (!nearest || mm < nearest->mm) nearest = cases::BesideWay{i, mm};
+    }
+    return nearest;
+  }
+  /// Whether a way passes this structure on the side to which `along` points; so where there is
+  /// none.
+  [[nodiscard]] bool is_beyond(const std::string& structure,
+                               const Vec3& along,
+                               const Vec3& capsule,
+                               const Vec3& inwards) const {
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      if (data_.structures[i].id != structure) continue;
+      double least = kToOutsideMm;
+      double side = 0;
+      for (const Vec3& p : structures_.course(i)) {
+        const double out = std::clamp(dot(capsule - p, inwards), 0.0, kToOutsideMm);
+        const Vec3 off = capsule - inwards * out - p;
+        if (length(off) >= least) continue;
+        least = length(off);
+        side = dot(off, along);
+      }
+      return side >= 0;
+    }
+    return true;
+  }
+  /// By how much a way comes nearer than `clear_mm` to any of these kinds, roughly; 0 for none.
+  [[nodiscard]] double cut_mm(std::span<const anatomy::StructureKind> kinds,
+                              double clear_mm,
+                              const Vec3& capsule,
+                              const Vec3& inwards) const {
+    double least = clear_mm;
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      if (std::find(kinds.begin(), kinds.end(), data_.structures[i].kind) == kinds.end()) continue;
+      least = structures_.gap_mm(i, capsule, capsule - inwards * kToOutsideMm, least);
+    }
+    return std::max(0.0, std::ceil((clear_mm - least) / kCutStepMm - kRounding)) * kCutStepMm;
   }
   /// Least distance to any of them.
   [[nodiscard]] double distance_mm(const Vec3& point) const {
@@ -99,6 +163,7 @@ class PulledBones {
  private:
   const cases::CaseData& data_;
   std::vector<Pose<frame::Bone, frame::Patient>> from_patient_;
+  cases::LaidStructures structures_;
 };
 
 const Space* space_of(const SoftTissue& tissue, const std::string& id) {
@@ -117,6 +182,18 @@ std::optional<Vec3> lister_of(const cases::CaseData& data, const Wrist& wrist) {
     const Vec3 at = wrist.left_of(v);
     if (at.x < 1 || at.x > 12 || at.y < -4.5 || at.y > 4.5 || at.z > 0) continue;
     if (!best || at.z < best->z) best = at;
+  }
+  return best;
+}
+
+/// A forearm bone's styloid: its most distal point.
+std::optional<Vec3> styloid_of(const cases::CaseData& data, const Wrist& wrist, BoneId id) {
+  const cases::Bone* bone = cases::find_bone(data, id);
+  if (bone == nullptr) return std::nullopt;
+  std::optional<Vec3> best;
+  for (const Vec3& v : bone->surface.vertices) {
+    const Vec3 at = wrist.left_of(v);
+    if (!best || at.x < best->x) best = at;
   }
   return best;
 }
@@ -164,11 +241,13 @@ std::optional<WayIn> way_in(const cases::JointSpace& joint,
                             const Vec3& inwards) {
   std::optional<WayIn> way;
   double in = 0;
-  for (double s = 0; s < 30; s += kStepMm) {
+  double step = kStepMm;
+  for (double s = 0; s < 30; s += step) {
     const Vec3 p = from + inwards * s;
     const OpenedSpace wall =
         opened_space_at(joint.wall, bones.inverse(joint.proximal), bones.inverse(joint.distal), p);
     const bool is_in = wall.is_near && wall.distance_mm < 0;
+    step = wall.is_near ? kStepMm : kFarStepMm;
     if (!way) {
       if (!is_in && bones.distance_mm(p) < kLeastRoomMm) return std::nullopt;  // bone is before it
       if (!is_in) continue;
@@ -254,6 +333,10 @@ class MapMaker {
       return;
     }
     std::vector<std::pair<std::string, Vec3>> marks{{"lister", *lister}};
+    const auto radial = styloid_of(data_, wrist_, BoneId::Radius);
+    if (radial) marks.emplace_back("radial_styloid", *radial);
+    const auto ulnar = styloid_of(data_, wrist_, BoneId::Ulna);
+    if (ulnar) marks.emplace_back("ulnar_styloid", *ulnar);
     for (const TabledPortal& portal : table_.portals) {
       const auto mark = std::find_if(marks.begin(), marks.end(),
                                      [&](const auto& m) { return m.first == portal.from; });
@@ -263,55 +346,127 @@ class MapMaker {
       }
       const auto joint = joint_of(portal.joint);
       if (!joint) continue;  // named already
-      const Vec3 nominal = mark->second + Vec3{-portal.distal_mm, portal.ulnar_mm, 0};
+      const Vec3 nominal = mark->second + Vec3{-portal.distal_mm, portal.ulnar_mm, portal.volar_mm};
       if (const std::optional<Vec3> at = place(portal, *joint, nominal))
         marks.emplace_back(portal.id, *at);
     }
   }
 
-  /// @return where it was placed, in the frame of the generic wrist.
-  std::optional<Vec3> place(const TabledPortal& portal, std::uint8_t in, const Vec3& nominal) {
-    const cases::JointSpace& joint = map_.joints[in];
-    std::optional<WayIn> best;
-    Vec3 mark;
-    double best_value = -1e9;
-    for (double deg = portal.proximal_deg[0]; deg <= portal.proximal_deg[1]; deg += kTiltStepDeg) {
-      const double tilt = deg * kRadPerDeg;
-      const Vec3 inwards = wrist_.way({std::sin(tilt), 0, std::cos(tilt)});
+  /// A way in that was tried; the greater is the better.
+  struct Tried {
+    WayIn way;
+    Vec3 mark;               ///< in the frame of the generic wrist
+    double off_mm = 0;       ///< of the usual place
+    double leant_deg = 0;    ///< about the forearm, of the usual way
+    bool is_between = true;  ///< the structures that it belongs between
+    /// Too near to a nerve or an artery by so much, and into a tendon, which is spread aside.
+    std::array<double, 2> cut_mm{};
+
+    [[nodiscard]] bool has_room() const { return way.room_mm >= kLeastRoomMm; }
+    /// Of two ways with much the same room the one nearer to the usual.
+    [[nodiscard]] double value() const {
+      return way.room_mm - kPerMmOff * off_mm - kPerDegLeant * leant_deg;
+    }
+    [[nodiscard]] bool operator<(const Tried& other) const {
+      return std::tuple(has_room(), is_between, -cut_mm[0], -cut_mm[1], value()) <
+             std::tuple(other.has_room(), other.is_between, -other.cut_mm[0], -other.cut_mm[1],
+                        other.value());
+    }
+  };
+
+  [[nodiscard]] std::optional<Tried> best_way(const TabledPortal& portal,
+                                              const cases::JointSpace& joint,
+                                              const Vec3& nominal) const {
+    using anatomy::StructureKind;
+    static constexpr std::array kVital{StructureKind::Nerve, StructureKind::Artery};
+    static constexpr std::array kSpread{StructureKind::Tendon};
+    std::optional<Tried> best;
+    const double middle_rad = (portal.ulnar_deg[0] + portal.ulnar_deg[1]) / 2 * kRadPerDeg;
+    const Vec3 across{0, std::cos(middle_rad), -std::sin(middle_rad)};
+    const Vec3 before = Vec3{0, std::sin(middle_rad), std::cos(middle_rad)} * -kOverMarkMm;
+    for (const auto& [tilt, turn] : ways_of(portal)) {
+      const Vec3 inwards = wrist_.way(
+          {std::sin(tilt), std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn)});
       for (double x = -portal.search_mm[0]; x <= portal.search_mm[0]; x += 0.5) {
         for (double y = -portal.search_mm[1]; y <= portal.search_mm[1]; y += 0.5) {
-          const Vec3 left{nominal.x + x, nominal.y + y, -18};
-          const auto way = way_in(joint, bones_, wrist_.point(left), inwards);
-          // Of two ways with much the same room the one nearer to the mark.
-          const double value = way ? way->room_mm - kPerMmOff * std::hypot(x, y) : -1e9;
-          if (!way || value <= best_value) continue;
-          best = way;
-          best_value = value;
-          mark = left;
+          const Vec3 mark = nominal + Vec3{x, 0, 0} + across * y;
+          const auto way = way_in(joint, bones_, wrist_.point(mark + before), inwards);
+          if (!way) continue;
+          Tried tried{*way, mark, std::hypot(x, y), std::abs(turn - middle_rad) / kRadPerDeg};
+          if (tried.has_room()) {
+            const Vec3 along = wrist_.way(across);
+            tried.is_between = bones_.is_beyond(portal.between[0], along, way->capsule, inwards) &&
+                               (portal.between[1].empty() ||
+                                bones_.is_beyond(portal.between[1], -along, way->capsule, inwards));
+            tried.cut_mm = {bones_.cut_mm(kVital, kVitalClearMm, way->capsule, inwards),
+                            bones_.cut_mm(kSpread, kLeastRoomMm, way->capsule, inwards)};
+          }
+          if (!best || *best < tried) best = tried;
         }
       }
     }
-    if (!best || best->room_mm < kLeastRoomMm) {
-      map_.problems.push_back(
-          portal.name + ": no room between the bones" +
-          (best ? " (" + std::to_string(best->room_mm).substr(0, 4) + " mm)" : std::string()));
+    return best;
+  }
+
+  /// Every lean of a way in that is tried: towards the forearm, about it [rad].
+  [[nodiscard]] static std::vector<std::array<double, 2>> ways_of(const TabledPortal& portal) {
+    std::vector<std::array<double, 2>> ways;
+    for (double deg = portal.proximal_deg[0]; deg <= portal.proximal_deg[1]; deg += kTiltStepDeg) {
+      for (double turn = portal.ulnar_deg[0]; turn <= portal.ulnar_deg[1]; turn += kTiltStepDeg) {
+        ways.push_back({deg * kRadPerDeg, turn * kRadPerDeg});
+      }
+    }
+    return ways;
+  }
+
+  /// @return where it was placed, in the frame of the generic wrist.
+  std::optional<Vec3> place(const TabledPortal& portal, std::uint8_t in, const Vec3& nominal) {
+    const cases::JointSpace& joint = map_.joints[in];
+    const std::optional<Tried> best = best_way(portal, joint, nominal);
+    if (!best || !best->has_room()) {
+      map_.problems.push_back(portal.name + ": no room between the bones" +
+                              (best ? " (" + millimetres(best->way.room_mm) + ")" : std::string()));
       return std::nullopt;
     }
     cases::Portal placed;
     placed.id = portal.id;
     placed.name = portal.name;
     placed.landmarks = portal.landmarks;
+    placed.number = static_cast<std::uint8_t>(&portal - table_.portals.data());
+    placed.is_usual = portal.is_usual;
     placed.joint = in;
     placed.body = joint.proximal;  // which carries it from where it was found under traction
     const auto& as_scanned = bones_.inverse(placed.body);
-    const Vec3 capsule = (as_scanned * Point<frame::Patient>{best->capsule}).v;
-    placed.inwards = (as_scanned * Direction<frame::Patient>{best->inwards}).v;
+    const Vec3 capsule = (as_scanned * Point<frame::Patient>{best->way.capsule}).v;
+    placed.inwards = (as_scanned * Direction<frame::Patient>{best->way.inwards}).v;
     placed.capsule_mm =
         way_to_skin(data_.skin, capsule, -placed.inwards).value_or(kSkinOverCapsuleMm);
     placed.skin = capsule - placed.inwards * placed.capsule_mm;
-    placed.room_mm = best->room_mm;
+    placed.room_mm = best->way.room_mm;
+    for (std::size_t kind = 0; kind < placed.beside.size(); ++kind) {
+      placed.beside[kind] = bones_.beside(static_cast<anatomy::StructureKind>(kind),
+                                          best->way.capsule, best->way.inwards);
+    }
+    if (!best->is_between) {
+      map_.problems.push_back(portal.name + ": no room in its interval between tendons");
+    }
+    say_what_is_cut(placed);
     map_.portals.push_back(placed);
-    return Vec3{mark.x, mark.y, nominal.z};
+    return best->mark;
+  }
+
+  /// No way near the landmark is clear: said, for the portal is used all the same.
+  void say_what_is_cut(const cases::Portal& portal) {
+    for (const auto& beside : portal.beside) {
+      if (!beside || beside->mm >= kLeastRoomMm) continue;
+      map_.problems.push_back(portal.name + ": a scope on its way reaches " +
+                              millimetres(kLeastRoomMm - beside->mm) + " into the " +
+                              data_.structures[beside->structure].name);
+    }
+  }
+
+  [[nodiscard]] static std::string millimetres(double mm) {
+    return std::to_string(mm).substr(0, 4) + " mm";
   }
 
   /// The vertex of the joint's wall nearest to a point: of this lining, and beside this body, where

@@ -30,11 +30,13 @@ class MakeMap : public testing::Test {
   const cases::ArthroscopicMap* map_ = &test::generic_wrist().map;
 };
 
-TEST_F(MakeMap, PortalsLieDorsallyAndTheirWaysLeadIntoTheJoint) {
+TEST_F(MakeMap, PortalsLieOnTheirSideAndTheirWaysLeadIntoTheJoint) {
   ASSERT_NE(find_portal(*map_, "3-4"), nullptr) << ::testing::PrintToString(map_->problems);
   ASSERT_NE(find_portal(*map_, "4-5"), nullptr);
   for (const cases::Portal& portal : map_->portals) {
-    EXPECT_LT(in_wrist(portal.skin).z, -5) << portal.id << " is dorsal";
+    const double volar_mm = in_wrist(portal.skin).z;
+    EXPECT_TRUE(!portal.is_usual || volar_mm < -5) << portal.id << " is dorsal";
+    EXPECT_TRUE(portal.id.front() != 'V' || volar_mm > 5) << portal.id << " is volar";
     EXPECT_GE(portal.room_mm, kLeastRoomMm);
     // Where the bones are as the hand is pulled.
     anatomy::HandPose pulled = data_->hand_motion.scan;
@@ -53,6 +55,32 @@ TEST_F(MakeMap, PortalsLieDorsallyAndTheirWaysLeadIntoTheJoint) {
     EXPECT_LT(beyond_capsule(1.5), 0) << portal.id;
     EXPECT_GT(beyond_capsule(-1.5), 0) << portal.id;
   }
+}
+
+/// A tendon laid across a portal's way: the way goes beside it, and the map says how far.
+TEST_F(MakeMap, WaysKeepClearOfATendonThatWasLaidInThem) {
+  const cases::Portal& before = *find_portal(*map_, "6R");
+  cases::CaseData data = *data_;
+  cases::Structure tube{"tube", "a tendon",     anatomy::StructureKind::Tendon,
+                        0.5,    BoneId::Radius, {}};
+  const Vec3 middle = before.skin + before.inwards * (before.capsule_mm * 0.5);
+  for (int i = -20; i <= 20; ++i) tube.course.push_back({middle + map_->distal * i, 0.0});
+  data.structures = {tube};
+  const cases::ArthroscopicMap map = make_map(data, *tissue_);
+  const cases::Portal* after = find_portal(map, "6R");
+  ASSERT_NE(after, nullptr);
+  const auto& beside = after->beside[static_cast<std::size_t>(anatomy::StructureKind::Tendon)];
+  ASSERT_TRUE(beside.has_value());
+  EXPECT_GE(beside->mm, kLeastRoomMm - 1e-6);
+  EXPECT_FALSE(after->beside[static_cast<std::size_t>(anatomy::StructureKind::Nerve)].has_value());
+
+  // Where there is no way without, the portal stays and the map says what it cuts.
+  data.structures[0].radius_mm = 30;
+  const cases::ArthroscopicMap none = make_map(data, *tissue_);
+  EXPECT_NE(find_portal(none, "6R"), nullptr);
+  EXPECT_TRUE(std::any_of(none.problems.begin(), none.problems.end(), [](const auto& p) {
+    return p.find("into the a tendon") != std::string::npos;
+  }));
 }
 
 /// [S80]: about 1 cm ulnar of the 3-4 portal; and 3-4 is distal of Lister's tubercle.

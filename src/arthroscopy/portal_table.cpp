@@ -45,7 +45,11 @@ TabledPortal portal_from(const Json& json) {
   p.from = json.at("from");
   p.distal_mm = json.at("distal_mm");
   p.ulnar_mm = json.at("ulnar_mm");
+  p.volar_mm = json.value("volar_mm", 0.0);
   p.proximal_deg = json.at("proximal_deg").get<std::array<double, 2>>();
+  p.ulnar_deg = json.value("ulnar_deg", p.ulnar_deg);
+  p.is_usual = json.value("usual", true);
+  p.between = json.value("interval", p.between);
   p.search_mm = json.at("search_mm").get<std::array<double, 2>>();
   return p;
 }

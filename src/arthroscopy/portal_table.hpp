@@ -26,11 +26,17 @@ struct TabledPortal {
   std::string name;
   std::string joint;
   std::string landmarks;
-  std::string from;  ///< "lister", or an earlier portal
+  std::string from;  ///< "lister", "radial_styloid", "ulnar_styloid", or an earlier portal
   double distal_mm = 0;
   double ulnar_mm = 0;
+  double volar_mm = 0;
   std::array<double, 2> proximal_deg{};  ///< of the way in, least to most
-  std::array<double, 2> search_mm{};     ///< along the forearm, across it
+  std::array<double, 2> ulnar_deg{};     ///< likewise about the forearm: 0 volar, 180 dorsal
+  bool is_usual = true;                  ///< of the tour; others are offered beside it
+  /// Structures between which the way lies, or empty: in order from radial over dorsal to ulnar and
+  /// on over volar.
+  std::array<std::string, 2> between;
+  std::array<double, 2> search_mm{};  ///< along the forearm, across it
 };
 
 /// Exactly one of `on`, `between`, `ligament`, `is_disc`, `is_place`.

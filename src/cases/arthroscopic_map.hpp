@@ -6,28 +6,41 @@
 // CT. Frame Patient as scanned, which is frame Bone of the body that each goes with.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "anatomy/structure_table.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::cases {
 
+/// What lies beside a portal's way.
+struct BesideWay {
+  std::size_t structure = 0;  ///< its place in CaseData::structures
+  double mm = 0;              ///< from the way's middle line to its surface; negative inside
+};
+
 /// A way through skin and capsule into a joint.
 struct Portal {
   std::string id;  ///< "3-4"
   std::string name;
-  std::string landmarks;   ///< in words: how it is found
-  std::uint8_t joint = 0;  ///< that it leads into, in ArthroscopicMap::joints
-  Vec3 skin;               ///< [mm]
-  Vec3 inwards;            ///< unit
-  double capsule_mm = 0;   ///< from the skin along `inwards`
-  double room_mm = 0;      ///< radius of what goes in there under traction, to its working depth
-  std::uint8_t body = 0;   ///< that takes it along, in CaseData::bones
+  std::string landmarks;    ///< in words: how it is found
+  std::uint8_t number = 0;  ///< its place in data/portals.json, the same in every case
+  bool is_usual = true;     ///< of the tour; others are offered beside it
+  std::uint8_t joint = 0;   ///< that it leads into, in ArthroscopicMap::joints
+  Vec3 skin;                ///< [mm]
+  Vec3 inwards;             ///< unit
+  double capsule_mm = 0;    ///< from the skin along `inwards`
+  double room_mm = 0;       ///< radius of what goes in there under traction, to its working depth
+  std::uint8_t body = 0;    ///< that takes it along, in CaseData::bones
+  /// By anatomy::StructureKind the nearest to the way from skin to capsule, under traction.
+  std::array<std::optional<BesideWay>, anatomy::kStructureKinds> beside;
 };
 
 /// A place of the diagnostic tour.

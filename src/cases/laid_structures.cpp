@@ -44,8 +44,14 @@ LaidStructures::LaidStructures(const CaseData& data)
   const std::size_t count = std::min(data.structures.size(), kMaxStructures);
   for (std::size_t i = 0; i < count; ++i) {
     const Structure& s = data.structures[i];
-    tubes_.push_back(
-        {scanned_.size(), s.course.size(), s.radius_mm, forearm_of(data, s.forearm), {}, 0.0, 0.0});
+    tubes_.push_back({scanned_.size(),
+                      s.course.size(),
+                      s.radius_mm,
+                      forearm_of(data, s.forearm),
+                      {},
+                      0.0,
+                      0.0,
+                      s.kind});
     for (const StructurePoint& p : s.course) {
       scanned_.push_back(p.at);
       hand_share_.push_back(p.hand_share);

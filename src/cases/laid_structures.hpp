@@ -27,6 +27,16 @@ class LaidStructures {
 
   [[nodiscard]] std::size_t size() const noexcept { return tubes_.size(); }
 
+  /// Its middle line where it lies now, from proximal to distal.
+  [[nodiscard]] std::span<const Vec3> course(std::size_t tube) const noexcept {
+    return std::span<const Vec3>(now_).subspan(tubes_[tube].first, tubes_[tube].count);
+  }
+
+  [[nodiscard]] anatomy::StructureKind kind(std::size_t tube) const noexcept {
+    return tubes_[tube].kind;
+  }
+  [[nodiscard]] double radius_mm(std::size_t tube) const noexcept { return tubes_[tube].radius_mm; }
+
   /// Lays the tubes where the bones have taken them; poses by body of the case. Only needed before
   /// `gap_mm`, and nearly free while the bones that take them stay. Only + - * / and sqrt.
   void follow(std::span<const Pose<frame::Patient, frame::Bone>> poses) noexcept;
@@ -47,6 +57,7 @@ class LaidStructures {
     Vec3 middle;  ///< of a ball round it as it lies now
     double reach_mm = 0;
     double longest_step_mm = 0;  ///< between neighbouring points
+    anatomy::StructureKind kind = anatomy::StructureKind::Tendon;
   };
   std::vector<Tube> tubes_;
   std::vector<Vec3> scanned_;

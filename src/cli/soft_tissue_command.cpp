@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "arthroscopy/make_map.hpp"
 #include "case_io/case_folder.hpp"
 #include "case_io/soft_tissue_folder.hpp"
 #include "cases/make_hand_motion.hpp"
 #include "cli/operation_files.hpp"
 #include "cli/soft_tissue_report.hpp"
+#include "reconstruct/skin_surface.hpp"
 #include "reconstruct/stage_clock.hpp"
 #include "soft_tissue/make_soft_tissue.hpp"
 #include "soft_tissue/traction.hpp"
@@ -68,6 +70,8 @@ void run(const Arguments& a) {
   clock.end();
   if (!a.check) case_io::write_soft_tissue(tissue, data, a.case_folder);
   std::fputs(soft_tissue_table(tissue, data).c_str(), stdout);
+  data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
+  std::fputs(portal_table(arthroscopy::make_map(data, tissue), data).c_str(), stdout);
   if (a.traction) print_traction(data, tissue);
   double whole = 0;
   for (const reconstruct::StageTime& stage : clock.stages()) {

@@ -63,6 +63,29 @@ std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue, const cases
   return out;
 }
 
+std::string portal_table(const cases::ArthroscopicMap& map, const cases::CaseData& data) {
+  std::string out;
+  print(out, "\nportals under traction; beside the way's middle line, mm to the surface of\n");
+  print(out, "%-6s %-12s %8s %11s  %-26s  %-26s  %s\n", "portal", "joint", "room mm", "capsule mm",
+        "tendon", "artery", "nerve");
+  for (const cases::Portal& portal : map.portals) {
+    print(out, "%-6s %-12s %8.2f %11.1f", portal.id.c_str(), map.joints[portal.joint].id.c_str(),
+          portal.room_mm, portal.capsule_mm);
+    for (const auto& beside : portal.beside) {
+      if (beside) {
+        const std::string& name = data.structures[beside->structure].id;
+        print(out, "  %5.2f %-20s", beside->mm, name.c_str());
+      } else {
+        print(out, "  %-26s", "none");
+      }
+    }
+    out.erase(out.find_last_not_of(' ') + 1);
+    out += "\n";
+  }
+  for (const std::string& problem : map.problems) out += "problem: " + problem + "\n";
+  return out;
+}
+
 std::string soft_tissue_line(const soft_tissue::SoftTissue& tissue) {
   std::string out;
   print(out, "%zu ligaments, %zu of cartilage, %s, %zu joint spaces; deepest in bone %.2f mm",

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "cases/arthroscopic_map.hpp"
 #include "cases/case_data.hpp"
 #include "soft_tissue/soft_tissue.hpp"
 
@@ -14,6 +15,10 @@ namespace carpus::cli {
 /// Every ligament's length and thickness beside its range, cartilage, disc, spaces, problems.
 [[nodiscard]] std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue,
                                             const cases::CaseData& data);
+
+/// Every portal: its room, and the tendon, artery and nerve beside it; what is missing of the map.
+[[nodiscard]] std::string portal_table(const cases::ArthroscopicMap& map,
+                                       const cases::CaseData& data);
 
 /// One line: how many of each, volumes, deepest place in bone, problems.
 [[nodiscard]] std::string soft_tissue_line(const soft_tissue::SoftTissue& tissue);

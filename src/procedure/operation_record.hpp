@@ -33,11 +33,11 @@ struct Pass {
   bool operator==(const Pass&) const = default;
 };
 
-/// How near something that turned came to a tendon, an artery or a nerve. Harm stays on record
-/// whatever is undone.
+/// How near something that turned, or went into a joint, came to a tendon, an artery or a nerve.
+/// Harm stays on record whatever is undone.
 struct NearStructure {
   std::size_t structure = 0;  ///< its place in CaseData::structures
-  double least_mm = 0.0;      ///< surface to surface; negative where it was struck
+  double least_mm = 0.0;      ///< surface to surface; negative where it was in it
   bool was_struck = false;
   instruments::InstrumentIndex by = instruments::kNoInstrument;  ///< that came nearest
   bool operator==(const NearStructure&) const = default;

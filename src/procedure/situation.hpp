@@ -123,6 +123,8 @@ struct ScopeFacts {
   std::uint32_t points_probed = 0;  ///< touched by the probe
   std::uint8_t unanswered = 0;      ///< of what an examination asks
   DrillFacts drill;                 ///< of exercises with a scope
+  /// By hand: the number of that portal in data/portals.json, the same in every case.
+  std::array<std::uint8_t, kHands> portal_number{kNoBody, kNoBody};
   bool operator==(const ScopeFacts&) const = default;
 };
 

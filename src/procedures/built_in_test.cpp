@@ -27,14 +27,14 @@ cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
     const Vec3 dorsal = (data.wrist_from_patient.inverse() * Direction<frame::Wrist>{{0, 0, -1}}).v;
     const Vec3 skin = data.bones[b].surface.vertices.front() + dorsal * 30.0;
     map.joints.push_back({"radiocarpal", "radiocarpal joint", {}, body, body});
-    map.portals.push_back({"3-4", "3-4 portal", "", 0, skin, -dorsal, 12, 1, body});
+    map.portals.push_back({"3-4", "3-4 portal", "", 0, true, 0, skin, -dorsal, 12, 1, body, {}});
+    map.portals.push_back({"4-5", "4-5 portal", "", 1, true, 0, skin, -dorsal, 12, 1, body, {}});
     for (const int number : {2, 7, 8, 11, 16}) {
       cases::TourPoint place;
       place.number = number;
       place.body = body;
       map.points.push_back(place);
     }
-    map.portals.push_back({"4-5", "4-5 portal", "", 0, skin, -dorsal, 12, 1, body});
   }
   return map;
 }

@@ -96,9 +96,7 @@ class Sentence {
       case EventKind::AidUsed:
         return "Aid: " + procedure::in_words(static_cast<procedure::Aid>(event_.detail));
       case EventKind::StructureStruck:
-        return subject() + " turned in the " +
-               bodies_.structure(static_cast<std::size_t>(event_.detail)) +
-               ": spread the way with the needle sleeve first";
+        return struck();
       case EventKind::EnteredJoint:
         return subject() + " is in the joint, by " + bodies_.portal(place());
       case EventKind::LeftJoint:
@@ -114,6 +112,15 @@ class Sentence {
   }
 
  private:
+  [[nodiscard]] std::string struck() const {
+    const std::string& what = bodies_.structure(static_cast<std::size_t>(event_.detail));
+    const auto all = instruments::catalogue();
+    if (event_.instrument < all.size() && all[event_.instrument].enters_joints) {
+      return subject() + " went in through the " + what +
+             ": go in at the portal's mark, along its way";
+    }
+    return subject() + " turned in the " + what + ": spread the way with the needle sleeve first";
+  }
   [[nodiscard]] bool is_gauge() const {
     const auto all = instruments::catalogue();
     return event_.instrument >= all.size() || all[event_.instrument].is_gauge;

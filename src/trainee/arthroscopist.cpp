@@ -256,12 +256,13 @@ std::vector<ScriptedArthroscopist::Stop> ScriptedArthroscopist::stops() const {
   return used;
 }
 
-/// The next portal into the same joint; its own where there is no other.
+/// The tour's next portal into the same joint; its own where there is no other.
 std::uint8_t ScriptedArthroscopist::work_portal(std::uint8_t look) const {
   const auto count = static_cast<std::uint8_t>(map_.portals.size());
   for (std::uint8_t by = 1; by < count; ++by) {
     const auto other = static_cast<std::uint8_t>((look + by) % count);
-    if (map_.portals[other].joint == map_.portals[look].joint) return other;
+    const cases::Portal& portal = map_.portals[other];
+    if (portal.is_usual && portal.joint == map_.portals[look].joint) return other;
   }
   return look;
 }

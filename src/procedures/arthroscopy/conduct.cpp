@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points and cartilage that were truly seen, how both hands went, force.
+// Points and cartilage that were truly seen, how both hands went, force, what lay in the ways in.
 #include "procedures/arthroscopy/conduct.hpp"
 
 #include <bit>
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arthroscopy/seen_share.hpp"
+#include "procedure/harm_measures.hpp"
 #include "procedure/thrift_measures.hpp"
 
 namespace carpus::procedures::arthroscopy {
@@ -39,6 +40,22 @@ Measure cartilage(const cases::CaseData& data, const procedure::ScopeRecord& sco
                procedure::text_of(share * 100) + " %";
   }
   return {"cartilage_seen_share", seen.share() * 100, finding.empty() ? finding : finding + "."};
+}
+
+/// What the ways from the skin into the joint led through or beside.
+void add_ways_in(std::vector<Measure>& measures,
+                 const cases::CaseData& data,
+                 const procedure::OperationRecord& record) {
+  const bool has_entered = record.scope && record.scope->entries > 0;
+  Measure struck = procedure::structures_struck(data, record, " went in through the ");
+  if (!has_entered) {  // what never went in proved no care
+    struck.value.reset();
+    struck.finding = "No scope went in.";
+  }
+  measures.push_back(std::move(struck));
+  for (Measure& near : procedure::nearest_structures(data, record, "Nothing went in near one.")) {
+    measures.push_back(std::move(near));
+  }
 }
 
 }  // namespace
@@ -75,6 +92,7 @@ std::vector<Measure> conduct_measures(const cases::CaseData& data,
   if (looked > 0) horizon.value = seconds(scope.tilted_ticks) / looked * 100;
   measures.push_back(std::move(horizon));
   measures.push_back({"looking_s", looked, ""});
+  add_ways_in(measures, data, record);
   return measures;
 }
 

@@ -26,6 +26,12 @@ constexpr const char* kFirstJoint = "radiocarpal";
 constexpr const char* kFirst = "3-4";
 constexpr const char* kSecond = "4-5";
 
+/// Of the radiocarpal portals those at whose joint's ulnar side a scope looks in dorsally: 4-5, 6R
+/// and 6U, by their numbers in data/portals.json.
+constexpr bool is_ulnar(std::uint8_t number) noexcept {
+  return number == 1 || number == 2 || number == 6;
+}
+
 /// Whether a hand holds the scope, or what is none, in this joint, by a portal that is asked for.
 template <typename Asked>
 bool is_in(const Situation& now, std::uint8_t joint, bool is_scope, Asked asked) noexcept {
@@ -60,7 +66,12 @@ bool is_probe_in(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, false, [](std::uint8_t by) { return by != kPortal34; });
 }
 bool is_scope_ulnar(const Situation& now) noexcept {
-  return is_in(now, kRadiocarpal, true, [](std::uint8_t by) { return by != kPortal34; });
+  return is_in(now, kRadiocarpal, true, [&now](std::uint8_t by) {
+    for (std::size_t h = 0; h < procedure::kHands; ++h) {
+      if (now.scope.portal[h] == by && is_ulnar(now.scope.portal_number[h])) return true;
+    }
+    return false;
+  });
 }
 bool is_scope_midcarpal(const Situation& now) noexcept {
   return is_in(now, kMidcarpal, true, [](std::uint8_t) { return true; });

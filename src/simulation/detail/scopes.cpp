@@ -150,6 +150,7 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
       state.last_entered = portal;
     }
     emit(EventKind::EnteredJoint, now.held[hand], portal, 0.0);
+    note_way_in(model, hand, item);
   } else if (is_in && out_mm > kLeftMm && deep < way.capsule_mm) {
     is_in = false;
     emit(EventKind::LeftJoint, now.held[hand], portal, 0.0);
@@ -337,7 +338,9 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.portal = scope_state.portal;
   for (std::size_t h = 0; h < kHands && model.map != nullptr; ++h) {
     const std::uint8_t portal = scope_state.portal[h];
-    if (portal != kNoPortal) facts.joint[h] = model.map->portals[portal].joint;
+    if (portal == kNoPortal) continue;
+    facts.joint[h] = model.map->portals[portal].joint;
+    facts.portal_number[h] = model.map->portals[portal].number;
   }
   facts.is_in_joint = scope_state.is_in_joint;
   facts.points_seen = scope_state.points_seen;

@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How near to tendons, arteries and nerves something turned
+// How near to tendons, arteries and nerves something turned or went into a joint
 // (docs/decisions/0057-what-harms-a-structure.md). Where they are: cases/laid_structures.hpp.
 #pragma once
 
@@ -17,7 +17,8 @@ namespace carpus::simulation::detail {
 
 /// What came near a structure so far; no undo takes it back.
 struct StructureHarm {
-  double least_mm = cases::kFarFromStructureMm;  ///< surface to surface, while something turned
+  double least_mm = cases::kFarFromStructureMm;  ///< surface to surface, while something turned or
+                                                 ///< entered a joint
   bool was_struck = false;
   InstrumentIndex by = kNoInstrument;  ///< that came nearest
 };

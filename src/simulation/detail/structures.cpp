@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Harm to what lies under the skin: something that turns, and what of it is bare.
+// Harm to what lies under the skin: something that turns, and what of it is bare; and what goes
+// through a portal, on its way from the skin to the capsule.
 #include <algorithm>
 
 #include "simulation/detail/world_state.hpp"
@@ -94,22 +95,44 @@ void World::State::watch_structures(const Model& model) noexcept {
         item->wire < kMaxItems ? kind_of(model, now.items[item->wire]) : kind;
     const BareParts bare = bare_parts(now.held[h], opens.cut_tip_radius_mm);
     for (std::size_t i = 0; i < structures.size(); ++i) {
-      detail::StructureHarm& harm = structure_state.harm[i];
       // Only what is nearer than ever before changes anything; what is struck is below 0 already.
-      double gap = harm.least_mm;
+      double gap = structure_state.harm[i].least_mm;
       for (std::size_t p = 0; p < bare.count; ++p) {
         const auto& [from, to, radius] = bare.part[p];
         gap = std::min(gap, structures.gap_mm(i, from, to, gap + radius) - radius);
       }
-      if (gap < harm.least_mm) {
-        harm.least_mm = gap;
-        harm.by = item->instrument;
-      }
-      if (gap < 0.0 && !harm.was_struck) {
-        harm.was_struck = true;
-        emit(EventKind::StructureStruck, now.held[h], static_cast<std::int32_t>(i), gap);
-      }
+      note_harm(h, i, gap, gap < 0.0);
     }
+  }
+}
+
+void World::State::note_harm(std::uint8_t hand,
+                             std::size_t structure,
+                             double gap_mm,
+                             bool is_struck) noexcept {
+  detail::StructureHarm& harm = structure_state.harm[structure];
+  if (gap_mm < harm.least_mm) {
+    harm.least_mm = gap_mm;
+    harm.by = now.items[now.held[hand]].instrument;
+  }
+  if (!is_struck || harm.was_struck) return;
+  harm.was_struck = true;
+  emit(EventKind::StructureStruck, now.held[hand], static_cast<std::int32_t>(structure), gap_mm);
+}
+
+/// At the moment that it enters the joint: what its shaft lies beside from there to the hole in the
+/// skin. Nerves and arteries are struck by a touch; tendons are spread aside, so that only a way
+/// through the middle of one harms it [E].
+void World::State::note_way_in(const Model& model, std::uint8_t hand, const Item& item) noexcept {
+  if (structures.size() == 0) return;
+  structures.follow({poses.data(), snapshot.body_count});
+  const Vec3 skin = way_in(model, scope_state.portal[hand]).skin;
+  const Vec3 back = item.tip + item.shaft * distance(item.tip, skin);
+  const double radius_mm = kind_of(model, item).shape.greatest_radius_mm();
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    const double gap = structures.gap_mm(i, item.tip, back) - radius_mm;
+    const bool is_spread = structures.kind(i) == anatomy::StructureKind::Tendon;
+    note_harm(hand, i, gap, gap < (is_spread ? -structures.radius_mm(i) : 0.0));
   }
 }
 

@@ -265,6 +265,8 @@ struct World::State {
     std::size_t count = 0;
   };
   void watch_structures(const Model& model) noexcept;
+  void note_way_in(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void note_harm(std::uint8_t hand, std::size_t structure, double gap_mm, bool is_struck) noexcept;
   void note_sleeves(const Model& model) noexcept;
   [[nodiscard]] BareParts bare_parts(std::uint8_t index, double radius_mm) const noexcept;
 

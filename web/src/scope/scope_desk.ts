@@ -14,7 +14,7 @@ import type {
   SnapshotMessage,
   Vec3,
 } from "../protocol";
-import { add, dot, rotated, scaled, subtract } from "../tool_placement";
+import { add, dot, length, rotated, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
@@ -26,10 +26,12 @@ import {
   leanAt,
   leaned,
   OUTSIDE,
+  wayRound,
   wishOf,
   wrappedDeg,
   type Lean,
   type PortalNow,
+  type Wish,
 } from "./scope_hand_model";
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
@@ -62,6 +64,8 @@ const WHEEL_MM = 0.6;
 const TURN_DEG_PER_S = 75;
 const TURN_DEG_PER_PX = 0.6;
 const REPEAT_MS = 200;
+/** So near to a place of its way round the wrist it goes on to the next [mm]. */
+const ROUNDED_MM = 5;
 
 interface Held {
   readonly portal: number;
@@ -87,6 +91,8 @@ export class ScopeDesk {
     { portal: 0, lean: OUTSIDE },
     { portal: 1, lean: OUTSIDE },
   ];
+  /** What is left of a hand's way round the wrist to its next portal. */
+  private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
   private moved: HandIndex = 0;
   private shaftDeg = 0;
   private cameraDeg = 0;
@@ -151,6 +157,7 @@ export class ScopeDesk {
     this.snapshot = undefined;
     this.hands[0] = { portal: 0, lean: OUTSIDE };
     this.hands[1] = { portal: 1, lean: OUTSIDE };
+    this.rounds[0] = this.rounds[1] = [];
     this.moved = 0;
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
@@ -215,6 +222,7 @@ export class ScopeDesk {
     this.lastMs = nowMs;
     if (this.plan === undefined || !this.room.operates()) return;
     this.place();
+    this.goRound();
     for (const motion of this.keys.values()) this.move(motion, seconds);
     if (this.turned) {
       this.turned = false;
@@ -226,11 +234,22 @@ export class ScopeDesk {
     this.sendHand();
   }
 
+  private goRound(): void {
+    const [next, ...rest] = this.rounds[this.moved];
+    if (next === undefined) return;
+    const item = this.snapshot?.items.find((one) => one.hand === this.moved);
+    // An empty hand passes through nothing.
+    const isThere = item === undefined || length(subtract(item.tip_mm, next.tipMm)) < ROUNDED_MM;
+    if (!isThere) return;
+    this.rounds[this.moved] = item === undefined ? [] : rest;
+    this.changed = true;
+  }
+
   private sendHand(): void {
     const held = this.hands[this.moved];
     const portal = this.portalNow(held.portal);
     if (portal === undefined) return;
-    const wish = wishOf(held.lean, portal);
+    const wish = this.rounds[this.moved][0] ?? wishOf(held.lean, portal);
     this.room.send({
       hand: this.moved,
       tip_mm: wish.tipMm,
@@ -410,6 +429,13 @@ export class ScopeDesk {
         const taken = this.hands[this.moved === 0 ? 1 : 0].portal;
         let next = (held.portal + 1) % plan.portals.length;
         if (next === taken) next = (next + 1) % plan.portals.length;
+        const from = this.portalNow(held.portal);
+        const to = this.portalNow(next);
+        const last = this.rounds[this.moved];
+        // On its way round to the last portal it goes on from there.
+        if (from !== undefined && to !== undefined) {
+          this.rounds[this.moved] = [...last, ...wayRound(from, to)];
+        }
         this.hands[this.moved] = { portal: next, lean: OUTSIDE };
         this.changed = true;
         this.showPoints();

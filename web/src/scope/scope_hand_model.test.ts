@@ -7,12 +7,35 @@ import {
   heldBack,
   leanAt,
   leaned,
+  wayRound,
   wishOf,
   wrappedDeg,
   type PortalNow,
 } from "./scope_hand_model";
 
 const PORTAL: PortalNow = { skinMm: [1, 2, 3], inwards: [0, 0, -1], up: [0, 1, 0], capsuleMm: 12 };
+
+describe("from portal to portal", () => {
+  const volar: PortalNow = { ...PORTAL, skinMm: [1, 2, -37], inwards: [0, 0, 1] };
+
+  it("goes straight to a neighbour", () => {
+    expect(wayRound(PORTAL, { ...PORTAL, skinMm: [11, 2, 3] })).toEqual([]);
+  });
+
+  it("goes round the wrist to the other side, never through it", () => {
+    const wishes = wayRound(PORTAL, volar);
+    expect(wishes.length).toBeGreaterThan(3);
+    const middle = [1, 2, -17] as const;
+    wishes.forEach(({ tipMm, shaft }, i) => {
+      expect(dot(shaft, subtract(tipMm, middle))).toBeGreaterThan(60);
+      const next = wishes[i + 1];
+      if (next === undefined) return;
+      const half = scaled(add(tipMm, next.tipMm), 0.5);
+      expect(length(subtract(half, middle))).toBeGreaterThan(70);
+    });
+    expect(dot(wishes.at(-1)?.shaft ?? [0, 0, 0], volar.inwards)).toBeCloseTo(-1, 9);
+  });
+});
 
 describe("an instrument in its portal", () => {
   it("keeps its shaft through the hole however it leans", () => {

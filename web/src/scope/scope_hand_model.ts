@@ -4,7 +4,7 @@
 // What goes into a joint pivots in the hole of its portal: where a hand wants its tip, from how deep it
 // is and how it leans. Pure.
 import type { Vec3 } from "../protocol";
-import { add, cross, dot, length, normalized, scaled, subtract } from "../tool_placement";
+import { add, cross, dot, length, normalized, rotated, scaled, subtract } from "../tool_placement";
 
 /** A portal as it lies now, Patient [mm]. */
 export interface PortalNow {
@@ -83,6 +83,28 @@ export function leanAt(tipMm: Vec3, portal: PortalNow): Lean {
 export function heldBack(lean: Lean, tipMm: Vec3, portal: PortalNow): Lean {
   const most = length(subtract(tipMm, portal.skinMm)) + MOST_PRESSED_MM;
   return lean.depthMm <= most ? lean : { ...lean, depthMm: most };
+}
+
+/** A hand goes round the wrist so far from its middle: beyond hand and thumb [mm]. */
+const ROUND_MM = 80;
+const ROUND_STEP_RAD = Math.PI / 6;
+/** Portals whose ways in lie nearer than this to each other are gone between straight. */
+const STRAIGHT_COSINE = Math.cos(Math.PI / 3);
+
+/** Wishes on the way from before one portal to before another that lies round the wrist, so that what is
+ * held passes through no bone; none where the way is straight. */
+export function wayRound(from: PortalNow, to: PortalNow): readonly Wish[] {
+  const across = (v: Vec3): Vec3 => normalized(subtract(v, scaled(from.up, dot(v, from.up))));
+  const out = across(scaled(from.inwards, -1));
+  const outThere = across(scaled(to.inwards, -1));
+  if (dot(out, outThere) > STRAIGHT_COSINE) return [];
+  const angle = Math.atan2(dot(cross(out, outThere), from.up), dot(out, outThere));
+  const middle = scaled(add(from.skinMm, to.skinMm), 0.5);
+  const steps = Math.ceil(Math.abs(angle) / ROUND_STEP_RAD);
+  return Array.from({ length: steps + 1 }, (_, i) => {
+    const shaft = rotated(out, from.up, (angle * i) / steps);
+    return { tipMm: add(middle, scaled(shaft, ROUND_MM)), shaft };
+  });
 }
 
 /** To -180 to 180. */
