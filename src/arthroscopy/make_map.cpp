@@ -34,7 +34,8 @@ constexpr double kStepMm = 0.25;
 constexpr double kFarStepMm = 1.0;  // where the joint is not near
 /// A way is followed from so far outside its mark, which lies as deep as the bone that is felt.
 constexpr double kOverMarkMm = 9.0;
-constexpr double kTiltStepDeg = 5;
+constexpr double kTiltStepDeg = 5;  // both steps twice as long for what the tour does without
+constexpr double kSearchStepMm = 0.5;
 /// A nerve or an artery is to lie so far from a way: a tip slips into its hole 2.5 mm beside it
 /// [E].
 constexpr double kVitalClearMm = 2.5;
@@ -234,11 +235,13 @@ struct WayIn {
   double room_mm = 0;
 };
 
-/// From the capsule to the working depth along a line: how thick a tip goes there.
+/// From the capsule to the working depth along a line: how thick a tip goes there; none where it is
+/// less than `stop_below_mm`, which is found out sooner.
 std::optional<WayIn> way_in(const cases::JointSpace& joint,
                             const PulledBones& bones,
                             const Vec3& from,
-                            const Vec3& inwards) {
+                            const Vec3& inwards,
+                            double stop_below_mm) {
   std::optional<WayIn> way;
   double in = 0;
   double step = kStepMm;
@@ -255,6 +258,7 @@ std::optional<WayIn> way_in(const cases::JointSpace& joint,
     }
     if (!is_in || in > kWorkingMm) break;
     way->room_mm = std::min(way->room_mm, bones.distance_mm(p));
+    if (way->room_mm < stop_below_mm) return std::nullopt;
     in += kStepMm;
   }
   // A line that leaves the space at once only grazes it.
@@ -384,13 +388,15 @@ class MapMaker {
     const double middle_rad = (portal.ulnar_deg[0] + portal.ulnar_deg[1]) / 2 * kRadPerDeg;
     const Vec3 across{0, std::cos(middle_rad), -std::sin(middle_rad)};
     const Vec3 before = Vec3{0, std::sin(middle_rad), std::cos(middle_rad)} * -kOverMarkMm;
+    const double step_mm = portal.is_usual ? kSearchStepMm : 2 * kSearchStepMm;
     for (const auto& [tilt, turn] : ways_of(portal)) {
       const Vec3 inwards = wrist_.way(
           {std::sin(tilt), std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn)});
-      for (double x = -portal.search_mm[0]; x <= portal.search_mm[0]; x += 0.5) {
-        for (double y = -portal.search_mm[1]; y <= portal.search_mm[1]; y += 0.5) {
+      for (double x = -portal.search_mm[0]; x <= portal.search_mm[0]; x += step_mm) {
+        for (double y = -portal.search_mm[1]; y <= portal.search_mm[1]; y += step_mm) {
           const Vec3 mark = nominal + Vec3{x, 0, 0} + across * y;
-          const auto way = way_in(joint, bones_, wrist_.point(mark + before), inwards);
+          const auto way = way_in(joint, bones_, wrist_.point(mark + before), inwards,
+                                  best && best->has_room() ? kLeastRoomMm : 0.0);
           if (!way) continue;
           Tried tried{*way, mark, std::hypot(x, y), std::abs(turn - middle_rad) / kRadPerDeg};
           if (tried.has_room()) {
@@ -411,8 +417,9 @@ class MapMaker {
   /// Every lean of a way in that is tried: towards the forearm, about it [rad].
   [[nodiscard]] static std::vector<std::array<double, 2>> ways_of(const TabledPortal& portal) {
     std::vector<std::array<double, 2>> ways;
-    for (double deg = portal.proximal_deg[0]; deg <= portal.proximal_deg[1]; deg += kTiltStepDeg) {
-      for (double turn = portal.ulnar_deg[0]; turn <= portal.ulnar_deg[1]; turn += kTiltStepDeg) {
+    const double step = portal.is_usual ? kTiltStepDeg : 2 * kTiltStepDeg;
+    for (double deg = portal.proximal_deg[0]; deg <= portal.proximal_deg[1]; deg += step) {
+      for (double turn = portal.ulnar_deg[0]; turn <= portal.ulnar_deg[1]; turn += step) {
         ways.push_back({deg * kRadPerDeg, turn * kRadPerDeg});
       }
     }

@@ -220,6 +220,44 @@ TEST(Scopes, AnExerciseAtAPlaceThatTheWristLacksIsRefusedByItsNumber) {
   }
 }
 
+/// A tube across the way in, 3 mm under the skin and so far beside the way.
+cases::CaseData wrist_with_tube(anatomy::StructureKind kind, double beside_mm) {
+  cases::CaseData data = wrist();
+  cases::Structure tube{"tube", "a tube", kind, 1.0, BoneId::Radius, {}};
+  for (int i = -20; i <= 20; ++i) {
+    tube.course.push_back({kMiddle + Vec3{kHalf + 3, beside_mm, static_cast<double>(i)}, 0.0});
+  }
+  data.structures = {tube};
+  return data;
+}
+
+procedure::NearStructure after_entering(anatomy::StructureKind kind, double beside_mm) {
+  const cases::CaseData data = wrist_with_tube(kind, beside_mm);
+  World world(data, probe_alone(), 1);
+  Hand hand(world);
+  hand.go(kMiddle + Vec3{kHalf + 2, 0, 0});
+  EXPECT_FALSE(world.operation_record().structures[0].was_struck) << "it is not in the joint yet";
+  hand.go(kMiddle);
+  EXPECT_TRUE(hand.now().scope.facts.is_in_joint[0]);
+  return world.operation_record().structures[0];
+}
+
+TEST(Scopes, AWayInStrikesANerveThatItTouchesAndATendonThroughItsMiddleAlone) {
+  using anatomy::StructureKind;
+  const InstrumentIndex probe = *instruments::instrument_of("hook_probe");
+  const double radius_mm = instruments::catalogue()[probe].shape.greatest_radius_mm();
+  const auto beside = after_entering(StructureKind::Nerve, 4.0);
+  EXPECT_FALSE(beside.was_struck);
+  EXPECT_NEAR(beside.least_mm, 4.0 - 1.0 - radius_mm, 0.1);
+  EXPECT_EQ(beside.by, probe);
+  EXPECT_TRUE(after_entering(StructureKind::Nerve, 1.2).was_struck);
+  EXPECT_TRUE(after_entering(StructureKind::Artery, 1.2).was_struck);
+  const auto spread = after_entering(StructureKind::Tendon, 1.2);
+  EXPECT_FALSE(spread.was_struck) << "pushed aside";
+  EXPECT_LT(spread.least_mm, 0);
+  EXPECT_TRUE(after_entering(StructureKind::Tendon, 0.2).was_struck);
+}
+
 TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {
   World world(wrist(), probe_alone(), 1);
   Hand hand(world);
