@@ -31,7 +31,9 @@ using soft_tissue::Space;
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr double kStepMm = 0.25;
-constexpr double kFarStepMm = 1.0;  // where the joint is not near
+/// Before the capsule bones leave a scope so much: a hand is not led as straight as a line [E].
+constexpr double kBeforeRoomMm = 1.4;
+constexpr double kFarStepMm = 0.5;  // where the joint is not near
 /// A way is followed from so far outside its mark, which lies as deep as the bone that is felt.
 constexpr double kOverMarkMm = 9.0;
 constexpr double kTiltStepDeg = 5;  // both steps twice as long for what the tour does without
@@ -252,7 +254,7 @@ std::optional<WayIn> way_in(const cases::JointSpace& joint,
     const bool is_in = wall.is_near && wall.distance_mm < 0;
     step = wall.is_near ? kStepMm : kFarStepMm;
     if (!way) {
-      if (!is_in && bones.distance_mm(p) < kLeastRoomMm) return std::nullopt;  // bone is before it
+      if (!is_in && bones.distance_mm(p) < kBeforeRoomMm) return std::nullopt;  // bone is before it
       if (!is_in) continue;
       way = WayIn{p, inwards, kFarMm};
     }

@@ -121,14 +121,16 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   detail::ScopeState& state = scope_state;
   std::uint8_t& portal = state.portal[hand];
   if (portal == kNoPortal) {
+    double nearest = kHoleMm;  // of two whose holes touch
     for (std::uint8_t p = 0; p < model.map->portals.size(); ++p) {
       const WayIn way = way_in(model, p);
       const double deep = dot(item.tip - way.skin, way.inwards);
       const Vec3 aside = item.tip - way.skin - way.inwards * deep;
       const bool is_taken = state.portal[1U - hand] == p;
-      if (!is_taken && deep >= 0.0 && deep <= kFunnelMm && length(aside) <= kHoleMm &&
+      if (!is_taken && deep >= 0.0 && deep <= kFunnelMm && length(aside) <= nearest &&
           -dot(item.shaft, way.inwards) >= kFacingCosine) {
         portal = p;
+        nearest = length(aside);
       }
     }
     return;
