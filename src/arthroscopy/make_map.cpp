@@ -21,6 +21,7 @@
 #include "cases/laid_structures.hpp"
 #include "fields/distance_field.hpp"
 #include "fields/triangle_tree.hpp"
+#include "geometry/segment_distance.hpp"
 
 namespace carpus::arthroscopy {
 namespace {
@@ -55,6 +56,10 @@ constexpr double kWorkingMm = 4.0;
 constexpr double kLeastWayMm = 3.0;
 constexpr double kFarMm = 4.0;
 /// Skin over the dorsal capsule where the case has no skin [E].
+// Two holes of 2.5 mm each (simulation) that did not touch, from the capsule to outside: nearer to
+// each other a scope could not tell by which it goes in [E].
+constexpr double kApartMm = 5.5;
+constexpr double kOutsideMm = 20.0;
 constexpr double kSkinOverCapsuleMm = 8.0;
 /// Cartilage of this joint: so near to the wall of its space.
 constexpr double kOnWallMm = 0.6;
@@ -399,7 +404,7 @@ class MapMaker {
           const Vec3 mark = nominal + Vec3{x, 0, 0} + across * y;
           const auto way = way_in(joint, bones_, wrist_.point(mark + before), inwards,
                                   best && best->has_room() ? kLeastRoomMm : 0.0);
-          if (!way) continue;
+          if (!way || is_taken(*way)) continue;
           Tried tried{*way, mark, std::hypot(x, y), std::abs(turn - middle_rad) / kRadPerDeg};
           if (tried.has_room()) {
             const Vec3 along = wrist_.way(across);
@@ -414,6 +419,14 @@ class MapMaker {
       }
     }
     return best;
+  }
+
+  /// Whether it would share a hole with a portal that has been placed.
+  [[nodiscard]] bool is_taken(const WayIn& way) const {
+    return std::any_of(taken_.begin(), taken_.end(), [&](const WayIn& other) {
+      return segment_distance(way.capsule, way.capsule - way.inwards * kOutsideMm, other.capsule,
+                              other.capsule - other.inwards * kOutsideMm) < kApartMm;
+    });
   }
 
   /// Every lean of a way in that is tried: towards the forearm, about it [rad].
@@ -433,7 +446,8 @@ class MapMaker {
     const cases::JointSpace& joint = map_.joints[in];
     const std::optional<Tried> best = best_way(portal, joint, nominal);
     if (!best || !best->has_room()) {
-      map_.problems.push_back(portal.name + ": no room between the bones" +
+      map_.problems.push_back(portal.name +
+                              ": no room between the bones, apart from the other portals" +
                               (best ? " (" + millimetres(best->way.room_mm) + ")" : std::string()));
       return std::nullopt;
     }
@@ -461,6 +475,7 @@ class MapMaker {
     }
     say_what_is_cut(placed);
     map_.portals.push_back(placed);
+    taken_.push_back(best->way);
     return best->mark;
   }
 
@@ -655,6 +670,7 @@ class MapMaker {
   Wrist wrist_;
   PulledBones bones_;
   std::vector<Walls> walls_;  ///< by joint
+  std::vector<WayIn> taken_;  ///< by the portals that were placed, under traction
   cases::ArthroscopicMap map_;
 };
 
