@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -231,8 +232,18 @@ cases::CaseData wrist_with_tube(anatomy::StructureKind kind, double beside_mm) {
   return data;
 }
 
-procedure::NearStructure after_entering(anatomy::StructureKind kind, double beside_mm) {
-  const cases::CaseData data = wrist_with_tube(kind, beside_mm);
+/// @param marked_mm  how far from its marked way the portal has that tendon's surface
+procedure::NearStructure after_entering(anatomy::StructureKind kind,
+                                        double beside_mm,
+                                        std::optional<double> marked_mm = {}) {
+  cases::CaseData data = wrist_with_tube(kind, beside_mm);
+  if (marked_mm) {
+    cases::ArthroscopicMap map = *data.arthroscopy;
+    for (cases::Portal& portal : map.portals) {
+      portal.beside[static_cast<std::size_t>(kind)] = cases::BesideWay{0, *marked_mm};
+    }
+    data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(std::move(map));
+  }
   World world(data, probe_alone(), 1);
   Hand hand(world);
   hand.go(kMiddle + Vec3{kHalf + 2, 0, 0});
@@ -256,6 +267,9 @@ TEST(Scopes, AWayInStrikesANerveThatItTouchesAndATendonThroughItsMiddleAlone) {
   EXPECT_FALSE(spread.was_struck) << "pushed aside";
   EXPECT_LT(spread.least_mm, 0);
   EXPECT_TRUE(after_entering(StructureKind::Tendon, 0.2).was_struck);
+  EXPECT_FALSE(after_entering(StructureKind::Tendon, 0.2, -0.8).was_struck)
+      << "the marked way itself goes there";
+  EXPECT_TRUE(after_entering(StructureKind::Tendon, 0.2, 1.0).was_struck) << "well off the mark";
 }
 
 TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {

@@ -15,7 +15,8 @@ namespace {
 
 /// A sleeve of the other hand leads an item while their shafts are one to rounding.
 constexpr double kLedMm = 1e-9;
-constexpr double kPointMm = 1.5;  // of a wire, over which it comes to its width
+constexpr double kPointMm = 1.5;    // of a wire, over which it comes to its width
+constexpr double kOffMarkMm = 1.0;  // of the marked way: so far off it a hand has kept to it [E]
 
 }  // namespace
 
@@ -122,17 +123,24 @@ void World::State::note_harm(std::uint8_t hand,
 
 /// At the moment that it enters the joint: what its shaft lies beside from there to the hole in the
 /// skin. Nerves and arteries are struck by a touch; tendons are spread aside, so that only a way
-/// through the middle of one harms it [E].
+/// through the middle of one harms it [E], and not the marked way itself, where no other was left.
 void World::State::note_way_in(const Model& model, std::uint8_t hand, const Item& item) noexcept {
   if (structures.size() == 0) return;
   structures.follow({poses.data(), snapshot.body_count});
-  const Vec3 skin = way_in(model, scope_state.portal[hand]).skin;
+  const std::uint8_t portal = scope_state.portal[hand];
+  const auto& marked =
+      model.map->portals[portal].beside[static_cast<std::size_t>(anatomy::StructureKind::Tendon)];
+  const Vec3 skin = way_in(model, portal).skin;
   const Vec3 back = item.tip + item.shaft * distance(item.tip, skin);
   const double radius_mm = kind_of(model, item).shape.greatest_radius_mm();
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const double gap = structures.gap_mm(i, item.tip, back) - radius_mm;
     const bool is_spread = structures.kind(i) == anatomy::StructureKind::Tendon;
-    note_harm(hand, i, gap, gap < (is_spread ? -structures.radius_mm(i) : 0.0));
+    double least = is_spread ? -structures.radius_mm(i) : 0.0;
+    if (is_spread && marked && marked->structure == i) {
+      least = std::min(least, marked->mm - radius_mm - kOffMarkMm);
+    }
+    note_harm(hand, i, gap, gap < least);
   }
 }
 
