@@ -16,7 +16,7 @@ namespace {
 /// A sleeve of the other hand leads an item while their shafts are one to rounding.
 constexpr double kLedMm = 1e-9;
 constexpr double kPointMm = 1.5;    // of a wire, over which it comes to its width
-constexpr double kOffMarkMm = 1.0;  // of the marked way: so far off it a hand has kept to it [E]
+constexpr double kOffMarkMm = 1.0;  // of the marked way: a hand so near has kept to it [E]
 
 }  // namespace
 
@@ -128,17 +128,16 @@ void World::State::note_way_in(const Model& model, std::uint8_t hand, const Item
   if (structures.size() == 0) return;
   structures.follow({poses.data(), snapshot.body_count});
   const std::uint8_t portal = scope_state.portal[hand];
-  const auto& marked =
-      model.map->portals[portal].beside[static_cast<std::size_t>(anatomy::StructureKind::Tendon)];
-  const Vec3 skin = way_in(model, portal).skin;
-  const Vec3 back = item.tip + item.shaft * distance(item.tip, skin);
+  const WayIn marked = way_in(model, portal);
+  const Vec3 capsule = marked.skin + marked.inwards * marked.capsule_mm;
+  const Vec3 back = item.tip + item.shaft * distance(item.tip, marked.skin);
   const double radius_mm = kind_of(model, item).shape.greatest_radius_mm();
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const double gap = structures.gap_mm(i, item.tip, back) - radius_mm;
     const bool is_spread = structures.kind(i) == anatomy::StructureKind::Tendon;
     double least = is_spread ? -structures.radius_mm(i) : 0.0;
-    if (is_spread && marked && marked->structure == i) {
-      least = std::min(least, marked->mm - radius_mm - kOffMarkMm);
+    if (is_spread) {
+      least = std::min(least, structures.gap_mm(i, capsule, marked.skin) - radius_mm - kOffMarkMm);
     }
     note_harm(hand, i, gap, gap < least);
   }
