@@ -45,8 +45,12 @@ constexpr double kVitalClearMm = 2.5;
 /// Of ways that cut as deep to so much the roomier is taken [E].
 constexpr double kCutStepMm = 0.5;
 constexpr double kRounding = 1e-3;  // of such a step: distances are true to rounding
+/// Twice what a scope takes up: more room is worth nothing [E].
+constexpr double kEnoughRoomMm = 2.0;
 /// Room for which a mark a millimetre farther off is taken [E].
 constexpr double kPerMmOff = 0.03;
+constexpr double kPerMmTendon = 0.6;   // and for one into a tendon, which is spread aside [E]
+constexpr double kPerMmPast = 0.4;     // and for one past what the portal is to look at first [E]
 constexpr double kPerDegLeant = 0.02;  // and for a degree [E]
 /// A place between two bones so much nearer to both is taken for each mm away from the usual [E].
 constexpr double kPerMmAside = 0.15;
@@ -55,11 +59,12 @@ constexpr double kPerMmAside = 0.15;
 constexpr double kWorkingMm = 4.0;
 constexpr double kLeastWayMm = 3.0;
 constexpr double kFarMm = 4.0;
-/// Skin over the dorsal capsule where the case has no skin [E].
-// Two holes of 2.5 mm each (simulation) that did not touch, from the capsule to outside: nearer to
-// each other a scope could not tell by which it goes in [E].
+/// Two holes of 2.5 mm each (simulation) that do not touch, from the capsule to outside: nearer to
+/// each other a scope could not tell by which it goes in [E]. The tour's portals keep so far apart
+/// where there is room, the others always.
 constexpr double kApartMm = 5.5;
 constexpr double kOutsideMm = 20.0;
+/// Skin over the dorsal capsule where the case has no skin [E].
 constexpr double kSkinOverCapsuleMm = 8.0;
 /// Cartilage of this joint: so near to the wall of its space.
 constexpr double kOnWallMm = 0.6;
@@ -369,18 +374,21 @@ class MapMaker {
     Vec3 mark;               ///< in the frame of the generic wrist
     double off_mm = 0;       ///< of the usual place
     double leant_deg = 0;    ///< about the forearm, of the usual way
+    double past_mm = 0;      ///< what lies ahead
+    bool is_apart = true;    ///< from the portals before it
     bool is_between = true;  ///< the structures that it belongs between
-    /// Too near to a nerve or an artery by so much, and into a tendon, which is spread aside.
+    /// Too near to a nerve or an artery by so much, and into a tendon.
     std::array<double, 2> cut_mm{};
 
     [[nodiscard]] bool has_room() const { return way.room_mm >= kLeastRoomMm; }
     /// Of two ways with much the same room the one nearer to the usual.
     [[nodiscard]] double value() const {
-      return way.room_mm - kPerMmOff * off_mm - kPerDegLeant * leant_deg;
+      return std::min(way.room_mm, kEnoughRoomMm) - kPerMmOff * off_mm - kPerDegLeant * leant_deg -
+             kPerMmTendon * cut_mm[1] - kPerMmPast * past_mm;
     }
     [[nodiscard]] bool operator<(const Tried& other) const {
-      return std::tuple(has_room(), is_between, -cut_mm[0], -cut_mm[1], value()) <
-             std::tuple(other.has_room(), other.is_between, -other.cut_mm[0], -other.cut_mm[1],
+      return std::tuple(has_room(), is_apart, is_between, -cut_mm[0], value()) <
+             std::tuple(other.has_room(), other.is_apart, other.is_between, -other.cut_mm[0],
                         other.value());
     }
   };
@@ -396,6 +404,7 @@ class MapMaker {
     const Vec3 across{0, std::cos(middle_rad), -std::sin(middle_rad)};
     const Vec3 before = Vec3{0, std::sin(middle_rad), std::cos(middle_rad)} * -kOverMarkMm;
     const double step_mm = portal.is_usual ? kSearchStepMm : 2 * kSearchStepMm;
+    const std::optional<Vec3> ahead = under_traction(portal.ahead);
     for (const auto& [tilt, turn] : ways_of(portal)) {
       const Vec3 inwards = wrist_.way(
           {std::sin(tilt), std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn)});
@@ -404,8 +413,15 @@ class MapMaker {
           const Vec3 mark = nominal + Vec3{x, 0, 0} + across * y;
           const auto way = way_in(joint, bones_, wrist_.point(mark + before), inwards,
                                   best && best->has_room() ? kLeastRoomMm : 0.0);
-          if (!way || is_taken(*way)) continue;
-          Tried tried{*way, mark, std::hypot(x, y), std::abs(turn - middle_rad) / kRadPerDeg};
+          if (!way) continue;
+          const bool is_apart = !shares_hole(*way);
+          if (!is_apart && !portal.is_usual) continue;
+          Tried tried{*way,
+                      mark,
+                      std::hypot(x, y),
+                      std::abs(turn - middle_rad) / kRadPerDeg,
+                      ahead ? past_mm(*way, *ahead) : 0.0,
+                      is_apart};
           if (tried.has_room()) {
             const Vec3 along = wrist_.way(across);
             tried.is_between = bones_.is_beyond(portal.between[0], along, way->capsule, inwards) &&
@@ -421,8 +437,25 @@ class MapMaker {
     return best;
   }
 
+  /// Where a point of the tour lies as the hand is pulled.
+  [[nodiscard]] std::optional<Vec3> under_traction(const std::string& id) const {
+    for (const TabledPoint& point : table_.points) {
+      const auto joint = joint_of(point.joint);
+      if (point.id != id || !joint) continue;
+      const std::optional<Vec3> at = place_of(point, walls_[*joint]);
+      if (!at) return std::nullopt;
+      return (bones_.inverse(nearest_body(*at)).inverse() * Point<frame::Bone>{*at}).v;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] static double past_mm(const WayIn& way, const Vec3& point) {
+    const Vec3 to = point - way.capsule;
+    return length(to - way.inwards * std::max(0.0, dot(to, way.inwards)));
+  }
+
   /// Whether it would share a hole with a portal that has been placed.
-  [[nodiscard]] bool is_taken(const WayIn& way) const {
+  [[nodiscard]] bool shares_hole(const WayIn& way) const {
     return std::any_of(taken_.begin(), taken_.end(), [&](const WayIn& other) {
       return segment_distance(way.capsule, way.capsule - way.inwards * kOutsideMm, other.capsule,
                               other.capsule - other.inwards * kOutsideMm) < kApartMm;
@@ -469,6 +502,9 @@ class MapMaker {
     for (std::size_t kind = 0; kind < placed.beside.size(); ++kind) {
       placed.beside[kind] = bones_.beside(static_cast<anatomy::StructureKind>(kind),
                                           best->way.capsule, best->way.inwards);
+    }
+    if (!best->is_apart) {
+      map_.problems.push_back(portal.name + ": its hole lies beside another portal's");
     }
     if (!best->is_between) {
       map_.problems.push_back(portal.name + ": no room in its interval between tendons");

@@ -59,6 +59,7 @@ TEST_F(MakeMap, PortalsLieOnTheirSideAndTheirWaysLeadIntoTheJoint) {
 
 /// A tendon laid across a portal's way: the way goes beside it, and the map says how far.
 TEST_F(MakeMap, WaysKeepClearOfATendonThatWasLaidInThem) {
+  ASSERT_NE(find_portal(*map_, "6R"), nullptr) << ::testing::PrintToString(map_->problems);
   const cases::Portal& before = *find_portal(*map_, "6R");
   cases::CaseData data = *data_;
   cases::Structure tube{"tube", "a tendon",     anatomy::StructureKind::Tendon,

@@ -51,6 +51,7 @@ TabledPortal portal_from(const Json& json) {
   p.is_usual = json.value("usual", true);
   p.between = json.value("interval", p.between);
   p.search_mm = json.at("search_mm").get<std::array<double, 2>>();
+  p.ahead = json.value("ahead", "");
   return p;
 }
 
@@ -93,9 +94,16 @@ void check_names(const PortalTable& table) {
     return std::any_of(table.portals.begin(), table.portals.end(),
                        [&](const auto& portal) { return portal.id == id; });
   };
+  const auto is_point = [&](const std::string& id) {
+    return std::any_of(table.points.begin(), table.points.end(),
+                       [&](const auto& point) { return point.id == id; });
+  };
   for (const TabledPortal& portal : table.portals) {
     if (!is_joint(portal.joint)) {
       throw InvalidInput("portals.json: " + portal.id + ": there is no joint " + portal.joint);
+    }
+    if (!portal.ahead.empty() && !is_point(portal.ahead)) {
+      throw InvalidInput("portals.json: " + portal.id + ": there is no point " + portal.ahead);
     }
   }
   for (const TabledPoint& point : table.points) {

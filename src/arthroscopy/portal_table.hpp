@@ -37,6 +37,7 @@ struct TabledPortal {
   /// on over volar.
   std::array<std::string, 2> between;
   std::array<double, 2> search_mm{};  ///< along the forearm, across it
+  std::string ahead;                  ///< the point that its way leads to, or empty
 };
 
 /// Exactly one of `on`, `between`, `ligament`, `is_disc`, `is_place`.

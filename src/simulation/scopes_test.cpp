@@ -221,12 +221,12 @@ TEST(Scopes, AnExerciseAtAPlaceThatTheWristLacksIsRefusedByItsNumber) {
   }
 }
 
-/// A tube across the way in, 3 mm under the skin and so far beside the way.
+/// A tube across the way in, 4 mm under the skin and so far beside the way.
 cases::CaseData wrist_with_tube(anatomy::StructureKind kind, double beside_mm) {
   cases::CaseData data = wrist();
   cases::Structure tube{"tube", "a tube", kind, 1.0, BoneId::Radius, {}};
   for (int i = -20; i <= 20; ++i) {
-    tube.course.push_back({kMiddle + Vec3{kHalf + 3, beside_mm, static_cast<double>(i)}, 0.0});
+    tube.course.push_back({kMiddle + Vec3{kHalf + 2, beside_mm, static_cast<double>(i)}, 0.0});
   }
   data.structures = {tube};
   return data;
@@ -235,16 +235,17 @@ cases::CaseData wrist_with_tube(anatomy::StructureKind kind, double beside_mm) {
 /// @param leant  sideways, of the way that is marked for the portal
 procedure::NearStructure after_entering(anatomy::StructureKind kind,
                                         double beside_mm,
-                                        double leant = 0.6) {
+                                        double leant = -0.34) {
   cases::CaseData data = wrist_with_tube(kind, beside_mm);
   cases::ArthroscopicMap map = *data.arthroscopy;
   for (cases::Portal& portal : map.portals) {
     portal.inwards = normalized_or(portal.inwards + Vec3{0, leant, 0}, portal.inwards);
+    portal.capsule_mm *= std::hypot(1.0, leant);
   }
   data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(std::move(map));
   World world(data, probe_alone(), 1);
   Hand hand(world);
-  hand.go(kMiddle + Vec3{kHalf + 2, 0, 0});
+  hand.go(kMiddle + Vec3{kHalf + 1, 0, 0});
   EXPECT_FALSE(world.operation_record().structures[0].was_struck) << "it is not in the joint yet";
   hand.go(kMiddle);
   EXPECT_TRUE(hand.now().scope.facts.is_in_joint[0]);

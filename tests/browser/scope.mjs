@@ -142,11 +142,12 @@ export async function examination(browser, station) {
     await bringInScope(page, operator);
     await picture("radiocarpal");
     await holdUntil(page, "d", "Scope outside", "the scope, out again");
+    const title = page.locator(".scope-points-title");
     for (let i = 0; i < 4; ++i) {
       await page.keyboard.press("v");
-      const title = page.locator(".scope-points-title");
       if (/Midcarpal/.test(await title.innerText())) break;
     }
+    expect(/Midcarpal/.test(await title.innerText()), "V did not go on to the midcarpal joint");
     await holdUntil(
       page,
       "a",

@@ -422,7 +422,9 @@ export class ScopeDesk {
         return;
       case "next_portal": {
         const held = this.hands[this.moved];
-        if (held.lean.depthMm > 0) {
+        // The host's word counts: a hand may be drawn farther out than the page has heard of.
+        const isIn = (this.scope?.portals[this.moved] ?? "") !== "";
+        if (isIn && held.lean.depthMm > 0) {
           this.room.say("Draw it out of this portal first.");
           return;
         }
