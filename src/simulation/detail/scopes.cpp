@@ -122,13 +122,18 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   std::uint8_t& portal = state.portal[hand];
   if (portal == kNoPortal) {
     double nearest = kHoleMm;  // of two whose holes touch
+    const HandInput& wish = spent.hands[hand].wish;
     for (std::uint8_t p = 0; p < model.map->portals.size(); ++p) {
       const WayIn way = way_in(model, p);
       const double deep = dot(item.tip - way.skin, way.inwards);
       const Vec3 aside = item.tip - way.skin - way.inwards * deep;
+      // What only passes over a hole on its way to another does not slip in.
+      const Vec3 to_hole = way.skin - wish.tip_in_patient;
+      const Vec3& along = wish.shaft_in_patient;
+      const bool is_led_there = length(to_hole - along * dot(to_hole, along)) <= kHoleMm;
       const bool is_taken = state.portal[1U - hand] == p;
-      if (!is_taken && deep >= 0.0 && deep <= kFunnelMm && length(aside) <= nearest &&
-          -dot(item.shaft, way.inwards) >= kFacingCosine) {
+      if (!is_taken && is_led_there && deep >= 0.0 && deep <= kFunnelMm &&
+          length(aside) <= nearest && -dot(item.shaft, way.inwards) >= kFacingCosine) {
         portal = p;
         nearest = length(aside);
       }

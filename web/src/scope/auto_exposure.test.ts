@@ -12,15 +12,22 @@ describe("automatic exposure", () => {
     for (const light of [0.2, 0.4, 0.65]) {
       let exposure = 1;
       for (let look = 0; look < 40; ++look)
-        exposure = nextExposure(exposure, shown(light, exposure));
+        exposure = nextExposure(exposure, shown(light, exposure), 0.2);
       expect(shown(light, exposure)).toBeCloseTo(0.52, 1);
     }
   });
 
+  it("takes as long on a slow machine as on a fast one", () => {
+    const often = nextExposure(nextExposure(1, 0.65, 0.2), 0.65, 0.2);
+    const slow = nextExposure(1, 0.65, 4);
+    expect(slow).toBeLessThan(often);
+    expect(shown(0.4, nextExposure(1, shown(0.4, 1), 4))).toBeCloseTo(0.52, 1);
+  });
+
   it("does not jump, nor lights the dark up without end", () => {
-    expect(nextExposure(1, 0.9)).toBeGreaterThan(0.4);
+    expect(nextExposure(1, 0.9, 0.2)).toBeGreaterThan(0.4);
     let exposure = 1;
-    for (let look = 0; look < 40; ++look) exposure = nextExposure(exposure, 0);
+    for (let look = 0; look < 40; ++look) exposure = nextExposure(exposure, 0, 0.2);
     expect(exposure).toBeLessThan(2);
   });
 

@@ -8,15 +8,16 @@
 const WANTED_GREY = 0.52;
 const LEAST = 0.22;
 const MOST = 1.6;
-/** Share of the way, in the logarithm, with each look. */
-const SHARE = 0.35;
+/** In so long it goes most of the way, in the logarithm [s]. */
+const SETTLES_S = 0.45;
 /** The display's exponent: what is shown twice as bright is lit 2^2.2 times as much. */
 const GAMMA = 2.2;
 
-/** @param grey  mean of the field as it was shown with `exposure` */
-export function nextExposure(exposure: number, grey: number): number {
+/** @param grey  mean of the field as it was shown with `exposure`; @param seconds  since the last look */
+export function nextExposure(exposure: number, grey: number, seconds: number): number {
   const wanted = exposure * Math.pow(WANTED_GREY / Math.max(grey, 0.01), GAMMA);
-  const next = exposure * Math.pow(wanted / exposure, SHARE);
+  const share = 1 - Math.exp(-seconds / SETTLES_S);
+  const next = exposure * Math.pow(wanted / exposure, share);
   return Math.min(MOST, Math.max(LEAST, next));
 }
 

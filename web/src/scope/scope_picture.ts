@@ -28,8 +28,8 @@ const LAMP_UP_MM = 0.9;
 const LAMP_RIGHT_MM = 0.35;
 const ROD_LENGTH_MM = 40;
 const ROD_RADIUS_MM = 0.5;
-/** How often the camera looks at its own picture [pictures], and how small [px]. */
-const EXPOSED_EVERY = 12;
+/** How often the camera looks at its own picture [ms], and how small [px]. */
+const EXPOSED_EVERY_MS = 200;
 const EXPOSED_PX = 16;
 /** Drawn at most so large across, and less where the machine is slow [device px]. */
 const LARGEST_PX = 900;
@@ -48,7 +48,8 @@ export class ScopePicture {
   private readonly beads: ScopeBeads;
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly small = smallContext();
-  private drawn = 0;
+  /** When light was measured last: at the first picture it is right at once. */
+  private exposedMs = -Infinity;
 
   constructor(walls: readonly JointWall[]) {
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
@@ -132,16 +133,17 @@ export class ScopePicture {
       this.rod.updateMatrixWorld();
     }
     this.renderer.render(this.scene, this.camera);
-    this.drawn += 1;
-    if (this.drawn % EXPOSED_EVERY === 0) this.expose();
+    this.expose(performance.now());
   }
 
-  private expose(): void {
-    if (this.small === null) return;
+  private expose(nowMs: number): void {
+    if (this.small === null || nowMs - this.exposedMs < EXPOSED_EVERY_MS) return;
+    const seconds = (nowMs - this.exposedMs) / 1000;
+    this.exposedMs = nowMs;
     this.small.drawImage(this.canvas, 0, 0, EXPOSED_PX, EXPOSED_PX);
     const { data } = this.small.getImageData(0, 0, EXPOSED_PX, EXPOSED_PX);
     const { exposure } = this.lens;
-    exposure.value = nextExposure(exposure.value, meanGrey(data));
+    exposure.value = nextExposure(exposure.value, meanGrey(data), seconds);
   }
 
   /** What the last picture took. */
