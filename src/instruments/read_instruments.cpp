@@ -269,6 +269,7 @@ Instrument read_instrument(JsonFields& fields, const Holders& holders) {
   instrument.stays = fields.boolean_or("stays", false);
   instrument.is_joystick = fields.boolean_or("joystick", false);
   instrument.enters_joints = fields.boolean_or("enters_joints", false);
+  instrument.has_jaws = fields.boolean_or("jaws", false);
   if (fields.has("optic")) {
     JsonFields optic = fields.object("optic");
     instrument.optic =

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/json_fields.hpp"
+#include "procedure/detail/read_loose_removal.hpp"
 #include "procedure/detail/read_scope_drill.hpp"
 #include "procedure/detail/read_score_rules.hpp"
 #include "procedure/procedure.hpp"
@@ -149,6 +150,10 @@ Procedure read_procedure(std::string_view json,
   if (fields.has("drill")) {
     JsonFields drill = fields.object("drill");
     procedure.drill = detail::read_scope_drill(drill);
+  }
+  if (fields.has("removal")) {
+    JsonFields removal = fields.object("removal");
+    procedure.removal = detail::read_loose_removal(removal);
   }
   procedure.judges_displacement = fields.boolean_or("judges_displacement", false);
   refuse_twins(fields, "steps", procedure.steps);

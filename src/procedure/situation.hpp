@@ -16,6 +16,7 @@
 #include "core/units.hpp"
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
+#include "procedure/loose_removal.hpp"
 #include "procedure/scope_drill.hpp"
 #include "procedure/tube_setting.hpp"
 
@@ -123,6 +124,7 @@ struct ScopeFacts {
   std::uint32_t points_probed = 0;  ///< touched by the probe
   std::uint8_t unanswered = 0;      ///< of what an examination asks
   DrillFacts drill;                 ///< of exercises with a scope
+  LooseFacts loose;                 ///< of what floats in the joints
   /// By hand: the number of that portal in data/portals.json, the same in every case.
   std::array<std::uint8_t, kHands> portal_number{kNoBody, kNoBody};
   bool operator==(const ScopeFacts&) const = default;

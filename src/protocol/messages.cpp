@@ -427,6 +427,9 @@ void read(FieldReader& in, Scope& out) {
   out.pull_outs = in.integer("pull_outs", 0, 4294967295);
   in.list("answers", 0, 16, -1, 14, out.answers);
   if (in.has("drill")) in.record("drill", out.drill.emplace());
+  in.list("jaws_closed", 0, 2, 0, 1, out.jaws_closed);
+  in.records("loose", 0, 4, out.loose);
+  out.loose_out = in.integer("loose_out", 0, 4);
 }
 
 void write(FieldWriter& out, const Scope& in) {
@@ -448,6 +451,9 @@ void write(FieldWriter& out, const Scope& in) {
   } else {
     out.null("drill");
   }
+  out.list("jaws_closed", in.jaws_closed);
+  out.records("loose", in.loose);
+  out.value("loose_out", in.loose_out);
 }
 
 void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }

@@ -371,6 +371,12 @@ struct Scope {
   std::vector<std::int64_t> answers;
   /// of exercises with a scope
   std::optional<DrillState> drill;
+  /// by hand
+  std::vector<std::int64_t> jaws_closed;
+  /// those that are not out
+  std::vector<LooseBody> loose;
+  /// how many were brought out 0 to 4
+  std::int64_t loose_out = 0;
   bool operator==(const Scope&) const = default;
 };
 

@@ -302,6 +302,7 @@ void read(FieldReader& in, Instrument& out) {
   out.is_gauge = in.boolean("is_gauge");
   out.is_joystick = in.boolean("is_joystick");
   out.is_sleeve = in.boolean("is_sleeve");
+  out.has_jaws = in.boolean("has_jaws");
   out.stays = in.boolean("stays");
   out.family = in.string("family", 64);
   out.tip_diameter_mm = in.number("tip_diameter_mm", 0.0, 100.0);
@@ -321,6 +322,7 @@ void write(FieldWriter& out, const Instrument& in) {
   out.value("is_gauge", in.is_gauge);
   out.value("is_joystick", in.is_joystick);
   out.value("is_sleeve", in.is_sleeve);
+  out.value("has_jaws", in.has_jaws);
   out.value("stays", in.stays);
   out.text("family", in.family, 64);
   out.value("tip_diameter_mm", in.tip_diameter_mm);
@@ -431,6 +433,18 @@ void write(FieldWriter& out, const DrillState& in) {
   out.value("line_share", in.line_share);
   out.value("line_done", in.line_done);
   out.value("probe_seen", in.probe_seen);
+}
+
+void read(FieldReader& in, LooseBody& out) {
+  out.lesion = in.integer("lesion", 0, 23);
+  out.hand = in.integer("hand", -1, 1);
+  out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
+}
+
+void write(FieldWriter& out, const LooseBody& in) {
+  out.value("lesion", in.lesion);
+  out.value("hand", in.hand);
+  out.vec3("at_mm", in.at_mm);
 }
 
 void read(FieldReader& in, FindingGrade& out) {

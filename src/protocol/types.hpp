@@ -466,6 +466,8 @@ struct Instrument {
   bool is_joystick = false;
   /// a wire is led through its bore
   bool is_sleeve = false;
+  /// they close while it is driven forward
+  bool has_jaws = false;
   /// let go in bone, it stays there
   bool stays = false;
   /// of a screw; else empty
@@ -565,6 +567,17 @@ struct DrillState {
   /// by the scope; told in practice alone
   bool probe_seen = false;
   bool operator==(const DrillState&) const = default;
+};
+
+/// What floats in a joint now.
+struct LooseBody {
+  /// its place in arthroscopy.lesions 0 to 23
+  std::int64_t lesion = 0;
+  /// in whose jaws it is; -1: in none -1 to 1
+  std::int64_t hand = 0;
+  /// its middle
+  Vec3 at_mm;
+  bool operator==(const LooseBody&) const = default;
 };
 
 /// One answer of several.

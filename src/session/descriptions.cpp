@@ -53,6 +53,7 @@ protocol::Instrument message_of(const instruments::Instrument& instrument) {
   message.is_gauge = instrument.is_gauge;
   message.is_joystick = instrument.is_joystick;
   message.is_sleeve = instrument.is_sleeve;
+  message.has_jaws = instrument.has_jaws;
   message.stays = instrument.stays;
   message.family = instrument.family;
   message.tip_diameter_mm = instrument.tip_diameter_mm;

@@ -105,6 +105,14 @@ class Sentence {
         return "Seen: " + bodies_.tour_point(event_.detail);
       case EventKind::PointProbed:
         return "Probed: " + bodies_.tour_point(event_.detail);
+      case EventKind::LooseCaught:
+        return subject() + " has hold of a loose body";
+      case EventKind::LooseLost:
+        return "The loose body slipped from the jaws: close on its middle, draw back slowly";
+      case EventKind::LooseOut:
+        return "A loose body is out";
+      case EventKind::TissueBitten:
+        return subject() + " closed on what lines the joint";
       case EventKind::None:
         break;
     }

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "arthroscopy/disc_net.hpp"
-#include "arthroscopy/make_lesions.hpp"
 #include "arthroscopy/opened_space.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "session/body_names.hpp"
+#include "simulation/lesions_of.hpp"
 
 namespace carpus::session {
 namespace {
@@ -28,19 +29,20 @@ std::vector<std::int64_t> numbers_in(std::uint32_t bits) {
   return numbers;
 }
 
-cases::JointLesions add_examination(protocol::Arthroscopy& message,
-                                    const cases::CaseData& data,
-                                    const BodyNames& names,
-                                    std::uint64_t seed) {
-  const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
-  const cases::ArthroscopicMap& map = *data.arthroscopy;
-  cases::JointLesions made =
-      arthroscopy::make_lesions(data, map, table, arthroscopy::grades_by(seed, table), seed);
-  for (const cases::Lesion& lesion : made.lesions) {
+void add_lesions(protocol::Arthroscopy& message,
+                 const cases::JointLesions& wrong,
+                 const cases::ArthroscopicMap& map,
+                 const BodyNames& names) {
+  for (const cases::Lesion& lesion : wrong.lesions) {
     message.lesions.push_back({static_cast<protocol::LesionLook>(lesion.look),
                                map.joints[lesion.joint].id, names.name(lesion.body), lesion.from,
                                lesion.to, lesion.radius_mm});
   }
+}
+
+/// What is asked of an examination.
+void add_questions(protocol::Arthroscopy& message) {
+  const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
   for (std::size_t f = 0; f < table.findings.size(); ++f) {
     protocol::Finding finding{
         table.findings[f].id, table.findings[f].label, table.scale_of(f).name, {}};
@@ -49,7 +51,13 @@ cases::JointLesions add_examination(protocol::Arthroscopy& message,
     }
     message.findings.push_back(std::move(finding));
   }
-  return made;
+}
+
+/// To hundredths of a millimetre: what lies still is told once.
+Vec3 rounded(const Vec3& at) {
+  constexpr double kSteps = 100.0;
+  return {std::round(at.x * kSteps) / kSteps, std::round(at.y * kSteps) / kSteps,
+          std::round(at.z * kSteps) / kSteps};
 }
 
 /// Points of the line, on the joint's wall as scanned.
@@ -146,14 +154,12 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
                               data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});
   }
-  const cases::JointLesions* wrong = nullptr;
-  cases::JointLesions made;
-  if (procedure.examines) {
-    made = add_examination(message, data, names, seed);
-    wrong = &made;
-  }
+  const std::optional<cases::JointLesions> wrong =
+      simulation::lesions_of(data, procedure, seed);
+  if (wrong) add_lesions(message, *wrong, *data.arthroscopy, names);
+  if (procedure.examines) add_questions(message);
   if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);
-  message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong).rest();
+  message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong ? &*wrong : nullptr).rest();
   return message;
 }
 
@@ -181,6 +187,13 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
   }
   message.pull_outs = scope.pull_outs;
   if (procedure.drill) message.drill = drill_state_of(now, *procedure.drill);
+  for (const bool is_closed : scope.are_closed) message.jaws_closed.push_back(is_closed ? 1 : 0);
+  for (std::size_t i = 0; i < scope.loose_count; ++i) {
+    const simulation::LooseView& body = scope.loose[i];
+    message.loose.push_back({body.lesion, body.hand < simulation::kHands ? body.hand : -1,
+                             rounded(body.at_in_patient)});
+  }
+  message.loose_out = scope.facts.loose.out;
   for (const std::uint8_t grade : scope.answers) {
     message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
   }

@@ -77,6 +77,14 @@ struct HandView {
   bool operator==(const HandView&) const = default;
 };
 
+/// A body that floats in a joint.
+struct LooseView {
+  std::uint8_t lesion = 0;      ///< its place in World::lesions
+  std::uint8_t hand = kNoHand;  ///< in whose jaws it is
+  Vec3 at_in_patient{};         ///< its middle
+  bool operator==(const LooseView&) const = default;
+};
+
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
 struct ScopeView {
   std::uint8_t hand = kNoHand;  ///< that holds one
@@ -93,6 +101,10 @@ struct ScopeView {
   double line_share = 0.0;       ///< of the line that is followed, at a stretch
   bool is_probe_seen = false;    ///< in exercises with a scope alone
   bool is_level = true;          ///< the picture, within what counts as level
+  /// Bodies that float in the joints, the first `loose_count`.
+  std::array<LooseView, procedure::kMaxLooseBodies> loose{};
+  std::uint8_t loose_count = 0;
+  std::array<bool, kHands> are_closed{};  ///< jaws, by hand
   bool operator==(const ScopeView&) const = default;
 };
 
@@ -139,6 +151,10 @@ enum class EventKind : std::uint8_t {
   Judged = 27,        ///< detail: procedure::Judgement
   /// A wire would not go in: its shaft lies in soft tissue where a hand would hold it; detail: body
   ShaftUnderSkin = 28,
+  LooseCaught = 29,   ///< a loose body is in the jaws; detail: which
+  LooseLost = 30,     ///< it sprang from them, or was stripped off in the way; detail: which
+  LooseOut = 31,      ///< it is out of the skin; detail: which
+  TissueBitten = 32,  ///< jaws closed on what lines the joint
 };
 
 struct Event {

@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "arthroscopy/disc_net.hpp"
-#include "arthroscopy/make_lesions.hpp"
 #include "core/error.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
+#include "simulation/lesions_of.hpp"
 
 namespace carpus::simulation {
 
@@ -80,12 +80,13 @@ World::Model::Model(const cases::CaseData& case_data,
   for (const InstrumentIndex index : declared.tray) {
     if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
   }
-  if (declared.examines && map != nullptr) {
-    const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
-    lesions = arthroscopy::make_lesions(case_data, *map, table, arthroscopy::grades_by(seed, table),
-                                        seed);
+  if (map != nullptr) lesions = lesions_of(case_data, declared, seed);
+  if (lesions) {
     for (std::uint8_t b = 0; b < case_data.bones.size(); ++b) {
       if (squared_length(lesions->shifts[b]) > 0) loose[loose_count++] = b;
+    }
+    for (std::size_t i = 0; i < lesions->lesions.size() && float_count < floats.size(); ++i) {
+      if (lesions->lesions[i].look == cases::LesionLook::Loose) floats[float_count++] = i;
     }
   }
   if (map != nullptr) {
@@ -110,6 +111,7 @@ World::State::State(const Model& model)
   snapshot.seed = model.seed;
   scene.set_cuts(tissue.cuts().fields());
   disc.reset(model.disc);
+  loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
 }
 
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
@@ -230,6 +232,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   yield_disc(model);
   watch_structures(model);
   watch_scopes(model);
+  move_loose_bodies(model);
   tick_off_steps(model);
   if (is_finishing) {
     spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);

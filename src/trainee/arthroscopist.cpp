@@ -52,10 +52,10 @@ ScopeSkill scope_skill_of(Skill skill) noexcept {
   ScopeSkill result;
   if (skill == Skill::Middle) {
     result = {50.0, 9.0, 0.1, 0.5,  10.0, 9.0,  1.3,  1, 0.06,
-              1.2,  2.5, 0.7, 0.82, 0.65, 0.07, 0.05, 3, 0.3};
+              1.2,  2.5, 0.7, 0.82, 0.65, 0.07, 0.05, 3, 0.3, 5.5, 0.8};
   } else if (skill == Skill::Novice) {
     result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2,
-              3.0,  6.0, 1.0, 0.6, 0.4,  0.14, 0.15, 4, 0.6};
+              3.0,  6.0, 1.0, 0.6, 0.4,  0.14, 0.15, 4, 0.6, 9.0, 0.3};
   }
   return result;
 }
@@ -320,6 +320,8 @@ void ScriptedArthroscopist::plan() {
   planned_[kScope] = hands_[kScope].tip;
   if (procedure_.drill) {
     plan_drill(*procedure_.drill);
+  } else if (procedure_.removal) {
+    plan_removal();
   } else {
     plan_tour();
   }
@@ -440,6 +442,7 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
       input.hands[h].shaft_in_patient = hands_[h].shaft;
     }
     input.hands[0].tip_in_patient += tremor_.next();
+    if (are_closed_) input.hands[kProbe].driver = simulation::Driver::Forward;
   };
   if (!has_planned_) {
     hold();
@@ -454,11 +457,14 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     return input;
   }
   while (in_task_ == 0 && is_reached(tasks_[at_], now.scope.facts)) ++at_;
+  while (in_task_ == 0 && tasks_[at_].seeks) seek(now);
   const Task& task = tasks_[at_];
   if (in_task_ == 0) {
+    if (task.jaws != Jaws::AsTheyAre) are_closed_ = task.jaws == Jaws::Closed;
     const HandPose& from = hands_[task.hand];
-    move_ticks_ = std::max(kLeastMoveTicks,
-                           ticks_of(distance(from.tip, task.to.tip) / skill_.speed_mm_per_s));
+    const double speed = task.speed_mm_per_s > 0 ? task.speed_mm_per_s : skill_.speed_mm_per_s;
+    move_ticks_ =
+        std::max(kLeastMoveTicks, ticks_of(distance(from.tip, task.to.tip) / speed));
     const bool stays = task.finishes || task.answers;
     if (stays) move_ticks_ = 1;
     move_ = MinimumJerkMove(from, stays ? from : task.to, move_ticks_);

@@ -49,6 +49,8 @@ struct ScopeSkill {
   double says_nothing = 0.0;
   int tries = 2;             ///< at an exercise before it is let be
   double leads_blind = 0.0;  ///< chance to move the probe without the scope after it
+  double draws_mm_per_s = 4.0;  ///< what it has caught, out of the joint
+  double looks_again = 1.0;     ///< chance to look for more once something is out
 };
 [[nodiscard]] ScopeSkill scope_skill_of(Skill skill) noexcept;
 
@@ -68,6 +70,7 @@ class ScriptedArthroscopist {
   [[nodiscard]] bool is_done() const noexcept { return is_finished_; }
 
  private:
+  enum class Jaws : std::uint8_t { AsTheyAre, Open, Closed };
   enum class DrillGoal : std::uint8_t { None, In, Hold, Round, Touch, Line };
   /// One thing to do, with the hand that does it.
   struct Task {
@@ -82,6 +85,9 @@ class ScriptedArthroscopist {
     bool finishes = false;
     DrillGoal goal = DrillGoal::None;  ///< of exercises: once it is reached the task is left out
     std::uint8_t count = 0;            ///< ... of which so many
+    Jaws jaws = Jaws::AsTheyAre;
+    bool seeks = false;  ///< what to do next is found out once it is begun
+    double speed_mm_per_s = 0.0;  ///< 0: the usual
   };
   struct View {
     Vec3 tip;
@@ -122,6 +128,15 @@ class ScriptedArthroscopist {
   [[nodiscard]] Vec3 place_to_look_round(std::uint8_t portal) const;
   [[nodiscard]] Vec3 on_surface(std::uint8_t joint, const Vec3& near, double presses_mm) const;
   [[nodiscard]] bool is_reached(const Task& task, const procedure::ScopeFacts& facts) const;
+
+  // removal_plan.cpp
+  void plan_removal();
+  void seek(const simulation::Snapshot& now);
+  void plan_catch(const simulation::LooseView& body);
+  void plan_bring_out();
+  void plan_another_look(const simulation::Snapshot& now);
+  [[nodiscard]] const simulation::LooseView* next_to_catch(const simulation::Snapshot& now) const;
+  void go_on_seeking();
 
   [[nodiscard]] Vec3 place_of(std::size_t point) const;
   [[nodiscard]] HandPose hole(std::uint8_t portal) const;
@@ -177,6 +192,13 @@ class ScriptedArthroscopist {
   double tilt_deg_ = 0.0;
   std::array<Vec3, simulation::kHands> planned_{};  ///< where the plan so far leaves each tip
   double planned_turn_deg_ = 0.0;
+  // Of removing what is loose.
+  Stop working_;
+  bool has_probe_ = false;
+  bool are_closed_ = false;
+  std::array<std::uint8_t, cases::kMaxLesions> tried_{};  ///< to catch each, so often
+  int looks_ = 0;
+  std::uint8_t out_when_looked_ = 0;
 };
 
 }  // namespace carpus::trainee

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 
 #include "core/error.hpp"
@@ -96,6 +97,13 @@ bool has_held(const Situation& now) noexcept {
 bool has_looked_round(const Situation& now) noexcept { return now.scope.drill.is_round_done; }
 bool has_touched_all(const Situation& now) noexcept { return now.scope.drill.are_touches_done; }
 bool has_followed_line(const Situation& now) noexcept { return now.scope.drill.is_line_done; }
+bool has_seen_loose(const Situation& now) noexcept { return now.scope.loose.seen > 0; }
+bool has_caught_one(const Situation& now) noexcept { return now.scope.loose.catches > 0; }
+bool has_brought_one_out(const Situation& now) noexcept { return now.scope.loose.out > 0; }
+bool has_looked_again(const Situation& now) noexcept {
+  constexpr int kPlaces = 5;
+  return now.scope.loose.out > 0 && std::popcount(now.scope.loose.seen_since) >= kPlaces;
+}
 bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
 
 }  // namespace
@@ -123,6 +131,10 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"has_looked_round", has_looked_round},
       NamedPredicate{"has_touched_all", has_touched_all},
       NamedPredicate{"has_followed_line", has_followed_line},
+      NamedPredicate{"has_seen_loose", has_seen_loose},
+      NamedPredicate{"has_caught_one", has_caught_one},
+      NamedPredicate{"has_brought_one_out", has_brought_one_out},
+      NamedPredicate{"has_looked_again", has_looked_again},
       NamedPredicate{"is_finishing", is_finishing}};
   return kPredicates;
 }

@@ -74,6 +74,9 @@ void write(FieldWriter& out, const ScopeDrill& in);
 void read(FieldReader& in, DrillState& out);
 void write(FieldWriter& out, const DrillState& in);
 
+void read(FieldReader& in, LooseBody& out);
+void write(FieldWriter& out, const LooseBody& in);
+
 void read(FieldReader& in, FindingGrade& out);
 void write(FieldWriter& out, const FindingGrade& in);
 

@@ -231,9 +231,7 @@ void World::State::look_at_lesions(const Model& model,
   const auto count = static_cast<std::uint32_t>(lesions.size());
   const auto turn = static_cast<std::size_t>(static_cast<std::uint64_t>(spent.tick) % count);
   const cases::Lesion& lesion = lesions[turn];
-  const Vec3 middle = (lesion.from + lesion.to) * 0.5 -
-                      model.lesions->shift_of(lesion.body, spent.wrist.traction_n);
-  const Vec3 at = (poses[lesion.body] * Point<frame::Bone>{middle}).v;
+  const Vec3 at = lesion_middle(model, turn);
   const bool is_seen = lesion.joint == joint && arthroscopy::is_in_field(sight, at) &&
                        distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
                        is_in_sight(model, joint, sight.eye, at);
@@ -243,7 +241,7 @@ void World::State::look_at_lesions(const Model& model,
 }
 
 std::uint8_t World::State::unanswered(const Model& model) const noexcept {
-  if (!model.lesions) return 0;
+  if (!model.procedure.examines || !model.lesions) return 0;
   std::uint8_t count = 0;
   for (std::size_t f = 0; f < arthroscopy::PathologyTable::generic().findings.size(); ++f) {
     if (scope_state.answers[f] == cases::kNotJudged) ++count;
@@ -354,6 +352,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.points_probed = scope_state.points_probed;
   facts.unanswered = unanswered(model);
   facts.drill = drill_state.done;
+  facts.loose = loose_facts(model);
   return facts;
 }
 
@@ -399,6 +398,7 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.hold_ticks = drill_state.hold_ticks;
   view.line_share = drill_state.line_share;
   view.is_probe_seen = drill_state.is_probe_seen;
+  publish_loose(model);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

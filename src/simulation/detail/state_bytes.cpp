@@ -3,7 +3,7 @@
 //
 // A world's state as bytes, for keyframes: every field in the order of its struct's visit(), all
 // little-endian (of structures only where the case has any, of a scope only in an arthroscopy, of
-// its exercises where there are any), then the tissue's changes, then a checksum. Undo does not
+// its exercises and what floats where there are any), then the tissue's changes, then a checksum. Undo does not
 // reach back before one.
 #include <algorithm>
 #include <bit>
@@ -75,6 +75,7 @@ std::vector<std::byte> World::write_state() const {
       detail::visit_look(state.looks[i], fields);
     }
     if (model_->procedure.drill) visit(state.drill_state, fields);
+    if (model_->float_count > 0) visit(state.loose_state, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -109,6 +110,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::ScopeState scope;
   yielding::NetState disc;
   detail::DrillState drill;
+  detail::LooseState loose;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -120,6 +122,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
     if (const auto& declared = model_->procedure.drill) {
       visit(drill, fields);
       is_sound = is_sound && detail::is_possible(drill, *declared);
+    }
+    if (model_->float_count > 0) {
+      visit(loose, fields);
+      is_sound = is_sound && detail::is_possible(loose, model_->float_count);
     }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
@@ -138,6 +144,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->structure_state = structures;
   next->scope_state = scope;
   next->drill_state = drill;
+  next->loose_state = loose;
   if (model_->map != nullptr) next->disc = disc;
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {

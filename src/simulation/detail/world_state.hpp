@@ -21,6 +21,7 @@
 #include "haptics/virtual_coupling.hpp"
 #include "instruments/instrument.hpp"
 #include "simulation/detail/bodies.hpp"
+#include "simulation/detail/loose_bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
@@ -53,7 +54,9 @@ struct World::Model {
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
   const cases::ArthroscopicMap* map = nullptr;
-  std::optional<cases::JointLesions> lesions;    ///< of an examination
+  std::optional<cases::JointLesions> lesions;    ///< of an examination, or what lies loose
+  std::array<std::size_t, detail::kMaxLooseBodies> floats{};  ///< of these those that float
+  std::size_t float_count = 0;
   std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
   std::size_t loose_count = 0;
   yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
@@ -70,6 +73,7 @@ struct World::State {
   detail::StructureState structure_state;
   detail::ScopeState scope_state;
   detail::DrillState drill_state;
+  detail::LooseState loose_state;
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
@@ -327,6 +331,17 @@ struct World::State {
                           std::uint8_t joint,
                           const arthroscopy::Sight& sight,
                           const Vec3& tip) const noexcept;
+
+  // floating_bodies.cpp
+  void move_loose_bodies(const Model& model) noexcept;
+  void watch_jaws(const Model& model, std::uint8_t hand) noexcept;
+  void close_jaws(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void carry_loose(const Model& model, std::size_t which) noexcept;
+  void float_loose(const Model& model, std::size_t which) noexcept;
+  void publish_loose(const Model& model) noexcept;
+  [[nodiscard]] bool is_tip_seen(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] Vec3 lesion_middle(const Model& model, std::size_t lesion) const noexcept;
+  [[nodiscard]] procedure::LooseFacts loose_facts(const Model& model) const noexcept;
 
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;

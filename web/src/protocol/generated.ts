@@ -314,6 +314,8 @@ export interface Instrument {
   readonly is_joystick: boolean;
   /** a wire is led through its bore */
   readonly is_sleeve: boolean;
+  /** they close while it is driven forward */
+  readonly has_jaws: boolean;
   /** let go in bone, it stays there */
   readonly stays: boolean;
   /** of a screw; else empty */
@@ -406,6 +408,16 @@ export interface DrillState {
   readonly line_done: boolean;
   /** by the scope; told in practice alone */
   readonly probe_seen: boolean;
+}
+
+/** What floats in a joint now. */
+export interface LooseBody {
+  /** its place in arthroscopy.lesions 0 to 23 */
+  readonly lesion: number;
+  /** in whose jaws it is; -1: in none -1 to 1 */
+  readonly hand: number;
+  /** its middle */
+  readonly at_mm: Vec3;
 }
 
 /** One answer of several. */
@@ -1139,6 +1151,12 @@ export interface ScopeMessage {
   readonly answers: readonly number[];
   /** of exercises with a scope */
   readonly drill: DrillState | null;
+  /** by hand */
+  readonly jaws_closed: readonly number[];
+  /** those that are not out */
+  readonly loose: readonly LooseBody[];
+  /** how many were brought out 0 to 4 */
+  readonly loose_out: number;
 }
 
 /** By how much the disc has yielded; comes when that changed. */

@@ -160,6 +160,7 @@ export const SCHEMA: Schema = {
       is_gauge: {"type": "boolean"},
       is_joystick: {"type": "boolean"},
       is_sleeve: {"type": "boolean"},
+      has_jaws: {"type": "boolean"},
       stays: {"type": "boolean"},
       family: {"type": "string", "max_length": 64},
       tip_diameter_mm: {"type": "number", "min": 0, "max": 100},
@@ -213,6 +214,11 @@ export const SCHEMA: Schema = {
       line_share: {"type": "number", "min": 0, "max": 1},
       line_done: {"type": "boolean"},
       probe_seen: {"type": "boolean"},
+    } },
+    loose_body: { fields: {
+      lesion: {"type": "integer", "min": 0, "max": 23},
+      hand: {"type": "integer", "min": -1, "max": 1},
+      at_mm: {"type": "vec3", "limit": 10000},
     } },
     finding_grade: { fields: {
       id: {"type": "string", "max_length": 16},
@@ -606,6 +612,9 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     pull_outs: {"type": "integer", "min": 0, "max": 4294967295},
     answers: {"type": "array", "of": {"type": "integer", "min": -1, "max": 14}, "max_items": 16},
     drill: {"type": "drill_state", "optional": true},
+    jaws_closed: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 2},
+    loose: {"type": "array", "of": {"type": "loose_body"}, "max_items": 4},
+    loose_out: {"type": "integer", "min": 0, "max": 4},
   },
   disc: {
     off_um: {"type": "array", "of": {"type": "integer", "min": -20000, "max": 20000}, "max_items": 480},

@@ -1,0 +1,26 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulation/lesions_of.hpp"
+
+#include "arthroscopy/make_lesions.hpp"
+#include "arthroscopy/make_loose_bodies.hpp"
+
+namespace carpus::simulation {
+
+std::optional<cases::JointLesions> lesions_of(const cases::CaseData& data,
+                                              const procedure::Procedure& procedure,
+                                              std::uint64_t seed) {
+  if (data.arthroscopy == nullptr) return std::nullopt;
+  const cases::ArthroscopicMap& map = *data.arthroscopy;
+  if (procedure.examines) {
+    const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+    return arthroscopy::make_lesions(data, map, table, arthroscopy::grades_by(seed, table), seed);
+  }
+  if (const auto& removal = procedure.removal) {
+    return arthroscopy::make_loose_bodies(
+        data, map, {removal->bodies, removal->radius_mm, removal->places}, seed);
+  }
+  return std::nullopt;
+}
+
+}  // namespace carpus::simulation

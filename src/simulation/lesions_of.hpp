@@ -1,0 +1,20 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cases/case_data.hpp"
+#include "cases/joint_lesions.hpp"
+#include "procedure/procedure.hpp"
+
+namespace carpus::simulation {
+
+/// What is wrong in the joints of an exercise, by its seed: what an examination asks about, or what
+/// lies loose; none where the procedure is about neither, or the case has no soft tissue.
+[[nodiscard]] std::optional<cases::JointLesions> lesions_of(const cases::CaseData& data,
+                                                            const procedure::Procedure& procedure,
+                                                            std::uint64_t seed);
+
+}  // namespace carpus::simulation
