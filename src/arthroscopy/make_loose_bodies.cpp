@@ -64,8 +64,8 @@ cases::JointLesions make_loose_bodies(const cases::CaseData& data,
     body.body = place.body;
     body.outwards = normalized_or(near.gradient, -map.distal);
     body.radius_mm = rng.uniform(choice.radius_mm[0], choice.radius_mm[1]);
-    const Vec3 on_wall = near.is_inside_grid ? place.at + aside - body.outwards * near.distance_mm
-                                             : place.at;
+    const Vec3 on_wall =
+        near.is_inside_grid ? place.at + aside - body.outwards * near.distance_mm : place.at;
     body.from = body.to = on_wall - body.outwards * (body.radius_mm * kSunkShare);
     made.lesions.push_back(body);
     made.grades[finding] = 1;

@@ -16,9 +16,9 @@
 namespace carpus::arthroscopy {
 
 struct LooseBodyChoice {
-  std::array<std::uint8_t, 2> bodies{};    ///< least and most
-  std::array<double, 2> radius_mm{};       ///< least and most
-  std::span<const std::uint8_t> places;    ///< of the tour, by their numbers
+  std::array<std::uint8_t, 2> bodies{};  ///< least and most
+  std::array<double, 2> radius_mm{};     ///< least and most
+  std::span<const std::uint8_t> places;  ///< of the tour, by their numbers
 };
 
 /// Fewer where the case lacks the places, none where it lacks all of them.

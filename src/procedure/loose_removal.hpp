@@ -25,15 +25,15 @@ struct LooseRemoval {
 };
 
 struct LooseFacts {
-  std::uint8_t there = 0;  ///< at first
-  std::uint8_t seen = 0;   ///< of them, for a second
-  std::uint8_t out = 0;    ///< brought out through the skin
+  std::uint8_t there = 0;             ///< at first
+  std::uint8_t seen = 0;              ///< of them, for a second
+  std::uint8_t out = 0;               ///< brought out through the skin
   std::uint32_t closings = 0;         ///< of the jaws in a joint
   std::uint32_t unseen_closings = 0;  ///< ... while the scope did not see them
   std::uint32_t catches = 0;
-  std::uint32_t bites = 0;            ///< ... on what lines the joint
-  std::uint32_t slips = 0;            ///< a body sprang from the jaws, or was stripped off in the way
-  std::uint32_t seen_since = 0;       ///< places of the tour, by number, since the last came out
+  std::uint32_t bites = 0;       ///< ... on what lines the joint
+  std::uint32_t slips = 0;       ///< a body sprang from the jaws, or was stripped off in the way
+  std::uint32_t seen_since = 0;  ///< places of the tour, by number, since the last came out
   bool operator==(const LooseFacts&) const = default;
 };
 

@@ -154,8 +154,7 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
                               data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});
   }
-  const std::optional<cases::JointLesions> wrong =
-      simulation::lesions_of(data, procedure, seed);
+  const std::optional<cases::JointLesions> wrong = simulation::lesions_of(data, procedure, seed);
   if (wrong) add_lesions(message, *wrong, *data.arthroscopy, names);
   if (procedure.examines) add_questions(message);
   if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);

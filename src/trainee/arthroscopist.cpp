@@ -51,11 +51,11 @@ bool is_arthroscopy(const procedure::Procedure& procedure) {
 ScopeSkill scope_skill_of(Skill skill) noexcept {
   ScopeSkill result;
   if (skill == Skill::Middle) {
-    result = {50.0, 9.0, 0.1, 0.5,  10.0, 9.0,  1.3,  1, 0.06,
-              1.2,  2.5, 0.7, 0.82, 0.65, 0.07, 0.05, 3, 0.3, 5.5, 0.8};
+    result = {50.0, 9.0,  0.1,  0.5,  10.0, 9.0, 1.3, 1,   0.06, 1.2, 2.5,
+              0.7,  0.82, 0.65, 0.07, 0.05, 3,   0.3, 5.5, 0.8,  0.7, 0.3};
   } else if (skill == Skill::Novice) {
-    result = {40.0, 7.0, 0.2, 1.2, 22.0, 24.0, 1.05, 2, 0.2,
-              3.0,  6.0, 1.0, 0.6, 0.4,  0.14, 0.15, 4, 0.6, 9.0, 0.3};
+    result = {40.0, 7.0, 0.2, 1.2,  22.0, 24.0, 1.05, 2,   0.2, 3.0, 6.0,
+              1.0,  0.6, 0.4, 0.14, 0.15, 4,    0.6,  9.0, 0.3, 0.3, 0.8};
   }
   return result;
 }
@@ -463,8 +463,7 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     if (task.jaws != Jaws::AsTheyAre) are_closed_ = task.jaws == Jaws::Closed;
     const HandPose& from = hands_[task.hand];
     const double speed = task.speed_mm_per_s > 0 ? task.speed_mm_per_s : skill_.speed_mm_per_s;
-    move_ticks_ =
-        std::max(kLeastMoveTicks, ticks_of(distance(from.tip, task.to.tip) / speed));
+    move_ticks_ = std::max(kLeastMoveTicks, ticks_of(distance(from.tip, task.to.tip) / speed));
     const bool stays = task.finishes || task.answers;
     if (stays) move_ticks_ = 1;
     move_ = MinimumJerkMove(from, stays ? from : task.to, move_ticks_);

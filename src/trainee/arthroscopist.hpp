@@ -47,10 +47,12 @@ struct ScopeSkill {
   double grades_right = 0.88;
   double invents = 0.02;  ///< chance to see something where nothing is
   double says_nothing = 0.0;
-  int tries = 2;             ///< at an exercise before it is let be
-  double leads_blind = 0.0;  ///< chance to move the probe without the scope after it
+  int tries = 2;                ///< at an exercise before it is let be
+  double leads_blind = 0.0;     ///< chance to move the probe without the scope after it
   double draws_mm_per_s = 4.0;  ///< what it has caught, out of the joint
   double looks_again = 1.0;     ///< chance to look for more once something is out
+  double searches = 1.0;        ///< chance to look at each place of the tour for it
+  double hasty = 0.0;           ///< chance to close the jaws on what is not between them
 };
 [[nodiscard]] ScopeSkill scope_skill_of(Skill skill) noexcept;
 
@@ -86,7 +88,7 @@ class ScriptedArthroscopist {
     DrillGoal goal = DrillGoal::None;  ///< of exercises: once it is reached the task is left out
     std::uint8_t count = 0;            ///< ... of which so many
     Jaws jaws = Jaws::AsTheyAre;
-    bool seeks = false;  ///< what to do next is found out once it is begun
+    bool seeks = false;           ///< what to do next is found out once it is begun
     double speed_mm_per_s = 0.0;  ///< 0: the usual
   };
   struct View {
@@ -133,7 +135,11 @@ class ScriptedArthroscopist {
   void plan_removal();
   void seek(const simulation::Snapshot& now);
   void plan_catch(const simulation::LooseView& body);
+  void plan_search();
+  void plan_close(const simulation::Snapshot& now, const simulation::LooseView& body);
   void plan_bring_out();
+  [[nodiscard]] std::uint8_t portal_for(const Vec3& at, int turn) const;
+  [[nodiscard]] Vec3 comes_in_at(std::uint8_t portal, const Vec3& at) const;
   void plan_another_look(const simulation::Snapshot& now);
   [[nodiscard]] const simulation::LooseView* next_to_catch(const simulation::Snapshot& now) const;
   void go_on_seeking();
@@ -198,7 +204,10 @@ class ScriptedArthroscopist {
   bool are_closed_ = false;
   std::array<std::uint8_t, cases::kMaxLesions> tried_{};  ///< to catch each, so often
   int looks_ = 0;
+  int brought_ = 0;  ///< tried to bring out, so often
   std::uint8_t out_when_looked_ = 0;
+  bool is_over_ = false;   ///< the open jaws were brought over a body ...
+  std::uint8_t over_ = 0;  ///< ... this one
 };
 
 }  // namespace carpus::trainee

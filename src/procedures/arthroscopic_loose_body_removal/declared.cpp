@@ -16,9 +16,8 @@ procedure::Opening opening(const cases::CaseData& data) {
 
 const procedure::Procedure& declared() {
   static const procedure::Procedure kDeclared = [] {
-    procedure::Procedure read =
-        procedure::read_procedure(json(), "arthroscopic_loose_body_removal/procedure.json",
-                                  arthroscopy::named_predicates());
+    procedure::Procedure read = procedure::read_procedure(
+        json(), "arthroscopic_loose_body_removal/procedure.json", arthroscopy::named_predicates());
     read.opening = opening;
     read.score = score;
     return read;

@@ -66,6 +66,9 @@ bool is_scope_in(const Situation& now) noexcept {
 bool is_probe_in(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, false, [](std::uint8_t by) { return by != kPortal34; });
 }
+bool is_grasper_in(const Situation& now) noexcept {
+  return is_in(now, kRadiocarpal, false, [](std::uint8_t) { return true; });
+}
 bool is_scope_ulnar(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, true, [&now](std::uint8_t by) {
     for (std::size_t h = 0; h < procedure::kHands; ++h) {
@@ -113,6 +116,7 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"is_pulled", is_pulled},
       NamedPredicate{"is_scope_in", is_scope_in},
       NamedPredicate{"is_probe_in", is_probe_in},
+      NamedPredicate{"is_grasper_in", is_grasper_in},
       NamedPredicate{"has_seen_radial", has_seen<1, 2, 3>},
       NamedPredicate{"has_seen_scapholunate", has_seen<7>},
       NamedPredicate{"has_seen_lunate", has_seen<8, 10>},

@@ -11,9 +11,9 @@
 namespace carpus::simulation {
 
 using detail::Item;
+using detail::kMaxLooseBodies;
 using detail::kNoHole;
 using detail::kNoPortal;
-using detail::kMaxLooseBodies;
 using detail::LooseBody;
 
 namespace {
@@ -22,7 +22,7 @@ constexpr double kMouthMm = 0.8;     // behind the tip the jaws close
 constexpr double kGripMm = 0.9;      // a body's surface so near to there is between them [E]
 constexpr double kSqueezedMm = 2.5;  // ... so near it springs away
 constexpr double kSpringsMmPerS = 40.0;
-constexpr double kBiteMm = 0.6;      // the lining so near is between them [E]
+constexpr double kBiteMm = 0.6;           // the lining so near is between them [E]
 constexpr double kStrippedMmPerS = 10.0;  // drawn faster through the capsule it is lost [E]
 constexpr double kInsideMm = 1.0;         // beyond the capsule it lies then
 constexpr double kRodMm = 40.0;

@@ -13,16 +13,16 @@
 namespace carpus::simulation::detail {
 namespace {
 
-constexpr double kTakesUpS = 0.03;        // drag of a millimetre of cartilage in water [E]
-constexpr double kSinksMmPerS = 30.0;     // ... 10 % heavier [E]
-constexpr double kFriction = 0.5;         // on wet cartilage with synovium on it [E]
-constexpr double kCreepMmPerS = 1.0;      // slower it comes to rest
-constexpr double kSunkShare = 0.9;        // of its radius it lies above the wall
-constexpr double kTouchMm = 0.02;         // so near to the wall it lies on it
-constexpr double kFarthestBackMm = 0.1;   // a tick
-constexpr double kPushedPerS = 10.0;      // of what a rod overlaps it becomes speed
-constexpr double kInflowMmPerS = 18.0;    // at the scope's mouth [E]
-constexpr double kInflowMm = 2.5;         // ... over which it spreads [E]
+constexpr double kTakesUpS = 0.03;       // drag of a millimetre of cartilage in water [E]
+constexpr double kSinksMmPerS = 30.0;    // ... 10 % heavier [E]
+constexpr double kFriction = 0.5;        // on wet cartilage with synovium on it [E]
+constexpr double kCreepMmPerS = 1.0;     // slower it comes to rest
+constexpr double kSunkShare = 0.9;       // of its radius it lies above the wall
+constexpr double kTouchMm = 0.02;        // so near to the wall it lies on it
+constexpr double kFarthestBackMm = 0.1;  // a tick
+constexpr double kPushedPerS = 10.0;     // of what a rod overlaps it becomes speed
+constexpr double kInflowMmPerS = 18.0;   // at the scope's mouth [E]
+constexpr double kInflowMm = 2.5;        // ... over which it spreads [E]
 constexpr double kGreatestMm = 1e4;
 
 }  // namespace

@@ -60,11 +60,11 @@ void visit(SomeState& state, Visitor&& v) noexcept {
 
 /// What acts on a body.
 struct LooseSurroundings {
-  Vec3 flow;                 ///< of the fluid [mm/s]
-  Vec3 down;                 ///< unit
-  bool has_wall = false;     ///< one is near
-  double wall_mm = 0.0;      ///< of its middle beyond the wall; negative within the joint
-  Vec3 outwards;             ///< unit, out of the joint
+  Vec3 flow;              ///< of the fluid [mm/s]
+  Vec3 down;              ///< unit
+  bool has_wall = false;  ///< one is near
+  double wall_mm = 0.0;   ///< of its middle beyond the wall; negative within the joint
+  Vec3 outwards;          ///< unit, out of the joint
 };
 
 /// One tick of a body that nothing holds.

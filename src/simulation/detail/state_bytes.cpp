@@ -3,8 +3,8 @@
 //
 // A world's state as bytes, for keyframes: every field in the order of its struct's visit(), all
 // little-endian (of structures only where the case has any, of a scope only in an arthroscopy, of
-// its exercises and what floats where there are any), then the tissue's changes, then a checksum. Undo does not
-// reach back before one.
+// its exercises and what floats where there are any), then the tissue's changes, then a checksum.
+// Undo does not reach back before one.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

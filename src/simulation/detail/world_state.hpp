@@ -54,7 +54,7 @@ struct World::Model {
   procedure::Opening opening;
   /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
   const cases::ArthroscopicMap* map = nullptr;
-  std::optional<cases::JointLesions> lesions;    ///< of an examination, or what lies loose
+  std::optional<cases::JointLesions> lesions;  ///< of an examination, or what lies loose
   std::array<std::size_t, detail::kMaxLooseBodies> floats{};  ///< of these those that float
   std::size_t float_count = 0;
   std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
