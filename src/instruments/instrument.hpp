@@ -98,7 +98,7 @@ struct Instrument {
   bool stays = false;               ///< let go in bone, it stays there
   bool is_joystick = false;         ///< a fragment goes where a hand takes it by this
   bool enters_joints = false;       ///< through a portal, where it pivots; nowhere else
-  bool has_jaws = false;            ///< which close while it is driven forward: it grasps
+  bool has_jaws = false;            ///< which close driven forward, and open in reverse: it grasps
   std::optional<Optic> optic;       ///< of a scope
   bool is_double_pointed = false;   ///< may be held and drawn by either end
   double gauge_step_mm = 0.0;       ///< of its scale

@@ -466,7 +466,7 @@ struct Instrument {
   bool is_joystick = false;
   /// a wire is led through its bore
   bool is_sleeve = false;
-  /// they close while it is driven forward
+  /// they close and lock driven forward, and open in reverse
   bool has_jaws = false;
   /// let go in bone, it stays there
   bool stays = false;

@@ -442,7 +442,10 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
       input.hands[h].shaft_in_patient = hands_[h].shaft;
     }
     input.hands[0].tip_in_patient += tremor_.next();
-    if (are_closed_) input.hands[kProbe].driver = simulation::Driver::Forward;
+    using simulation::Driver;
+    if (procedure_.removal) {
+      input.hands[kProbe].driver = are_closed_ ? Driver::Forward : Driver::Reverse;
+    }
   };
   if (!has_planned_) {
     hold();

@@ -55,8 +55,11 @@ bool World::State::is_tip_seen(const Model& model, std::uint8_t hand) noexcept {
 void World::State::watch_jaws(const Model& model, std::uint8_t hand) noexcept {
   const Item* item = in_hand(hand);
   const bool has_jaws = item != nullptr && kind_of(model, *item).has_jaws;
-  const bool closes = has_jaws && spent.hands[hand].wish.driver == Driver::Forward;
+  const Driver wished = spent.hands[hand].wish.driver;
   bool& is_closed = loose_state.are_closed[hand];
+  // They lock: a hand that is not heard of for a while loses nothing.
+  const bool closes =
+      has_jaws && (wished == Driver::Forward || (is_closed && wished == Driver::Off));
   if (closes == is_closed) return;
   is_closed = closes;
   if (closes && scope_state.is_in_joint[hand]) {

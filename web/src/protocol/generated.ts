@@ -314,7 +314,7 @@ export interface Instrument {
   readonly is_joystick: boolean;
   /** a wire is led through its bore */
   readonly is_sleeve: boolean;
-  /** they close while it is driven forward */
+  /** they close and lock driven forward, and open in reverse */
   readonly has_jaws: boolean;
   /** let go in bone, it stays there */
   readonly stays: boolean;

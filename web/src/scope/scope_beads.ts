@@ -5,7 +5,7 @@
 import * as THREE from "three";
 import type { BodyPose } from "../protocol";
 import { sameBeads, type Bead } from "./scope_drill_model";
-import { ballGeometry } from "./scope_lesions";
+import { ballGeometry } from "./loose_bodies";
 import { wetMaterial, type LensUniforms } from "./scope_shader";
 
 const RADIUS_MM = { asked: 0.55, line: 0.22, passed: 0.22 } as const;

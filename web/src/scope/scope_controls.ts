@@ -38,6 +38,9 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
   };
   const findings = act("Findings", "9", "findings");
   findings.classList.add("scope-findings");
+  const jaws = act("Jaws", "{KeyG}", "jaws");
+  jaws.classList.add("scope-jaws");
+  jaws.title = "Closes the jaws, and opens them again";
   const held = TURNS.map(([label, keys, title, motion]) => {
     const b = make("button", { type: "button", title }, label, keyCap(keys));
     nameShortcut(b, keys);
@@ -60,6 +63,7 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
     ...held,
     act("Level", "8", "level"),
     act("Other hand", "{KeyH}", "switch_hand"),
+    jaws,
     act("Portal", "{KeyV}", "next_portal"),
     act("Panorama", "7", "panorama"),
     findings,

@@ -36,6 +36,7 @@ import {
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
 import { DISC_JOINT, type Plan } from "./scope_plan";
+import { rodLook } from "./scope_rod";
 import { ScopeReadings } from "./scope_readings";
 import "./scope.css";
 
@@ -93,6 +94,8 @@ export class ScopeDesk {
   ];
   /** What is left of a hand's way round the wrist to its next portal. */
   private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
+  /** By hand: the jaws, as they are wished. */
+  private readonly areClosed: [boolean, boolean] = [false, false];
   private moved: HandIndex = 0;
   private shaftDeg = 0;
   private cameraDeg = 0;
@@ -158,6 +161,7 @@ export class ScopeDesk {
     this.hands[0] = { portal: 0, lean: OUTSIDE };
     this.hands[1] = { portal: 1, lean: OUTSIDE };
     this.rounds[0] = this.rounds[1] = [];
+    this.areClosed[0] = this.areClosed[1] = false;
     this.moved = 0;
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
@@ -179,6 +183,7 @@ export class ScopeDesk {
     this.findings.set(this.plan.findings);
     for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
+    this.controls.classList.toggle("grasps", this.grasps);
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.showPoints();
@@ -255,7 +260,7 @@ export class ScopeDesk {
       tip_mm: wish.tipMm,
       shaft: wish.shaft,
       thrust_n: 0,
-      driver: "off",
+      driver: this.driverNow(),
       guidance: "planned",
     });
   }
@@ -288,7 +293,14 @@ export class ScopeDesk {
         axis: scope.axis,
         up: scope.up,
       },
-      other === undefined ? undefined : { tipMm: other.tip_mm, shaft: other.shaft },
+      other === undefined
+        ? undefined
+        : {
+            tipMm: other.tip_mm,
+            shaft: other.shaft,
+            look: rodLook(this.hasJaws(other.instrument), scope.jaws_closed[1 - scope.hand] === 1),
+          },
+      scope.loose,
       Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
       isOutside ? portal : undefined,
     );
@@ -299,7 +311,7 @@ export class ScopeDesk {
     const { scope, snapshot, plan } = this;
     if (plan === undefined) return;
     const wanted = plan.portals[this.hands[0].portal]?.name ?? "";
-    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted });
+    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, grasps: this.grasps });
     this.showDrill(plan, scope);
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
@@ -316,6 +328,16 @@ export class ScopeDesk {
 
   dispose(): void {
     this.picture?.dispose();
+  }
+
+  /** Jaws lock: they close by one way of the driver, and open by the other. */
+  private driverNow(): HandMessage["driver"] {
+    if (!this.grasps) return "off";
+    return this.areClosed[this.moved] ? "forward" : "reverse";
+  }
+
+  private hasJaws(instrument: string): boolean {
+    return this.exercise?.instruments.some((one) => one.id === instrument && one.has_jaws) ?? false;
   }
 
   private portalNow(index: number): PortalNow | undefined {
@@ -416,6 +438,16 @@ export class ScopeDesk {
       case "findings":
         this.findings.open(this.scope?.answers ?? []);
         return;
+      case "jaws": {
+        const held = snapshot?.items.find((one) => one.hand === this.moved);
+        if (held === undefined || !this.hasJaws(held.instrument)) {
+          this.room.say("This hand holds no grasper: take it in the other hand first.");
+          return;
+        }
+        this.areClosed[this.moved] = !this.areClosed[this.moved];
+        this.changed = true;
+        return;
+      }
       case "level":
         // Up in the picture is distal where the camera head is not turned.
         this.turnBy(0, -this.cameraDeg);
@@ -456,7 +488,8 @@ export class ScopeDesk {
           this.sendHand();
           this.room.take(probe, 1);
           const portal = plan.portals[this.hands[1].portal];
-          this.room.say(`Probe at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.`);
+          const name = this.exercise?.instruments.find((one) => one.id === probe)?.name ?? "";
+          this.room.say(`${name} at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.`);
         }
       }
     }
@@ -468,7 +501,7 @@ export class ScopeDesk {
       (event) => {
         if (!this.takesKeys(event)) return;
         const motion = scopeMotion(event.code, event.shiftKey);
-        const act = scopeAct(event.code);
+        const act = this.actOf(event.code);
         if (motion === undefined && act === undefined) return;
         event.preventDefault();
         event.stopImmediatePropagation();
@@ -492,6 +525,16 @@ export class ScopeDesk {
       { signal },
     );
     this.listenToMouse(signal);
+  }
+
+  /** Jaws are the scope's business only where there are some. */
+  private actOf(code: string): ScopeAct | undefined {
+    const act = scopeAct(code);
+    return act === "jaws" && !this.grasps ? undefined : act;
+  }
+
+  private get grasps(): boolean {
+    return this.exercise?.instruments.some((one) => one.has_jaws) ?? false;
   }
 
   private takesKeys(event: KeyboardEvent): boolean {

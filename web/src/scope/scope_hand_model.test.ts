@@ -61,6 +61,10 @@ describe("an instrument in its portal", () => {
     const outside = leaned({ depthMm: -10, yawRad: 0, pitchRad: 0 }, 0.3, 0.3);
     expect(outside.yawRad).toBe(0);
     const inside = advanced(outside, 25, PORTAL);
+    const leant = { depthMm: 24, yawRad: 0.5, pitchRad: -0.3 };
+    expect(advanced(leant, -1, PORTAL)).toEqual({ ...leant, depthMm: 23 });
+    expect(Math.abs(advanced(leant, -11, PORTAL).yawRad)).toBeLessThan(0.2);
+    expect(advanced(leant, 2, PORTAL).yawRad).toBe(0.5);
     expect(inside.depthMm).toBe(15);
     expect(dot(wishOf(inside, PORTAL).shaft, PORTAL.inwards)).toBeCloseTo(-1, 9);
     expect(advanced(inside, 1000, PORTAL).depthMm).toBeLessThanOrEqual(42);

@@ -26,6 +26,9 @@ export interface Lean {
 export const OUTSIDE: Lean = { depthMm: -30, yawRad: 0, pitchRad: 0 };
 
 const MOST_LEAN_RAD = (50 * Math.PI) / 180;
+/** Over the last of the way back to the capsule it comes within so much of the way in. */
+const UPRIGHT_MM = 8;
+const UPRIGHT_RAD = (5 * Math.PI) / 180;
 const FARTHEST_OUT_MM = -60;
 const FARTHEST_IN_MM = 30;
 /** A wish goes no farther beyond where the tip really is: enough to be felt [mm]. */
@@ -43,9 +46,18 @@ export function leaned(lean: Lean, byYaw: number, byPitch: number): Lean {
   };
 }
 
+/** The hole in the capsule lies in the way: what is drawn back to it comes upright. */
+function mostLean(depthMm: number, portal: PortalNow): number {
+  const share = clamp((depthMm - portal.capsuleMm) / UPRIGHT_MM, 0, 1);
+  return UPRIGHT_RAD + (MOST_LEAN_RAD - UPRIGHT_RAD) * share;
+}
+
 export function advanced(lean: Lean, byMm: number, portal: PortalNow): Lean {
   const depthMm = clamp(lean.depthMm + byMm, FARTHEST_OUT_MM, portal.capsuleMm + FARTHEST_IN_MM);
-  return leaned({ ...lean, depthMm }, 0, 0);
+  const most = byMm < 0 ? mostLean(depthMm, portal) : MOST_LEAN_RAD;
+  const yawRad = clamp(lean.yawRad, -most, most);
+  const pitchRad = clamp(lean.pitchRad, -most, most);
+  return leaned({ depthMm, yawRad, pitchRad }, 0, 0);
 }
 
 export interface Wish {

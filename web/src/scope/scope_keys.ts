@@ -8,7 +8,7 @@ export type ScopeMotion =
   | { readonly kind: "turn_shaft"; readonly by: number }
   | { readonly kind: "turn_camera"; readonly by: number };
 
-export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level" | "findings";
+export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level" | "findings" | "jaws";
 
 const LEANS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-1, 0],
@@ -46,6 +46,8 @@ export function scopeAct(code: string): ScopeAct | undefined {
   switch (code) {
     case "KeyH":
       return "switch_hand";
+    case "KeyG":
+      return "jaws";
     case "KeyV":
       return "next_portal";
     case "Digit7":

@@ -1,14 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import {
-  lesionUniforms,
-  LooseBodies,
-  MOST_PAINTED,
-  setLesions,
-  type Lesion,
-} from "./scope_lesions";
-import * as THREE from "three";
+import { lesionUniforms, MOST_PAINTED, setLesions, type Lesion } from "./scope_lesions";
 
 const lesion = (look: Lesion["look"], joint: string): Lesion => ({
   look,
@@ -38,16 +31,5 @@ describe("what is wrong in a joint", () => {
     const uniforms = lesionUniforms();
     setLesions(uniforms, Array<Lesion>(MOST_PAINTED + 5).fill(lesion("soft", "a")), "a");
     expect(uniforms.lesionCount.value).toBe(MOST_PAINTED);
-  });
-
-  it("lies as a ball where its body has taken it", () => {
-    const loose = new LooseBodies(new THREE.MeshBasicMaterial());
-    loose.set([lesion("loose", "radiocarpal"), lesion("tear", "radiocarpal")], ["ulna", "radius"]);
-    expect(loose.group.children.length).toBe(1);
-    const still = { quaternion: [1, 0, 0, 0], translation_mm: [0, 0, 0] } as const;
-    loose.lay("radiocarpal", [still, { ...still, translation_mm: [10, 0, 0] }]);
-    expect(loose.group.children[0]?.position.toArray()).toEqual([11, 2, 3]);
-    loose.lay("midcarpal", [still, still]);
-    expect(loose.group.children[0]?.visible).toBe(false);
   });
 });

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is wrong in a joint, as the host says it (generated), for the scope's picture: painted on the wall by
-// where each place of it was as scanned, so that it goes with the tissue; loose bodies as balls.
+// where each place of it was as scanned, so that it goes with the tissue.
 import * as THREE from "three";
-import type { BodyPose } from "../protocol";
 import type { Plan } from "./scope_plan";
 
 export type Lesion = Plan["lesions"][number];
@@ -119,73 +118,3 @@ void paintLesions(inout vec3 albedo, inout float rough, inout float wet) {
   }
 }
 `;
-
-/** Balls that lie in the joints. */
-export class LooseBodies {
-  readonly group = new THREE.Group();
-  private bodies: readonly { mesh: THREE.Mesh; lesion: Lesion; body: number }[] = [];
-
-  constructor(private readonly material: THREE.Material) {}
-
-  /** @param bodies  names in the order of the poses */
-  set(lesions: readonly Lesion[], bodies: readonly string[]): void {
-    this.dispose();
-    this.bodies = lesions
-      .filter((lesion) => lesion.look === "loose")
-      .map((lesion) => {
-        const mesh = new THREE.Mesh(ballGeometry(lesion.radius_mm), this.material);
-        mesh.frustumCulled = false;
-        this.group.add(mesh);
-        return { mesh, lesion, body: bodies.indexOf(lesion.body) };
-      });
-  }
-
-  /** Where they are now; shown where the scope is in their joint. */
-  lay(joint: string, poses: readonly BodyPose[]): void {
-    for (const { mesh, lesion, body } of this.bodies) {
-      mesh.visible = lesion.joint === joint;
-      const pose = poses[body];
-      mesh.position.set(...lesion.from_mm);
-      if (pose === undefined) continue;
-      const [w, x, y, z] = pose.quaternion;
-      mesh.position.applyQuaternion(new THREE.Quaternion(x, y, z, w));
-      mesh.position.add(new THREE.Vector3(...pose.translation_mm));
-    }
-  }
-
-  dispose(): void {
-    for (const { mesh } of this.bodies) mesh.geometry.dispose();
-    this.group.clear();
-    this.bodies = [];
-  }
-}
-
-/** Inside out, as the joint's wall is, so that the same material shows its outside. */
-export function ballGeometry(radiusMm: number, detail = 5): THREE.BufferGeometry {
-  const geometry = new THREE.IcosahedronGeometry(radiusMm, detail);
-  const position = geometry.getAttribute("position");
-  const count = position.count;
-  const normal = geometry.getAttribute("normal");
-  for (let v = 0; v < count; ++v) {
-    const [x, y, z] = [position.getX(v), position.getY(v), position.getZ(v)];
-    const bump = 1 + 0.08 * Math.sin(3.1 * x + 1.7 * y) * Math.cos(2.3 * z);
-    position.setXYZ(v, x * bump, y * bump * 0.85, z * bump);
-    normal.setXYZ(v, -x / radiusMm, -y / radiusMm, -z / radiusMm);
-  }
-  // Every triangle the other way round.
-  for (let v = 0; v + 2 < count; v += 3) {
-    const second = new THREE.Vector3().fromBufferAttribute(position, v + 1);
-    const third = new THREE.Vector3().fromBufferAttribute(position, v + 2);
-    const n2 = new THREE.Vector3().fromBufferAttribute(normal, v + 1);
-    const n3 = new THREE.Vector3().fromBufferAttribute(normal, v + 2);
-    position.setXYZ(v + 1, third.x, third.y, third.z);
-    position.setXYZ(v + 2, second.x, second.y, second.z);
-    normal.setXYZ(v + 1, n3.x, n3.y, n3.z);
-    normal.setXYZ(v + 2, n2.x, n2.y, n2.z);
-  }
-  const lining = new Float32Array(4 * count);
-  for (let v = 0; v < count; ++v) lining[4 * v] = 1; // as cartilage is
-  geometry.setAttribute("lining", new THREE.BufferAttribute(lining, 4));
-  geometry.setAttribute("fibre", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-  return geometry;
-}

@@ -3,13 +3,15 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { BodyPose, Vec3 } from "../protocol";
+import type { BodyPose, LooseBody, Vec3 } from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
+import { LooseBodies } from "./loose_bodies";
 import { ScopeBackdrop } from "./scope_backdrop";
 import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
-import { lesionUniforms, LooseBodies, setLesions, type Lesion } from "./scope_lesions";
+import { lesionUniforms, setLesions, type Lesion } from "./scope_lesions";
+import { rodGeometries, type RodLook } from "./scope_rod";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 
 export interface ScopeSight {
@@ -21,13 +23,12 @@ export interface ScopeSight {
 export interface Rod {
   readonly tipMm: Vec3;
   readonly shaft: Vec3;
+  readonly look: RodLook;
 }
 
 /** The lamp's fibres lie beside the lens [mm]. */
 const LAMP_UP_MM = 0.9;
 const LAMP_RIGHT_MM = 0.35;
-const ROD_LENGTH_MM = 40;
-const ROD_RADIUS_MM = 0.5;
 /** How often the camera looks at its own picture [ms], and how small [px]. */
 const EXPOSED_EVERY_MS = 200;
 const EXPOSED_PX = 16;
@@ -41,6 +42,7 @@ export class ScopePicture {
   private readonly camera = new THREE.Camera();
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
+  private readonly rods = rodGeometries();
   private readonly walls: ReadonlyMap<string, THREE.Mesh>;
   private readonly lesions = lesionUniforms();
   private wrong: readonly Lesion[] = [];
@@ -64,7 +66,7 @@ export class ScopePicture {
         new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle, this.lesions)),
       ]),
     );
-    this.rod = new THREE.Mesh(rodGeometry(), wetMaterial(this.lens, true));
+    this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
     this.beads = new ScopeBeads(this.lens);
     this.scene.add(this.backdrop.mesh, this.loose.group, this.beads.group);
@@ -82,7 +84,7 @@ export class ScopePicture {
   /** What is wrong in the joints of this exercise. @param bodies  names in the order of the poses */
   setLesions(lesions: readonly Lesion[], bodies: readonly string[]): void {
     this.wrong = lesions;
-    this.loose.set(lesions, bodies);
+    this.loose.set(lesions);
     this.beads.setBodies(bodies);
   }
 
@@ -94,18 +96,19 @@ export class ScopePicture {
   /** The bones have moved, or the scope has gone to another joint. */
   lay(joint: string, poses: readonly BodyPose[]): void {
     setLesions(this.lesions, this.wrong, joint);
-    this.loose.lay(joint, poses);
     this.beads.lay(poses);
   }
 
   /**
    * @param joint  id of the one that the scope's portal leads into
+   * @param loose  what floats
    * @param skin  the portal that the lens is before; undefined once it is under the skin
    */
   draw(
     joint: string,
     sight: ScopeSight,
     rod: Rod | undefined,
+    loose: readonly LooseBody[],
     sizePx: number,
     skin: { readonly skinMm: Vec3; readonly inwards: Vec3 } | undefined,
   ): void {
@@ -124,7 +127,9 @@ export class ScopePicture {
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.loose.group.visible = this.beads.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
+    this.loose.lay(joint, loose);
     if (rod !== undefined) {
+      this.rod.geometry = this.rods[rod.look];
       this.rod.position.set(...rod.tipMm);
       this.rod.quaternion.setFromUnitVectors(
         new THREE.Vector3(0, 0, 1),
@@ -156,6 +161,7 @@ export class ScopePicture {
     this.backdrop.dispose();
     this.loose.dispose();
     this.beads.dispose();
+    for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();
@@ -168,17 +174,4 @@ function smallContext(): CanvasRenderingContext2D | null {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = EXPOSED_PX;
   return canvas.getContext("2d", { willReadFrequently: true });
-}
-
-/** A hooked probe: its tip at the origin, its shaft along +z, many short rings for the wide lens. */
-function rodGeometry(): THREE.BufferGeometry {
-  const points: THREE.Vector2[] = [new THREE.Vector2(0, 0), new THREE.Vector2(0.35, 0.15)];
-  for (let z = 0.5; z <= ROD_LENGTH_MM; z *= 1.18) points.push(new THREE.Vector2(ROD_RADIUS_MM, z));
-  const geometry = new THREE.LatheGeometry(points, 12);
-  geometry.rotateX(Math.PI / 2);
-  const count = geometry.getAttribute("position").count;
-  geometry.setAttribute("lining", new THREE.BufferAttribute(new Float32Array(4 * count), 4));
-  geometry.setAttribute("fibre", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-  geometry.setAttribute("rest", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-  return geometry;
 }

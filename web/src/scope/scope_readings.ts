@@ -19,6 +19,8 @@ export interface ScopeSituation {
   readonly moved: 0 | 1;
   /** The portal that the scope is held before. */
   readonly wanted: string;
+  /** Beside the scope works a grasper, not a probe. */
+  readonly grasps: boolean;
 }
 
 export class ScopeReadings {
@@ -53,7 +55,7 @@ export class ScopeReadings {
     );
   }
 
-  show({ plan, scope, snapshot, moved, wanted }: ScopeSituation): void {
+  show({ plan, scope, snapshot, moved, wanted, grasps }: ScopeSituation): void {
     const forces = snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [];
     this.gauge.show(forces, performance.now());
     const words = scopeWords(
@@ -73,9 +75,13 @@ export class ScopeReadings {
       if (portal === "") return "outside";
       return scope?.in_joint[hand] === 1 ? `in the joint by ${portal}` : `in portal ${portal}`;
     };
+    const tool = grasps ? "grasper" : "probe";
+    const jaws = scope?.jaws_closed[1] === 1 ? ", closed" : ", open";
     setText(
       this.status,
-      `Scope ${where(0)} · probe ${where(1)} · moving the ${moved === 0 ? "scope" : "probe"} · ` +
+      `Scope ${where(0)} · ${tool} ${where(1)}${grasps ? jaws : ""} · ` +
+        `moving the ${moved === 0 ? "scope" : tool} · ` +
+        (grasps ? `brought out ${scope?.loose_out ?? 0} · ` : "") +
         (plan.drill === null
           ? `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · `
           : "") +

@@ -9,6 +9,7 @@ import type { BodyPose, ExerciseMessage, ScopeMessage, SnapshotMessage } from ".
 import { add, scaled } from "../tool_placement";
 import { jointWallOf, type JointWall } from "./joint_wall";
 import { ScopePicture } from "./scope_picture";
+import { rodLook } from "./scope_rod";
 import { DISC_JOINT, type Plan } from "./scope_plan";
 
 export interface ScopeMoment {
@@ -27,6 +28,7 @@ export class ScopeReplay {
   private readonly outside = make("p.scope-replay-outside", {}, "The scope is outside.");
   private readonly walls: readonly JointWall[];
   private readonly radiusMm: number;
+  private readonly jaws: ReadonlySet<string>;
   private moment: ScopeMoment | undefined;
   private changed = false;
 
@@ -44,6 +46,7 @@ export class ScopeReplay {
     );
     for (const wall of walls) if (wall.joint === DISC_JOINT) wall.setDisc(plan.disc_mm);
     const scope = exercise.instruments.find((one) => one.id === plan.scope);
+    this.jaws = new Set(exercise.instruments.filter((one) => one.has_jaws).map((one) => one.id));
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.element = make("div.scope-replay", {}, this.picture.canvas, this.outside);
   }
@@ -93,7 +96,14 @@ export class ScopeReplay {
         axis: scope.axis,
         up: scope.up,
       },
-      other === undefined ? undefined : { tipMm: other.tip_mm, shaft: other.shaft },
+      other === undefined
+        ? undefined
+        : {
+            tipMm: other.tip_mm,
+            shaft: other.shaft,
+            look: rodLook(this.jaws.has(other.instrument), scope.jaws_closed[1 - scope.hand] === 1),
+          },
+      scope.loose,
       box.width * Math.min(1, window.devicePixelRatio),
       undefined,
     );
