@@ -141,6 +141,27 @@ TEST(ReadProcedure, ExercisesThatGoNowhereAreRefused) {
   EXPECT_NE(problem("holds", 1).find("holds"), std::string::npos) << "misspelt";
 }
 
+TEST(ReadProcedure, ReadsWhatIsToBeTakenOutAndRefusesWhatMakesNoSense) {
+  Json file = good();
+  file["removal"] = Json::parse(R"({
+    "bodies": [1, 3], "radius_mm": [0.9, 1.4], "places": [8, 11, 16], "mark": "[E]"})");
+  const Procedure read = read_procedure(file.dump(), "lunate.json", kPredicates);
+  ASSERT_TRUE(read.removal.has_value());
+  EXPECT_EQ(read.removal->bodies, (std::array<std::uint8_t, 2>{1, 3}));
+  EXPECT_EQ(read.removal->places, (std::vector<std::uint8_t>{8, 11, 16}));
+  const auto problem = [&](const char* field, const Json& value) {
+    Json wrong = file;
+    wrong["removal"][field] = value;
+    return problem_of(wrong);
+  };
+  EXPECT_NE(problem("bodies", {3, 1}).find("least to most"), std::string::npos);
+  EXPECT_NE(problem("bodies", {1, 9}).find("bodies"), std::string::npos);
+  EXPECT_NE(problem("radius_mm", {0.1, 1}).find("radius_mm"), std::string::npos);
+  EXPECT_NE(problem("places", {8, 11}).find("fewer than bodies"), std::string::npos);
+  EXPECT_NE(problem("places", {8, 11, 40}).find("40 is no place"), std::string::npos);
+  EXPECT_NE(problem("place", 1).find("place"), std::string::npos) << "misspelt";
+}
+
 TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   Json file = good();
   for (int i = 0; i < 31; ++i) {

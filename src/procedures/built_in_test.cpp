@@ -55,9 +55,10 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 5U);
+  ASSERT_EQ(built_in().all().size(), 6U);
   EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
+  EXPECT_NE(built_in().find("arthroscopic_loose_body_removal"), nullptr);
   EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
   EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);

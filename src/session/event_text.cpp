@@ -169,7 +169,7 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 29> kNames{"none",
+constexpr std::array<std::string_view, 33> kNames{"none",
                                                   "touched_bone",
                                                   "entered_bone",
                                                   "left_far_side",
@@ -197,7 +197,11 @@ constexpr std::array<std::string_view, 29> kNames{"none",
                                                   "point_seen",
                                                   "point_probed",
                                                   "judged",
-                                                  "shaft_under_skin"};
+                                                  "shaft_under_skin",
+                                                  "loose_caught",
+                                                  "loose_lost",
+                                                  "loose_out",
+                                                  "tissue_bitten"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {
@@ -232,6 +236,7 @@ std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told) {
     case EventKind::LeftFarSide:
     case EventKind::WrongBone:
     case EventKind::StructureStruck:
+    case EventKind::TissueBitten:
     case EventKind::Seated:
     case EventKind::StepCompleted:
       return std::nullopt;

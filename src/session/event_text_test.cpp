@@ -24,7 +24,7 @@ protocol::LoggedEvent described(Event event) {
 
 TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   std::set<std::string> kinds;
-  constexpr int kLast = static_cast<int>(EventKind::LiveEnded);
+  constexpr int kLast = static_cast<int>(EventKind::TissueBitten);
   for (int i = 1; i <= kLast; ++i) {
     Event event;
     event.kind = static_cast<EventKind>(i);

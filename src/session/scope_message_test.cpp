@@ -91,6 +91,22 @@ TEST(ScopeMessage, OtherArthroscopiesHaveNoExercises) {
   EXPECT_FALSE(message->drill);
 }
 
+TEST(ScopeMessage, TellsWhereFloatsWhatIsNotOut) {
+  simulation::Snapshot now = holding(procedure::Mode::Assessed);
+  now.scope.loose[0] = {2, 1, {1.23456, -2, 3}};
+  now.scope.loose_count = 1;
+  now.scope.are_closed = {false, true};
+  now.scope.facts.loose.out = 1;
+  const auto message = scope_message(with_places(), arthroscopy(), now);
+  ASSERT_TRUE(message);
+  ASSERT_EQ(message->loose.size(), 1U);
+  EXPECT_EQ(message->loose[0].lesion, 2);
+  EXPECT_EQ(message->loose[0].hand, 1);
+  EXPECT_DOUBLE_EQ(message->loose[0].at_mm.x, 1.23);
+  EXPECT_EQ(message->jaws_closed, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_EQ(message->loose_out, 1);
+}
+
 TEST(ScopeMessage, TheLineOfAnExerciseIsToldPointByPoint) {
   const cases::CaseData data = with_places();
   const auto plan = arthroscopy_of(data, exercises(), 1);

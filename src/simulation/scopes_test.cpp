@@ -15,6 +15,7 @@
 
 #include "arthroscopy/pathology_table.hpp"
 #include "core/error.hpp"
+#include "simulation/box_joint_test_support.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/world.hpp"
 
@@ -27,143 +28,7 @@ int stop_counting_allocations() noexcept;
 namespace carpus::simulation {
 namespace {
 
-/// The joint's middle. Its box is 24 by 24 by 6 mm; +z is distal, the disc is its floor.
-const Vec3 kMiddle{150, 0, 0};
-constexpr double kHalf = 12;
-constexpr double kHalfHigh = 3;
-constexpr double kDiscHalf = 6;
-const Vec3 kEdge = kMiddle + Vec3{0, 4.5, -kHalfHigh};
-
-Grid<float> box() {
-  GridGeometry geometry;
-  geometry.size = {81, 81, 45};
-  geometry.spacing = {0.4, 0.4, 0.4};
-  geometry.origin = kMiddle - Vec3{16, 16, 8.8};
-  std::vector<float> values;
-  for (int z = 0; z < 45; ++z) {
-    for (int y = 0; y < 81; ++y) {
-      for (int x = 0; x < 81; ++x) {
-        const double dx = std::abs(x * 0.4 - 16) - kHalf;
-        const double dy = std::abs(y * 0.4 - 16) - kHalf;
-        const double dz = std::abs(z * 0.4 - 8.8) - kHalfHigh;
-        const double outside = std::hypot(std::max(dx, 0.0), std::max(dy, 0.0), std::max(dz, 0.0));
-        const double inside = std::min(0.0, std::max({dx, dy, dz}));
-        values.push_back(static_cast<float>(std::clamp(outside + inside, -4.0, 4.0)));
-      }
-    }
-  }
-  return {geometry, values};
-}
-
-TriangleMesh disc_sheet() {
-  constexpr int kCells = 12;
-  TriangleMesh mesh;
-  for (int j = 0; j <= kCells; ++j) {
-    for (int i = 0; i <= kCells; ++i) {
-      mesh.vertices.push_back(kMiddle + Vec3{kDiscHalf * (2.0 * i / kCells - 1),
-                                             kDiscHalf * (2.0 * j / kCells - 1), -kHalfHigh - 0.7});
-    }
-  }
-  const auto at = [](int i, int j) { return static_cast<std::uint32_t>(j * (kCells + 1) + i); };
-  for (int j = 0; j < kCells; ++j) {
-    for (int i = 0; i < kCells; ++i) {
-      mesh.facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return mesh;
-}
-
-const cases::CaseData& wrist() {
-  static const cases::CaseData data = [] {
-    cases::CaseData made = test::wrist();
-    auto map = std::make_shared<cases::ArthroscopicMap>();
-    const std::uint8_t radius = test::body_of(BoneId::Radius);
-    map->joints.push_back({"radiocarpal", "radiocarpal joint", box(), radius, radius});
-    cases::Portal portal;
-    portal.id = "3-4";
-    portal.skin = kMiddle + Vec3{kHalf + 6, 0, 0};
-    portal.inwards = {-1, 0, 0};
-    portal.capsule_mm = 6;
-    portal.body = radius;
-    map->portals.push_back(portal);
-    cases::TourPoint edge;
-    edge.number = 16;
-    edge.id = "foveal_insertion";
-    edge.at = kEdge;
-    edge.body = radius;
-    edge.is_probed = true;
-    map->points.push_back(edge);
-    map->forearm = radius;
-    map->disc_sheet = disc_sheet();
-    map->distal = {0, 0, 1};
-    made.arthroscopy = map;
-    return made;
-  }();
-  return data;
-}
-
-procedure::Opening open_beside(const cases::CaseData&) {
-  procedure::Opening opening;
-  opening.shaft_in_target = {1, 0, 0};
-  opening.tip_in_target = kMiddle + Vec3{40, 0, 0};
-  return opening;
-}
-
-procedure::Procedure probing(bool examines) {
-  procedure::Procedure made = test::exercise();
-  made.target = BoneId::Radius;
-  made.tray = {*instruments::instrument_of("hook_probe")};
-  for (procedure::Step& step : made.steps) step.instrument = instruments::kNoInstrument;
-  made.opening = open_beside;
-  made.examines = examines;
-  return made;
-}
-
-const procedure::Procedure& probe_alone() {
-  static const procedure::Procedure kProcedure = probing(false);
-  return kProcedure;
-}
-
-/// The probe's wish goes straight from place to place at 20 mm/s.
-class Hand {
- public:
-  explicit Hand(World& world) : world_(world) {
-    input_.hands[0].tip_in_patient = kMiddle + Vec3{40, 0, 0};
-    input_.hands[0].shaft_in_patient = {1, 0, 0};
-    input_.hands[1] = input_.hands[0];
-  }
-  void go(const Vec3& to, int then_ticks = 0) {
-    Vec3& tip = input_.hands[0].tip_in_patient;
-    while (distance(tip, to) > 1e-9) {
-      const double far = distance(tip, to);
-      tip = far <= 0.02 ? to : tip + (to - tip) * (0.02 / far);
-      step();
-    }
-    for (int i = 0; i < then_ticks; ++i) step();
-  }
-  void step() {
-    world_.step(input_);
-    inputs.push_back(input_);
-  }
-  void command(const Command& command) {
-    input_.command = command;
-    step();
-    input_.command = {};
-  }
-  [[nodiscard]] const Snapshot& now() const { return world_.now(); }
-  [[nodiscard]] Vec3 tip() const { return now().items[0].tip_in_patient; }
-  std::vector<Input> inputs;
-
- private:
-  World& world_;
-  Input input_;
-};
-
-void enter(Hand& hand) {
-  hand.go(kMiddle + Vec3{kHalf + 2, 0, 0});
-  hand.go(kMiddle + Vec3{0, 0, 0});
-}
+using namespace box_joint;  // NOLINT(google-build-using-namespace)
 
 /// By how much the particle that moved farthest distally, or proximally (negative), is off.
 double most_off(const Snapshot& now, double sign) {
@@ -175,7 +40,7 @@ double most_off(const Snapshot& now, double sign) {
 }
 
 TEST(Scopes, ATipEntersByThePortalAndTheWallHoldsItWhereThereIsNoDisc) {
-  World world(wrist(), probe_alone(), 1);
+  World world(box_wrist(), probe_alone(), 1);
   Hand hand(world);
   enter(hand);
   ASSERT_TRUE(hand.now().scope.facts.is_in_joint[0]);
@@ -197,14 +62,14 @@ procedure::Procedure drilling(std::vector<std::uint8_t> places) {
 
 TEST(Scopes, AnExerciseGoesOnFromAKeyframeAsItWas) {
   const procedure::Procedure exercise = drilling({16, 16});
-  World world(wrist(), exercise, 1);
+  World world(box_wrist(), exercise, 1);
   Hand hand(world);
   enter(hand);
   hand.go(kEdge);
   const procedure::DrillFacts before = hand.now().scope.facts.drill;
   EXPECT_GT(before.unseen_path_mm, 1.0) << "no scope sees it";
   EXPECT_EQ(before.touched, 0);
-  World again(wrist(), exercise, 1);
+  World again(box_wrist(), exercise, 1);
   ASSERT_TRUE(again.read_state(world.write_state()).has_value());
   EXPECT_EQ(again.now().scope.facts.drill, before);
   const simulation::Input still{};
@@ -214,7 +79,7 @@ TEST(Scopes, AnExerciseGoesOnFromAKeyframeAsItWas) {
 TEST(Scopes, AnExerciseAtAPlaceThatTheWristLacksIsRefusedByItsNumber) {
   const procedure::Procedure exercise = drilling({16, 31});
   try {
-    const World world(wrist(), exercise, 1);
+    const World world(box_wrist(), exercise, 1);
     FAIL() << "it began";
   } catch (const InvalidInput& problem) {
     EXPECT_NE(std::string(problem.what()).find("31"), std::string::npos) << problem.what();
@@ -223,7 +88,7 @@ TEST(Scopes, AnExerciseAtAPlaceThatTheWristLacksIsRefusedByItsNumber) {
 
 /// A tube across the way in, 4 mm under the skin and so far beside the way.
 cases::CaseData wrist_with_tube(anatomy::StructureKind kind, double beside_mm) {
-  cases::CaseData data = wrist();
+  cases::CaseData data = box_wrist();
   cases::Structure tube{"tube", "a tube", kind, 1.0, BoneId::Radius, {}};
   for (int i = -20; i <= 20; ++i) {
     tube.course.push_back({kMiddle + Vec3{kHalf + 2, beside_mm, static_cast<double>(i)}, 0.0});
@@ -271,7 +136,7 @@ TEST(Scopes, AWayInStrikesANerveThatItTouchesAndATendonThroughItsMiddleAlone) {
 }
 
 TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {
-  World world(wrist(), probe_alone(), 1);
+  World world(box_wrist(), probe_alone(), 1);
   Hand hand(world);
   enter(hand);
   hand.go(kMiddle + Vec3{0, 0, -4.5}, 800);
@@ -288,7 +153,7 @@ TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {
 }
 
 TEST(Scopes, AHookThatTouchedTheEdgeTakesItAlongUntilItSlips) {
-  World world(wrist(), probe_alone(), 1);
+  World world(box_wrist(), probe_alone(), 1);
   Hand hand(world);
   enter(hand);
   hand.go(kEdge + Vec3{0, 0, 2});
@@ -308,12 +173,12 @@ TEST(Scopes, AHookThatTouchedTheEdgeTakesItAlongUntilItSlips) {
 }
 
 TEST(Scopes, GoesOnFromAKeyframeInThePressToTheSameBits) {
-  World world(wrist(), probe_alone(), 1);
+  World world(box_wrist(), probe_alone(), 1);
   Hand hand(world);
   enter(hand);
   hand.go(kMiddle + Vec3{0.3, 0.2, -4.2}, 100);
   ASSERT_FALSE(hand.now().is_disc_still);
-  World other(wrist(), probe_alone(), 1);
+  World other(box_wrist(), probe_alone(), 1);
   ASSERT_TRUE(other.read_state(world.write_state()));
   Hand same(other);
   Input input = hand.inputs.back();
@@ -325,12 +190,12 @@ TEST(Scopes, GoesOnFromAKeyframeInThePressToTheSameBits) {
 }
 
 TEST(Scopes, NoTickAllocatesWhileTheDiscYields) {
-  World first(wrist(), probe_alone(), 1);
+  World first(box_wrist(), probe_alone(), 1);
   Hand hand(first);
   enter(hand);
   hand.go(kEdge + Vec3{0, 0, -1.0}, 200);
   hand.go(kEdge + Vec3{0, 0, 2}, 200);
-  World world(wrist(), probe_alone(), 1);
+  World world(box_wrist(), probe_alone(), 1);
   carpus::test::start_counting_allocations();
   for (const Input& input : hand.inputs) world.step(input);
   EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
@@ -339,7 +204,7 @@ TEST(Scopes, NoTickAllocatesWhileTheDiscYields) {
 
 TEST(Scopes, AnswersOfAnExaminationAreKeptAndCanBeTakenBack) {
   static const procedure::Procedure kExamination = probing(true);
-  World world(wrist(), kExamination, 1);
+  World world(box_wrist(), kExamination, 1);
   Hand hand(world);
   Command answer;
   answer.kind = CommandKind::Answer;

@@ -23,8 +23,9 @@ constexpr double kGripMm = 0.9;      // a body's surface so near to there is bet
 constexpr double kSqueezedMm = 2.5;  // ... so near it springs away
 constexpr double kSpringsMmPerS = 40.0;
 constexpr double kBiteMm = 0.6;           // the lining so near is between them [E]
-constexpr double kStrippedMmPerS = 10.0;  // drawn faster through the capsule it is lost [E]
+constexpr double kStrippedMmPerS = 15.0;  // drawn faster through the capsule it is lost [E]
 constexpr double kInsideMm = 1.0;         // beyond the capsule it lies then
+constexpr double kFollowed = 0.01;        // of a held body's speed, a tick
 constexpr double kRodMm = 40.0;
 constexpr double kOpenJawsMm = 2.0;  // leave a body between them alone
 
@@ -97,6 +98,8 @@ void World::State::close_jaws(const Model& model, std::uint8_t hand, const Item&
   };
   if (nearest < kMaxLooseBodies && least <= kGripMm) {
     loose_state.bodies[nearest].hand = hand;
+    loose_state.bodies[nearest].at = item.tip - item.shaft * (radius_of(model, nearest) - kMouthMm);
+    loose_state.bodies[nearest].velocity = {};
     ++done.catches;
     return emit_of(EventKind::LooseCaught, nearest);
   }
@@ -112,6 +115,10 @@ void World::State::close_jaws(const Model& model, std::uint8_t hand, const Item&
   emit_of(EventKind::TissueBitten, 0);
 }
 
+double World::State::radius_of(const Model& model, std::size_t loose) const noexcept {
+  return model.lesions->lesions[model.floats[loose]].radius_mm;
+}
+
 /// In closed jaws: out through the capsule, if it is not drawn too fast, and the skin.
 void World::State::carry_loose(const Model& model, std::size_t which) noexcept {
   LooseBody& body = loose_state.bodies[which];
@@ -121,16 +128,19 @@ void World::State::carry_loose(const Model& model, std::size_t which) noexcept {
     body.hand = kNoHand;
     return;
   }
-  const double radius_mm = model.lesions->lesions[model.floats[which]].radius_mm;
+  const double radius_mm = radius_of(model, which);
   const bool was_inside = body.is_inside;
+  const Vec3 before = body.at;
   body.at = item->tip - item->shaft * (radius_mm - kMouthMm);
-  body.velocity = {};
+  // Over a tenth of a second: a hand's tremor strips nothing off.
+  body.velocity += ((body.at - before) / kTickSeconds - body.velocity) * kFollowed;
   body.is_inside = scope_state.is_in_joint[hand];
-  const double drawn = dot(spent.hands[hand].plan.tip_velocity, item->shaft);
+  const double drawn = dot(body.velocity, item->shaft);
   const std::uint8_t portal = scope_state.portal[hand];
   if (was_inside && !body.is_inside && drawn > kStrippedMmPerS && portal != kNoPortal) {
     const WayIn way = way_in(model, portal);
     body.at = way.skin + way.inwards * (way.capsule_mm + kInsideMm + radius_mm);
+    body.velocity = {};
     body.hand = kNoHand;
     body.is_inside = true;
     ++loose_state.done.slips;

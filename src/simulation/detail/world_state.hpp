@@ -337,6 +337,7 @@ struct World::State {
   void watch_jaws(const Model& model, std::uint8_t hand) noexcept;
   void close_jaws(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   void carry_loose(const Model& model, std::size_t which) noexcept;
+  [[nodiscard]] double radius_of(const Model& model, std::size_t loose) const noexcept;
   void float_loose(const Model& model, std::size_t which) noexcept;
   void publish_loose(const Model& model) noexcept;
   [[nodiscard]] bool is_tip_seen(const Model& model, std::uint8_t hand) noexcept;
