@@ -22,6 +22,14 @@ enum class Outcome : std::uint8_t {
 /// "unfinished" or "finished": as in the database, JSON and the page.
 [[nodiscard]] std::string_view name_of(Outcome outcome) noexcept;
 
+/// What finished ASSET forms of an attempt say together.
+struct AssetSummary {
+  std::int64_t forms = 0;
+  std::int64_t passed = 0;  ///< forms by which it passes
+  double mean_total = 0;
+  bool operator==(const AssetSummary&) const = default;
+};
+
 /// What the list of attempts shows.
 struct AttemptSummary {
   std::int64_t id = 0;    ///< given by the store; 0 until stored
@@ -39,6 +47,8 @@ struct AttemptSummary {
   std::optional<double> overall;     ///< score, 0 to 100; none when unfinished
   std::uint64_t duration_ticks = 0;  ///< simulated time [ms]
   std::string final_hash;            ///< state hash after the last tick, 16 hexadecimal digits
+  /// Of those that are in the records; not stored with the attempt.
+  std::optional<AssetSummary> asset = std::nullopt;
   bool operator==(const AttemptSummary&) const = default;
 };
 

@@ -3,6 +3,7 @@
 #include "records/attempt_keeper.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <future>
 #include <memory>
 #include <utility>
@@ -64,6 +65,20 @@ KeptAttempt AttemptKeeper::save(const Attempt& attempt) {
   auto kept = std::make_shared<std::promise<KeptAttempt>>();
   save(Attempt(attempt), [kept](const KeptAttempt& answer) { kept->set_value(answer); });
   return kept->get_future().get();
+}
+
+AssetSaving AttemptKeeper::save(const AssetForm& form, std::int64_t amended) {
+  auto saved = std::make_shared<std::promise<AssetSaving>>();
+  if (!queue([this, saved, form, amended] {
+        try {
+          saved->set_value(writing_.save(form, amended));
+        } catch (const Error&) {
+          saved->set_exception(std::current_exception());
+        }
+      })) {
+    throw IoError("records " + file().string() + ": too much waits, the form was not stored");
+  }
+  return saved->get_future().get();
 }
 
 std::size_t AttemptKeeper::settle() {
@@ -207,6 +222,11 @@ QuizAnswerPage AttemptKeeper::quiz_page(std::int64_t before,
                                         const AttemptFilter& seen) const {
   const std::lock_guard lock(reading_mutex_);
   return reading_.quiz_page(before, most, seen);
+}
+
+std::vector<AssetForm> AttemptKeeper::asset_forms(std::int64_t attempt) const {
+  const std::lock_guard lock(reading_mutex_);
+  return reading_.asset_forms(attempt);
 }
 
 bool AttemptKeeper::holds(const std::string& origin) const {

@@ -67,6 +67,10 @@ class AttemptKeeper {
   /// an answer is not worth a file of its own.
   void save(QuizAnswer answer, Done done);
 
+  /// Stores or amends an ASSET form, waited for: who filled it in has it still, so what the records
+  /// refuse does not wait. @throws IoError
+  [[nodiscard]] AssetSaving save(const AssetForm& form, std::int64_t amended);
+
   /// Waits until all that came was tried, tries what waits once more, and returns how many still
   /// do.
   std::size_t settle();
@@ -83,6 +87,7 @@ class AttemptKeeper {
   [[nodiscard]] QuizAnswerPage quiz_page(std::int64_t before,
                                          std::size_t most,
                                          const AttemptFilter& seen = {}) const;
+  [[nodiscard]] std::vector<AssetForm> asset_forms(std::int64_t attempt) const;
   [[nodiscard]] bool holds(const std::string& origin) const;
 
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return writing_.file(); }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "records/detail/asset_form_table.hpp"
 #include "records/detail/quiz_answer_table.hpp"
 #include "records/detail/schema.hpp"
 
@@ -23,6 +24,12 @@ namespace {
 constexpr const char* kSummaryColumns =
     "id, origin, trainee, case_name, case_fingerprint, case_simulated, procedure, mode, "
     "input_device, started_at, ended_at, outcome, overall, duration_ticks, final_hash";
+
+/// What its finished ASSET forms say together.
+constexpr const char* kAssetColumns =
+    ", (SELECT count(f.total) FROM asset_form AS f WHERE f.attempt = attempt.id) AS asset_forms, "
+    "(SELECT sum(f.passes) FROM asset_form AS f WHERE f.attempt = attempt.id) AS asset_passed, "
+    "(SELECT avg(f.total) FROM asset_form AS f WHERE f.attempt = attempt.id) AS asset_mean";
 
 /// Says in words what to do about an SQLite error.
 std::string advice(const SQLite::Exception& error) {
@@ -103,6 +110,10 @@ AttemptSummary read_summary(SQLite::Statement& row) {
   if (!overall.isNull()) summary.overall = overall.getDouble();
   summary.duration_ticks = static_cast<std::uint64_t>(row.getColumn("duration_ticks").getInt64());
   summary.final_hash = row.getColumn("final_hash").getString();
+  if (const std::int64_t forms = row.getColumn("asset_forms").getInt64(); forms > 0) {
+    summary.asset = AssetSummary{forms, row.getColumn("asset_passed").getInt64(),
+                                 row.getColumn("asset_mean").getDouble()};
+  }
   return summary;
 }
 
@@ -240,6 +251,25 @@ std::int64_t AttemptStore::save(const QuizAnswer& answer) {
   }
 }
 
+AssetSaving AttemptStore::save(const AssetForm& form, std::int64_t amended) {
+  try {
+    SQLite::Transaction transaction(connection_->database, SQLite::TransactionBehavior::IMMEDIATE);
+    const AssetSaving saving = detail::save(connection_->database, form, amended);
+    if (saving == AssetSaving::Saved) transaction.commit();
+    return saving;
+  } catch (const SQLite::Exception& error) {
+    fail(file_, "the form was not stored", error);
+  }
+}
+
+std::vector<AssetForm> AttemptStore::asset_forms(std::int64_t attempt) const {
+  try {
+    return detail::read_forms(connection_->database, attempt);
+  } catch (const SQLite::Exception& error) {
+    fail(file_, "cannot read how attempt " + std::to_string(attempt) + " was rated", error);
+  }
+}
+
 QuizAnswerPage AttemptStore::quiz_page(std::int64_t before,
                                        std::size_t most,
                                        const AttemptFilter& seen) const {
@@ -254,6 +284,7 @@ std::vector<AttemptSummary> AttemptStore::list() const {
   try {
     std::vector<AttemptSummary> attempts;
     SQLite::Statement rows(connection_->database, std::string("SELECT ") + kSummaryColumns +
+                                                      kAssetColumns +
                                                       " FROM attempt ORDER BY id DESC");
     while (rows.executeStep()) attempts.push_back(read_summary(rows));
     return attempts;
@@ -270,8 +301,8 @@ AttemptPage AttemptStore::page(std::int64_t before,
     SQLite::Transaction transaction(connection_->database);
     AttemptPage page;
     SQLite::Statement ids(connection_->database, "SELECT id FROM attempt ORDER BY id DESC");
-    SQLite::Statement row(connection_->database,
-                          std::string("SELECT ") + kSummaryColumns + " FROM attempt WHERE id = ?");
+    SQLite::Statement row(connection_->database, std::string("SELECT ") + kSummaryColumns +
+                                                     kAssetColumns + " FROM attempt WHERE id = ?");
     while (ids.executeStep()) {
       const std::int64_t id = ids.getColumn(0).getInt64();
       if (seen && !seen(id)) continue;
@@ -307,7 +338,8 @@ bool AttemptStore::holds(const std::string& origin) const {
 
 std::optional<Attempt> AttemptStore::find(std::int64_t id) const {
   try {
-    SQLite::Statement row(connection_->database, "SELECT * FROM attempt WHERE id = ?");
+    SQLite::Statement row(connection_->database,
+                          std::string("SELECT *") + kAssetColumns + " FROM attempt WHERE id = ?");
     row.bind(1, id);
     if (!row.executeStep()) return std::nullopt;
     Attempt attempt;

@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Attempts and answers of the view quiz in one SQLite file. One connection, for one thread at a
-// time; several processes may share the file.
+// Attempts, how they were rated and answers of the view quiz in one SQLite file. One connection,
+// for one thread at a time; several processes may share the file.
 #pragma once
 
 #include <chrono>
@@ -14,13 +14,14 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "records/asset_form.hpp"
 #include "records/attempt.hpp"
 #include "records/quiz_answer.hpp"
 
 namespace carpus::records {
 
 /// Schema of the records file that this program writes; it reads and updates older ones.
-inline constexpr int kRecordsSchemaVersion = 5;
+inline constexpr int kRecordsSchemaVersion = 6;
 
 /// Another program holds the file; later it may not.
 class RecordsBusy : public IoError {
@@ -61,6 +62,14 @@ class AttemptStore {
 
   /// Stores an answer of the view quiz and returns its number. @throws as for an attempt.
   std::int64_t save(const QuizAnswer& answer);
+
+  /// Stores how somebody rated an attempt, or amends it. @param amended  the revision of the form
+  /// that they saw, 0 of none: what another saved meanwhile is not overwritten. @throws as for an
+  /// attempt.
+  [[nodiscard]] AssetSaving save(const AssetForm& form, std::int64_t amended);
+
+  /// Forms of one attempt, the oldest first, unfinished ones too.
+  [[nodiscard]] std::vector<AssetForm> asset_forms(std::int64_t attempt) const;
 
   /// Answers of the view quiz, as `page` for attempts.
   [[nodiscard]] QuizAnswerPage quiz_page(std::int64_t before,

@@ -103,12 +103,12 @@ class RowCopier {
   SQLite::Statement insert_;
 };
 
-/// Answers of the quiz, where the file has them at all: it may be older than they are. None is
-/// named where it is lost; the attempts are what a repair is for.
-void copy_quiz_answers(SQLite::Database& from, SQLite::Database& to) {
+/// Of a table that belongs to no attempt's own row, where the file has it at all: it may be older.
+/// None is named where it is lost; the attempts are what a repair is for.
+void copy_rows(SQLite::Database& from, SQLite::Database& to, const std::string& table) {
   try {
-    RowCopier rows(from, to, "quiz_answer");
-    const std::int64_t highest = highest_id(from, "quiz_answer");
+    RowCopier rows(from, to, table);
+    const std::int64_t highest = highest_id(from, table);
     for (std::int64_t id = 1; id <= highest; ++id) (void)rows.copy(id);
   } catch (const SQLite::Exception&) {
     return;
@@ -142,7 +142,8 @@ RecordsRepair save_what_can_be_read(const fs::path& file, const fs::path& saved)
     throw IoError("records " + file.string() +
                   ": nothing of it can be read; restore it from a copy");
   }
-  copy_quiz_answers(database, copy);
+  copy_rows(database, copy, "quiz_answer");
+  copy_rows(database, copy, "asset_form");
   copy.exec("COMMIT");
   // A file by itself: it is about to get another name.
   copy.exec("PRAGMA journal_mode = DELETE");

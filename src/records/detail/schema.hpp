@@ -13,7 +13,7 @@ inline constexpr int kApplicationId = 0x43415250;
 
 /// kMigrations[v] turns a file of version v into one of version v + 1; a new file begins at 0.
 /// Never change one that was released: add the next.
-inline constexpr std::array<const char*, 5> kMigrations{
+inline constexpr std::array<const char*, 6> kMigrations{
     R"sql(
       CREATE TABLE attempt (
         id               INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -64,6 +64,23 @@ inline constexpr std::array<const char*, 5> kMigrations{
         next_view        TEXT NOT NULL,
         is_view_right    INTEGER NOT NULL CHECK (is_view_right IN (0, 1)),
         views_taken      INTEGER NOT NULL
+      );
+    )sql",
+    // How instructors rated arthroscopies, a row a rater and attempt. NULL while rows of the form
+    // are missing.
+    R"sql(
+      CREATE TABLE asset_form (
+        id       INTEGER PRIMARY KEY AUTOINCREMENT,
+        attempt  INTEGER NOT NULL REFERENCES attempt (id),
+        rater    TEXT NOT NULL CHECK (rater <> ''),
+        revision INTEGER NOT NULL CHECK (revision > 0),
+        saved_at TEXT NOT NULL,
+        answers  TEXT NOT NULL,
+        comment  TEXT NOT NULL,
+        total    INTEGER CHECK (total >= 0),
+        passes   INTEGER CHECK (passes IN (0, 1)),
+        UNIQUE (attempt, rater),
+        CHECK ((total IS NULL) = (passes IS NULL))
       );
     )sql",
 };
