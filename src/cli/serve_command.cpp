@@ -32,6 +32,7 @@
 #include "records/atomic_file.hpp"
 #include "records/attempt_keeper.hpp"
 #include "server/access_links.hpp"
+#include "server/asset_desk.hpp"
 #include "server/log_writer.hpp"
 #include "server/network_server.hpp"
 #include "server/new_case_desk.hpp"
@@ -217,6 +218,7 @@ struct Station {
   server::NewCaseDesk& new_cases;
   std::shared_ptr<server::AttemptOwners> owners = std::make_shared<server::AttemptOwners>();
   std::shared_ptr<server::AttemptOwners> quiz_owners = std::make_shared<server::AttemptOwners>();
+  server::AssetDesk asset{records, *owners};
 };
 
 /// The operation does not wait for what only devices need.
@@ -260,8 +262,8 @@ std::string serve_one(Station& s, const cases::CaseData& data, const fs::path& f
   server::NetworkServer network(
       s.options,
       [&](const server::HttpRequest& request) {
-        return server::NewCaseDesk::is_for(request) ? s.new_cases.answer(request)
-                                                    : http.answer(request);
+        if (server::NewCaseDesk::is_for(request)) return s.new_cases.answer(request);
+        return server::AssetDesk::is_for(request) ? s.asset.answer(request) : http.answer(request);
       },
       station);
   network.repeat(std::chrono::seconds(1), [&s] { s.new_cases.tend(); });
@@ -297,14 +299,15 @@ void run(const ServeArguments& arguments) {
   desk_options.incoming = fs::path(arguments.records).replace_extension(".incoming");
   desk_options.truth = truth;
   server::NewCaseDesk new_cases(std::move(desk_options));
+  Station station{arguments, options, records, log_line, web, truth, shelf, new_cases};
   options.lane_of = [](const server::HttpRequest& request) {
     return server::NewCaseDesk::is_for(request) ? server::NetworkOptions::kLanes
                                                 : server::StationHttp::lane_of(request);
   };
-  options.take_body = [&new_cases](const server::HttpRequest& request, std::uint64_t bytes) {
-    return new_cases.take_body(request, bytes);
+  options.take_body = [&station](const server::HttpRequest& request, std::uint64_t bytes) {
+    return server::AssetDesk::is_for(request) ? station.asset.take_body(request, bytes)
+                                              : station.new_cases.take_body(request, bytes);
   };
-  Station station{arguments, options, records, log_line, web, truth, shelf, new_cases};
   cases::CaseData data = load_case(open.folder());
   while (true) {
     const std::string chosen = serve_one(station, data, open.folder());

@@ -76,6 +76,32 @@ void write(FieldWriter& out, const QuizAnswerList& in) {
   out.value("older", in.older);
 }
 
+void read(FieldReader& in, AssetForms& out) {
+  out.attempt = in.integer("attempt", 1, 9007199254740991);
+  out.may_rate = in.boolean("may_rate");
+  in.records("forms", 0, 16, out.forms);
+}
+
+void write(FieldWriter& out, const AssetForms& in) {
+  out.value("attempt", in.attempt);
+  out.value("may_rate", in.may_rate);
+  out.records("forms", in.forms);
+}
+
+void read(FieldReader& in, AssetRating& out) {
+  out.rater = in.string("rater", 64);
+  out.revision = in.integer("revision", 0, 4294967295);
+  in.records("answers", 0, 16, out.answers);
+  out.comment = in.string("comment", 2000);
+}
+
+void write(FieldWriter& out, const AssetRating& in) {
+  out.text("rater", in.rater, 64);
+  out.value("revision", in.revision);
+  out.records("answers", in.answers);
+  out.text("comment", in.comment, 2000);
+}
+
 void read(FieldReader& in, PictureTruth& out) {
   in.records("bone", 0, 4, out.bone);
   in.records("screws", 0, 4, out.screws);
@@ -252,6 +278,40 @@ std::string serialize(const QuizAnswerList& body, int indent) {
   return json.dump(indent);
 }
 
+Result<AssetForms> parse_asset_forms(std::string_view text) {
+  JsonText json(text, 1048576);
+  FieldReader in(json);
+  AssetForms out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const AssetForms& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<AssetRating> parse_asset_rating(std::string_view text) {
+  JsonText json(text, 32768);
+  FieldReader in(json);
+  AssetRating out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const AssetRating& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
 Result<PictureTruth> parse_picture_truth(std::string_view text) {
   JsonText json(text, 1048576);
   FieldReader in(json);
@@ -352,6 +412,23 @@ std::string serialize_stored_events(const std::vector<LoggedEvent>& value, int i
   FieldWriter out = json.root();
   out.records("stored_events", value);
   return json.dump_field("stored_events", indent);
+}
+
+Result<std::vector<AssetAnswer>> parse_stored_asset_answers(std::string_view text) {
+  JsonText json(text, 16384);
+  json.wrap("stored_asset_answers");
+  FieldReader in(json);
+  std::vector<AssetAnswer> out;
+  in.records("stored_asset_answers", 0, 16, out);
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize_stored_asset_answers(const std::vector<AssetAnswer>& value, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  out.records("stored_asset_answers", value);
+  return json.dump_field("stored_asset_answers", indent);
 }
 
 Result<RunningExercise> parse_stored_exercise(std::string_view text) {

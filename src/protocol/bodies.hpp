@@ -115,6 +115,40 @@ struct QuizAnswerList {
 /// @param indent  spaces a level; negative writes one line.
 [[nodiscard]] std::string serialize(const QuizAnswerList& body, int indent = -1);
 
+/// Most `forms` of one AssetForms.
+inline constexpr std::size_t kMaxAssetFormsForms = 16;
+/// GET /api/asset?attempt=<id>, and the answer to its PUT. An attempt's forms, the oldest first; to
+/// a trainee the finished ones.
+struct AssetForms {
+  /// number in the records 1 to 9007199254740991
+  std::int64_t attempt = 0;
+  /// who asks is an instructor
+  bool may_rate = false;
+  std::vector<AssetForm> forms;
+  bool operator==(const AssetForms&) const = default;
+};
+
+[[nodiscard]] Result<AssetForms> parse_asset_forms(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const AssetForms& body, int indent = -1);
+
+/// Most `answers` of one AssetRating.
+inline constexpr std::size_t kMaxAssetRatingAnswers = 16;
+/// PUT /api/asset?attempt=<id>. An instructor's form, finished or not.
+struct AssetRating {
+  /// tells raters apart
+  std::string rater;
+  /// of the form that it amends, 0 of none: another's is not overwritten unseen 0 to 4294967295
+  std::int64_t revision = 0;
+  std::vector<AssetAnswer> answers;
+  std::string comment;
+  bool operator==(const AssetRating&) const = default;
+};
+
+[[nodiscard]] Result<AssetRating> parse_asset_rating(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const AssetRating& body, int indent = -1);
+
 /// Most `bone` of one PictureTruth.
 inline constexpr std::size_t kMaxPictureTruthBone = 4;
 /// Most `screws` of one PictureTruth.
@@ -202,6 +236,12 @@ inline constexpr std::size_t kMaxStoredEvents = 50000;
 [[nodiscard]] Result<std::vector<LoggedEvent>> parse_stored_events(std::string_view text);
 [[nodiscard]] std::string serialize_stored_events(const std::vector<LoggedEvent>& value,
                                                   int indent = -1);
+
+inline constexpr std::size_t kMaxStoredAssetAnswers = 16;
+/// What a rater chose in the rows of an ASSET.
+[[nodiscard]] Result<std::vector<AssetAnswer>> parse_stored_asset_answers(std::string_view text);
+[[nodiscard]] std::string serialize_stored_asset_answers(const std::vector<AssetAnswer>& value,
+                                                         int indent = -1);
 
 /// Whose a running exercise is: the head of its journal.
 [[nodiscard]] Result<RunningExercise> parse_stored_exercise(std::string_view text);

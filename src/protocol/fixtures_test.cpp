@@ -58,12 +58,18 @@ const std::map<std::string, RoundTrip>& readers() {
       {"http/attempt", round_trip(&parse_attempt, kSerialize)},
       {"http/attempt_list", round_trip(&parse_attempt_list, kSerialize)},
       {"http/quiz_answer_list", round_trip(&parse_quiz_answer_list, kSerialize)},
+      {"http/asset_forms", round_trip(&parse_asset_forms, kSerialize)},
+      {"http/asset_rating", round_trip(&parse_asset_rating, kSerialize)},
       {"http/picture_truth", round_trip(&parse_picture_truth, kSerialize)},
       {"http/view_debrief", round_trip(&parse_view_debrief, kSerialize)},
       {"http/seen_cartilage", round_trip(&parse_seen_cartilage, kSerialize)},
       {"stored/stored_score",
        round_trip(&parse_stored_score,
                   [](const ScoreReport& report) { return serialize_stored_score(report); })},
+      {"stored/stored_asset_answers", round_trip(&parse_stored_asset_answers,
+                                                 [](const std::vector<AssetAnswer>& answers) {
+                                                   return serialize_stored_asset_answers(answers);
+                                                 })},
       {"stored/stored_exercise", round_trip(&parse_stored_exercise,
                                             [](const RunningExercise& exercise) {
                                               return serialize_stored_exercise(exercise);

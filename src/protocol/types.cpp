@@ -954,6 +954,18 @@ void write(FieldWriter& out, const ScoreReport& in) {
   out.record("placement", in.placement);
 }
 
+void read(FieldReader& in, AssetSummary& out) {
+  out.forms = in.integer("forms", 1, 1000);
+  out.passed = in.integer("passed", 0, 1000);
+  out.mean_total = in.number("mean_total", 0.0, 1000.0);
+}
+
+void write(FieldWriter& out, const AssetSummary& in) {
+  out.value("forms", in.forms);
+  out.value("passed", in.passed);
+  out.value("mean_total", in.mean_total);
+}
+
 void read(FieldReader& in, AttemptSummary& out) {
   out.id = in.integer("id", 0, 9007199254740991);
   out.trainee = in.string("trainee", 64);
@@ -969,6 +981,7 @@ void read(FieldReader& in, AttemptSummary& out) {
   if (in.has("overall")) out.overall = in.number("overall", 0.0, 100.0);
   out.duration_s = in.number("duration_s", 0.0, 10000000000000.0);
   out.state_hash = in.string("state_hash", 16);
+  if (in.has("asset")) in.record("asset", out.asset.emplace());
 }
 
 void write(FieldWriter& out, const AttemptSummary& in) {
@@ -998,6 +1011,49 @@ void write(FieldWriter& out, const AttemptSummary& in) {
   }
   out.value("duration_s", in.duration_s);
   out.text("state_hash", in.state_hash, 16);
+  if (in.asset) {
+    out.record("asset", *in.asset);
+  } else {
+    out.null("asset");
+  }
+}
+
+void read(FieldReader& in, AssetAnswer& out) {
+  out.domain = in.string("domain", 32);
+  out.points = in.integer("points", 1, 5);
+}
+
+void write(FieldWriter& out, const AssetAnswer& in) {
+  out.text("domain", in.domain, 32);
+  out.value("points", in.points);
+}
+
+void read(FieldReader& in, AssetForm& out) {
+  out.rater = in.string("rater", 64);
+  out.saved_at = in.string("saved_at", 32);
+  out.revision = in.integer("revision", 1, 4294967295);
+  in.records("answers", 0, 16, out.answers);
+  out.comment = in.string("comment", 2000);
+  if (in.has("total")) out.total = in.integer("total", 0, 1000);
+  if (in.has("passes")) out.passes = in.boolean("passes");
+}
+
+void write(FieldWriter& out, const AssetForm& in) {
+  out.text("rater", in.rater, 64);
+  out.text("saved_at", in.saved_at, 32);
+  out.value("revision", in.revision);
+  out.records("answers", in.answers);
+  out.text("comment", in.comment, 2000);
+  if (in.total) {
+    out.value("total", *in.total);
+  } else {
+    out.null("total");
+  }
+  if (in.passes) {
+    out.value("passes", *in.passes);
+  } else {
+    out.null("passes");
+  }
 }
 
 void read(FieldReader& in, RunningExercise& out) {

@@ -967,6 +967,17 @@ struct ScoreReport {
   bool operator==(const ScoreReport&) const = default;
 };
 
+/// What instructors' finished ASSET forms of an attempt say together; no part of its score.
+struct AssetSummary {
+  /// 1 to 1000
+  std::int64_t forms = 0;
+  /// forms by which it passes 0 to 1000
+  std::int64_t passed = 0;
+  /// 0 to 1000
+  double mean_total = 0.0;
+  bool operator==(const AssetSummary&) const = default;
+};
+
 /// What the list of attempts shows of one.
 struct AttemptSummary {
   /// number in the records 0 to 9007199254740991
@@ -994,7 +1005,35 @@ struct AttemptSummary {
   double duration_s = 0.0;
   /// 16 hexadecimal digits, after the last tick
   std::string state_hash;
+  /// none where no instructor has rated it to the end
+  std::optional<AssetSummary> asset;
   bool operator==(const AttemptSummary&) const = default;
+};
+
+/// What a rater chose in one row of the ASSET.
+struct AssetAnswer {
+  /// its id in data/asset.json
+  std::string domain;
+  /// 1 to 5
+  std::int64_t points = 0;
+  bool operator==(const AssetAnswer&) const = default;
+};
+
+/// The ASSET of one attempt as one rater filled it in.
+struct AssetForm {
+  /// as typed
+  std::string rater;
+  /// UTC, ISO 8601
+  std::string saved_at;
+  /// how often it was saved 1 to 4294967295
+  std::int64_t revision = 0;
+  std::vector<AssetAnswer> answers;
+  std::string comment;
+  /// none while rows are missing 0 to 1000
+  std::optional<std::int64_t> total;
+  /// none while rows are missing
+  std::optional<bool> passes;
+  bool operator==(const AssetForm&) const = default;
 };
 
 /// An exercise that has begun, in the head of its journal; what its recording says is beside it.

@@ -31,6 +31,10 @@ protocol::AttemptSummary summary_message(const records::AttemptSummary& attempt)
   message.overall = attempt.overall;
   message.duration_s = static_cast<double>(attempt.duration_ticks) / 1000.0;
   message.state_hash = attempt.final_hash;
+  if (attempt.asset) {
+    message.asset = protocol::AssetSummary{attempt.asset->forms, attempt.asset->passed,
+                                           attempt.asset->mean_total};
+  }
   return message;
 }
 

@@ -100,10 +100,12 @@ bool is_spoken(std::string_view method) {
 void refuse_method(const RequestHead& head) {
   const std::string& method = head.method;
   if (method == "GET" || method == "HEAD") return;
-  const bool changes_here = (method == "PUT" && is_at(head.target, kNewCaseFilePath)) ||
-                            (method == "DELETE" && is_at(head.target, kNewCasePath)) ||
-                            (method == "POST" && (is_at(head.target, kNewCasePath) ||
-                                                  is_at(head.target, kNewCaseRunPath)));
+  const bool changes_here =
+      (method == "PUT" &&
+       (is_at(head.target, kNewCaseFilePath) || is_at(head.target, kAssetPath))) ||
+      (method == "DELETE" && is_at(head.target, kNewCasePath)) ||
+      (method == "POST" &&
+       (is_at(head.target, kNewCasePath) || is_at(head.target, kNewCaseRunPath)));
   if (!changes_here) refuse(405, "Only GET and HEAD are answered here.");
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The head of an HTTP request, read strictly: what two readers could take for different requests
-// is refused (RFC 9112). Stricter than a general server must be: one address alone takes bodies, of
-// a length that is said once and in front, so chunks and trailers have no place to hide in.
+// is refused (RFC 9112). Stricter than a general server must be: two addresses alone take bodies,
+// of a length that is said once and in front, so chunks and trailers have no place to hide in.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,14 @@ inline constexpr std::size_t kMaxHeadBytes = 16384;
 /// As are more fields than these.
 inline constexpr std::size_t kMaxHeadFields = 100;
 
-/// Below this address, and nowhere else, things are changed by HTTP (new_case_desk.hpp): POST and
-/// DELETE, and PUT, which has a body.
+/// Below this address things are changed by HTTP (new_case_desk.hpp): POST and DELETE, and PUT,
+/// which has a body.
 inline constexpr std::string_view kNewCasePath = "/api/new_case";
 inline constexpr std::string_view kNewCaseRunPath = "/api/new_case/run";
 inline constexpr std::string_view kNewCaseMadePath = "/api/new_case/made";
 inline constexpr std::string_view kNewCaseFilePath = "/api/new_case/file";
+/// And at this one, by PUT alone (asset_desk.hpp). Nowhere else.
+inline constexpr std::string_view kAssetPath = "/api/asset";
 /// A body that claims to be longer is refused before a byte of it is read.
 inline constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{1} << 30U;
 
@@ -36,8 +38,8 @@ struct RequestField {
 };
 
 struct RequestHead {
-  std::string method;     ///< "GET" or "HEAD"; below kNewCasePath also "POST", "PUT" and "DELETE"
-  std::string target;     ///< path and query, "/a?b", of the absolute form too
+  std::string method;  ///< "GET" or "HEAD"; at the addresses above also "POST", "PUT" and "DELETE"
+  std::string target;  ///< path and query, "/a?b", of the absolute form too
   std::string authority;  ///< whom the request is for: the one Host field, "127.0.0.1:8080"
   bool is_http_1_1 = true;
   bool keep_alive = true;

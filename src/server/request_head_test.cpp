@@ -66,6 +66,22 @@ TEST(RequestHead, ConnectionStaysOpenAsItsVersionAndFieldSay) {
   EXPECT_TRUE(accepted("GET / HTTP/1.0\r\nHost: h\r\nConnection: Keep-Alive\r\n\r\n").keep_alive);
 }
 
+TEST(RequestHead, ChangesAreSpokenOfAtTheirAddressesAlone) {
+  const auto change = [](const std::string& method, const std::string& target) {
+    const std::string length = method == "PUT" ? "Content-Length: 5\r\n" : "";
+    return method + " " + target + " HTTP/1.1\r\nHost: here\r\n" + length + "\r\n";
+  };
+  EXPECT_EQ(accepted(change("PUT", "/api/asset?attempt=1")).body_bytes, 5U);
+  EXPECT_EQ(accepted(change("PUT", "/api/new_case/file?word=w")).body_bytes, 5U);
+  for (const char* target : {"/api/asset/", "/api/asset/1", "/api/assets", "/api/%61sset",
+                             "/api/attempts/1", "/x?/api/asset", "//api/asset"}) {
+    EXPECT_EQ(status_of(change("PUT", target)), 405U) << target;
+  }
+  for (const char* method : {"POST", "DELETE"}) {
+    EXPECT_EQ(status_of(change(method, "/api/asset?attempt=1")), 405U) << method;
+  }
+}
+
 TEST(RequestHead, RefusesWhatReadersDisagreeAbout) {
   struct Case {
     const char* what;

@@ -11,6 +11,7 @@
 #include "server/attempt_messages.hpp"
 #include "server/query_number.hpp"
 #include "server/replay_desk.hpp"
+#include "server/request_head.hpp"
 #include "server/scan_files.hpp"
 #include "session/descriptions.hpp"
 #include "simulation/recording.hpp"
@@ -63,7 +64,7 @@ HttpResponse StationHttp::answer(const HttpRequest& request) const {
 std::size_t StationHttp::lane_of(const HttpRequest& request) {
   const auto path = decode_path(request.target);
   if (path && path->starts_with(kCases) && is_scan_path(*path)) return 3;
-  if (path && *path == kQuizAnswers) return 1;
+  if (path && (*path == kQuizAnswers || *path == kAssetPath)) return 1;
   if (!path || !path->starts_with(kAttempts)) return 0;
   const std::size_t replay = path->find(kReplay);
   if (replay == std::string::npos) return 1;

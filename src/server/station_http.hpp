@@ -45,8 +45,8 @@ class StationHttp {
   /// May be called from several threads.
   [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
 
-  /// Who answers (NetworkOptions::lane_of): what is at hand at once, the records, the states and
-  /// the pictures of a replay each in a thread of their own.
+  /// Who answers, the ASSET's desk among them (NetworkOptions::lane_of): what is at hand at once,
+  /// the records, the states and the pictures of a replay each in a thread of their own.
   [[nodiscard]] static std::size_t lane_of(const HttpRequest& request);
 
  private:

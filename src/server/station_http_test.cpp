@@ -222,6 +222,7 @@ TEST_F(StationHttpTest, WhatTakesLongIsKnownHoweverItIsWritten) {
       {"/api/attempts", 1},
       {"/api/attempts/1", 1},
       {"/api/quiz_answers?before=3", 1},
+      {"/api/asset?attempt=3", 1},
       {"/api/%61ttempts?x", 1},
       {"/api/attempts/1/replay/states?from=0&to=1&every=1", 2},
       {"/api/attempts/1/replay/picture?at=3", 3}};

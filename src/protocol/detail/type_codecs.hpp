@@ -152,8 +152,17 @@ void write(FieldWriter& out, const CaseAnswer& in);
 void read(FieldReader& in, ScoreReport& out);
 void write(FieldWriter& out, const ScoreReport& in);
 
+void read(FieldReader& in, AssetSummary& out);
+void write(FieldWriter& out, const AssetSummary& in);
+
 void read(FieldReader& in, AttemptSummary& out);
 void write(FieldWriter& out, const AttemptSummary& in);
+
+void read(FieldReader& in, AssetAnswer& out);
+void write(FieldWriter& out, const AssetAnswer& in);
+
+void read(FieldReader& in, AssetForm& out);
+void write(FieldWriter& out, const AssetForm& in);
 
 void read(FieldReader& in, RunningExercise& out);
 void write(FieldWriter& out, const RunningExercise& in);

@@ -142,7 +142,8 @@ std::optional<HttpResponse> HttpSession::problem_of_change(const Guest& guest) c
     return make_problem(403, "Only this station's own page may change anything.");
   }
   if (guest.role != Role::Instructor) {
-    return make_problem(403, "Only who came by an instructor's link may change cases.");
+    return make_problem(403,
+                        "Only who came by an instructor's link may change cases or rate attempts.");
   }
   return std::nullopt;
 }

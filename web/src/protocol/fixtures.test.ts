@@ -7,6 +7,8 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, expect, it } from "vitest";
 import {
+  parseAssetForms,
+  parseAssetRating,
   parseAttempt,
   parseAttemptList,
   parseCaseList,
@@ -32,6 +34,8 @@ const READERS: readonly (readonly [string, (text: string) => Parsed<unknown>])[]
   ["http/procedure_list", parseProcedureList],
   ["http/attempt_list", parseAttemptList],
   ["http/quiz_answer_list", parseQuizAnswerList],
+  ["http/asset_forms", parseAssetForms],
+  ["http/asset_rating", parseAssetRating],
   ["http/case_list", parseCaseList],
   ["http/picture_truth", parsePictureTruth],
   ["http/view_debrief", parseViewDebrief],

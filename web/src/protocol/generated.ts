@@ -776,6 +776,16 @@ export interface ScoreReport {
   readonly placement: Placement;
 }
 
+/** What instructors' finished ASSET forms of an attempt say together; no part of its score. */
+export interface AssetSummary {
+  /** 1 to 1000 */
+  readonly forms: number;
+  /** forms by which it passes 0 to 1000 */
+  readonly passed: number;
+  /** 0 to 1000 */
+  readonly mean_total: number;
+}
+
 /** What the list of attempts shows of one. */
 export interface AttemptSummary {
   /** number in the records 0 to 9007199254740991 */
@@ -803,6 +813,32 @@ export interface AttemptSummary {
   readonly duration_s: number;
   /** 16 hexadecimal digits, after the last tick */
   readonly state_hash: string;
+  /** none where no instructor has rated it to the end */
+  readonly asset: AssetSummary | null;
+}
+
+/** What a rater chose in one row of the ASSET. */
+export interface AssetAnswer {
+  /** its id in data/asset.json */
+  readonly domain: string;
+  /** 1 to 5 */
+  readonly points: number;
+}
+
+/** The ASSET of one attempt as one rater filled it in. */
+export interface AssetForm {
+  /** as typed */
+  readonly rater: string;
+  /** UTC, ISO 8601 */
+  readonly saved_at: string;
+  /** how often it was saved 1 to 4294967295 */
+  readonly revision: number;
+  readonly answers: readonly AssetAnswer[];
+  readonly comment: string;
+  /** none while rows are missing 0 to 1000 */
+  readonly total: number | null;
+  /** none while rows are missing */
+  readonly passes: boolean | null;
 }
 
 /** An exercise that has begun, in the head of its journal; what its recording says is beside it. */
@@ -1307,6 +1343,25 @@ export interface QuizAnswerList {
   readonly older: boolean;
 }
 
+/** GET /api/asset?attempt=<id>, and the answer to its PUT. An attempt's forms, the oldest first; to a trainee the finished ones. */
+export interface AssetForms {
+  /** number in the records 1 to 9007199254740991 */
+  readonly attempt: number;
+  /** who asks is an instructor */
+  readonly may_rate: boolean;
+  readonly forms: readonly AssetForm[];
+}
+
+/** PUT /api/asset?attempt=<id>. An instructor's form, finished or not. */
+export interface AssetRating {
+  /** tells raters apart */
+  readonly rater: string;
+  /** of the form that it amends, 0 of none: another's is not overwritten unseen 0 to 4294967295 */
+  readonly revision: number;
+  readonly answers: readonly AssetAnswer[];
+  readonly comment: string;
+}
+
 /** GET /api/attempts/<id>/replay/truth?at=<tick>. What was true of a picture that was taken then. */
 export interface PictureTruth {
   readonly bone: readonly PictureOutline[];
@@ -1387,6 +1442,16 @@ export function parseAttemptList(text: string): Parsed<AttemptList> {
 /** Validates the body of an HTTP answer; never throws. */
 export function parseQuizAnswerList(text: string): Parsed<QuizAnswerList> {
   return parseBody(text, rules.QUIZ_ANSWER_LIST, 1048576, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseAssetForms(text: string): Parsed<AssetForms> {
+  return parseBody(text, rules.ASSET_FORMS, 1048576, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseAssetRating(text: string): Parsed<AssetRating> {
+  return parseBody(text, rules.ASSET_RATING, 32768, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

@@ -422,6 +422,11 @@ export const SCHEMA: Schema = {
       penetration_at: {"type": "string", "max_length": 128},
       placement: {"type": "placement"},
     } },
+    asset_summary: { fields: {
+      forms: {"type": "integer", "min": 1, "max": 1000},
+      passed: {"type": "integer", "min": 0, "max": 1000},
+      mean_total: {"type": "number", "min": 0, "max": 1000},
+    } },
     attempt_summary: { fields: {
       id: {"type": "integer", "min": 0, "max": 9007199254740991},
       trainee: {"type": "string", "max_length": 64},
@@ -437,6 +442,20 @@ export const SCHEMA: Schema = {
       overall: {"type": "number", "min": 0, "max": 100, "optional": true},
       duration_s: {"type": "number", "min": 0, "max": 10000000000000},
       state_hash: {"type": "string", "max_length": 16},
+      asset: {"type": "asset_summary", "optional": true},
+    } },
+    asset_answer: { fields: {
+      domain: {"type": "string", "max_length": 32},
+      points: {"type": "integer", "min": 1, "max": 5},
+    } },
+    asset_form: { fields: {
+      rater: {"type": "string", "max_length": 64},
+      saved_at: {"type": "string", "max_length": 32},
+      revision: {"type": "integer", "min": 1, "max": 4294967295},
+      answers: {"type": "array", "of": {"type": "asset_answer"}, "max_items": 16},
+      comment: {"type": "string", "max_length": 2000},
+      total: {"type": "integer", "min": 0, "max": 1000, "optional": true},
+      passes: {"type": "boolean", "optional": true},
     } },
     running_exercise: { fields: {
       origin: {"type": "string", "max_length": 32},
@@ -702,6 +721,19 @@ export const QUIZ_ANSWER_LIST: Rules = {
   older: {"type": "boolean"},
 };
 
+export const ASSET_FORMS: Rules = {
+  attempt: {"type": "integer", "min": 1, "max": 9007199254740991},
+  may_rate: {"type": "boolean"},
+  forms: {"type": "array", "of": {"type": "asset_form"}, "max_items": 16},
+};
+
+export const ASSET_RATING: Rules = {
+  rater: {"type": "string", "max_length": 64},
+  revision: {"type": "integer", "min": 0, "max": 4294967295},
+  answers: {"type": "array", "of": {"type": "asset_answer"}, "max_items": 16},
+  comment: {"type": "string", "max_length": 2000},
+};
+
 export const PICTURE_TRUTH: Rules = {
   bone: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 4},
   screws: {"type": "array", "of": {"type": "picture_outline"}, "max_items": 4},
@@ -736,6 +768,7 @@ export const ATTEMPT: Rules = {
   overall: {"type": "number", "min": 0, "max": 100, "optional": true},
   duration_s: {"type": "number", "min": 0, "max": 10000000000000},
   state_hash: {"type": "string", "max_length": 16},
+  asset: {"type": "asset_summary", "optional": true},
   case_is_open: {"type": "boolean"},
   case_here: {"type": "string", "max_length": 64},
   score: {"type": "score_report", "optional": true},

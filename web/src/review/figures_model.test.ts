@@ -21,6 +21,7 @@ function attempt(id: number, trainee: string, changes: Partial<AttemptSummary> =
     overall: 50,
     duration_s: 600,
     state_hash: "0",
+    asset: null,
     ...changes,
   } satisfies AttemptSummary;
 }

@@ -32,6 +32,7 @@ function attempt(changes: Partial<AttemptSummary>): AttemptSummary {
     overall: 50,
     duration_s: 600,
     state_hash: "0",
+    asset: null,
     ...changes,
   };
 }
