@@ -3,6 +3,7 @@
 //
 // HTTP questions to the host; every answer is checked before use.
 import {
+  parseAssetForms,
   parseAttempt,
   parseAttemptList,
   parseCArmPicture,
@@ -13,6 +14,8 @@ import {
   parseQuizAnswerList,
   parseSeenCartilage,
   parseViewDebrief,
+  type AssetForms,
+  type AssetRating,
   type Attempt,
   type AttemptList,
   type CArmPicture,
@@ -82,6 +85,32 @@ export function fetchQuizAnswers(before?: number): Promise<QuizAnswerList> {
 
 export function fetchAttempt(id: number): Promise<Attempt> {
   return ask(`/api/attempts/${id}`, parseAttempt);
+}
+
+/** How instructors rated an attempt; to a trainee the finished forms. */
+export function fetchAssetForms(id: number): Promise<AssetForms> {
+  return ask(`/api/asset?attempt=${id}`, parseAssetForms);
+}
+
+/** Stores a form, or amends the one that it began from. @return all of the attempt's */
+export async function saveAssetRating(id: number, rating: AssetRating): Promise<AssetForms> {
+  let answer: Response;
+  try {
+    answer = await fetch(`/api/asset?attempt=${id}`, {
+      method: "PUT",
+      body: JSON.stringify(rating),
+    });
+  } catch {
+    throw new HostUnreachable(
+      "Not saved: the host does not answer. The form stays here; save it again when it does.",
+    );
+  }
+  const text = await answer.text();
+  // The host says why, for people.
+  if (!answer.ok) throw new Error(`Not saved: ${text.trim()}`);
+  const parsed = parseAssetForms(text);
+  if (parsed.ok) return parsed.value;
+  throw new HostUnreachable(`The host's answer cannot be read: ${parsed.reason}. Reload the page.`);
 }
 
 /** The picture that was taken in a tick of a stored attempt, or the live one of it. */

@@ -105,6 +105,13 @@ describe("what leaves", () => {
     expect(row).toContain(`"'=HYPERLINK(""x""), Ada"`);
     expect(row).toContain(",finished,,600,");
   });
+  it("tells what instructors said by the ASSET, where they did", () => {
+    const asset = { forms: 2, passed: 1, mean_total: 25.5 };
+    const [head, rated, unrated] = csvOf([attempt({ asset }), attempt({})]).split("\r\n");
+    expect(head?.endsWith(",asset_forms,asset_passed,asset_mean_total")).toBe(true);
+    expect(rated?.endsWith(",2,1,25.5")).toBe(true);
+    expect(unrated?.endsWith(",,,")).toBe(true);
+  });
   it("is a list as the program writes it", () => {
     const list = JSON.parse(jsonOf([attempt({})])) as { total: number; attempts: unknown[] };
     expect(list.total).toBe(1);

@@ -199,6 +199,9 @@ const COLUMNS = [
   "state_hash",
 ] as const satisfies readonly (keyof AttemptSummary)[];
 
+/** Of what instructors said by the ASSET; empty where none did. */
+const ASSET_COLUMNS = ["forms", "passed", "mean_total"] as const;
+
 /** A cell that no table program takes for a formula, quoted where it must be. */
 export function cell(value: string | number | boolean | null): string {
   if (value === null) return "";
@@ -208,8 +211,14 @@ export function cell(value: string | number | boolean | null): string {
 }
 
 export function csvOf(attempts: readonly AttemptSummary[]): string {
-  const rows = attempts.map((attempt) => COLUMNS.map((column) => cell(attempt[column])).join(","));
-  return [COLUMNS.join(","), ...rows, ""].join("\r\n");
+  const heads = [...COLUMNS, ...ASSET_COLUMNS.map((column) => `asset_${column}`)];
+  const rows = attempts.map((attempt) =>
+    [
+      ...COLUMNS.map((column) => cell(attempt[column])),
+      ...ASSET_COLUMNS.map((column) => cell(attempt.asset?.[column] ?? null)),
+    ].join(","),
+  );
+  return [heads.join(","), ...rows, ""].join("\r\n");
 }
 
 /** As `carpus attempts --json` writes it. */

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The review room: whose attempts, how they go on, beside group and expert; out as CSV or JSON.
+import { assetText } from "../asset";
 import { dateText, durationText, procedureText } from "../attempts_list";
 import { fetchAttempts, fetchProcedures, fetchQuizAnswers } from "../case_data";
 import { button, make, setText } from "../dom";
@@ -327,8 +328,13 @@ function attemptTable(
   attempts: readonly AttemptSummary[],
   known: readonly ProcedureSummary[],
 ): HTMLElement {
-  const heads = ["No.", "Started", "Trainee", "Case", "Procedure", "How", "Time", "Score", "Again"];
   const newest = [...attempts].reverse().slice(0, TABLE_ROWS);
+  const isRated = newest.some(({ asset }) => asset !== null);
+  const heads = [
+    ...["No.", "Started", "Trainee", "Case", "Procedure", "How", "Time", "Score"],
+    ...(isRated ? ["ASSET"] : []),
+    "Again",
+  ];
   const more = attempts.length - newest.length;
   return make(
     "div.table-frame",
@@ -367,6 +373,7 @@ function attemptTable(
                 attempt.overall === null ? "not finished" : `${Math.round(attempt.overall)} of 100`,
               ),
             ),
+            ...(isRated ? [make("td.figure", {}, assetText(attempt.asset))] : []),
             make("td", {}, make("a", { href: `#/replay/${attempt.id}` }, "Replay")),
           ),
         ),

@@ -3,6 +3,7 @@
 //
 // The debrief of one attempt: the placement first, then the figures with target, reason and grade.
 // Prints on two pages.
+import { assetSection } from "../asset";
 import { dateText, durationText, procedureText } from "../attempts_list";
 import { fetchAttempt, fetchCase, fetchProcedures, NotThere } from "../case_data";
 import { button, make } from "../dom";
@@ -130,6 +131,9 @@ function show(
     make("section.verdict-row", {}, verdict(report), pictures),
     turning,
     table(report),
+    ...(report.is_void !== true && looksIntoJoints(report)
+      ? [assetSection(attempt.id, { isLeft })]
+      : []),
     ...(attempt.case_is_open && report.is_void !== true && isFixation(report)
       ? [viewsSection(attempt)]
       : []),
