@@ -6,6 +6,7 @@
 // the list. Then what goes wrong: a second page, broken messages, a lost connection. Last the way in by
 // a link.
 // Run by `npm --prefix web run test:browser`; needs CARPUS_BIN and CARPUS_CASE or their defaults.
+import { ratesByAsset } from "./asset.mjs";
 import { operateAssessed } from "./assessed.mjs";
 import { expectAccessible } from "./accessibility.mjs";
 import { holdsDevices } from "./devices.mjs";
@@ -655,6 +656,7 @@ try {
   await goesWrong(browser, station, []);
   await byItsLink(browser);
   await chooseAmongCases(browser);
+  await ratesByAsset(browser);
 } finally {
   await browser.close();
   await station.stop();
