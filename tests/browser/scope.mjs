@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score; the first exercises; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// a touch, the score; the first exercises; a grasper; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
@@ -275,6 +275,40 @@ export async function basics(browser, station) {
     const marked = await callsInRound("practice");
     const unmarked = await callsInRound("assessed");
     expect(marked === unmarked + 1, `${marked} draw calls, without the mark ${unmarked}`);
+  });
+  await page.context().close();
+}
+
+/** What is loose is in the picture; the jaws close, lock and open; the score says how many there were. */
+export async function removal(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  const status = (words) => page.locator(".scope-status", { hasText: words }).waitFor();
+  await check(page, "a grasper locks its jaws, and loose bodies lie in the joint", async () => {
+    await operator.start(station.url, TRAINEE, "arthroscopic_loose_body_removal");
+    const { lesions } = (await operator.exercise()).arthroscopy;
+    expect(lesions.length > 0 && lesions.every((one) => one.look === "loose"), "nothing is loose");
+    await bringInScope(page, operator);
+    await page.waitForFunction(
+      (calls) => Number(document.querySelector(".scope").dataset.calls) === calls,
+      2 + lesions.length, // the wall, what lies about it, a ball each
+    );
+    await page.keyboard.press("h");
+    await operator.until((s) => Operator.held(s, 1) !== undefined, "the grasper");
+    await holdUntil(page, "a", "grasper in the joint by 4-5, open", "the grasper");
+    await page.keyboard.press("g");
+    await status("by 4-5, closed");
+    await page.waitForTimeout(2000); // longer than a driver runs unheard
+    await status("by 4-5, closed");
+    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "removal.png") });
+    await page.keyboard.press("g");
+    await status("by 4-5, open");
+    await page.keyboard.press("f");
+    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.waitForURL(/#\/attempts\/\d+/);
+    await page.getByText("Loose bodies brought out").first().waitFor();
+    await page.getByText(`0 of ${lesions.length}.`).first().waitFor();
   });
   await page.context().close();
 }

@@ -167,7 +167,18 @@ const KEYS_OF: Readonly<Record<string, string>> = {
   decline: "Del",
 };
 
+/** Of those that are led otherwise at a scope; empty: another key does it. */
+const KEYS_AT_SCOPE: Readonly<Record<string, string>> = {
+  move_tip: "Arrows, drag, {KeyA} / {KeyD}",
+  turn_shaft: "{Comma} {Period}, Shift + drag",
+  move_wrist: "{KeyW} {KeyS}",
+  drive: "{KeyG}",
+  take: "",
+  answer: "9",
+};
+
 /** Each action's keys; one that the page has no key for is passed over. */
-export function keysOf(actions: readonly string[]): readonly string[] {
-  return [...new Set(actions.flatMap((action) => KEYS_OF[action] ?? []))];
+export function keysOf(actions: readonly string[], atScope = false): readonly string[] {
+  const keys = atScope ? { ...KEYS_OF, ...KEYS_AT_SCOPE } : KEYS_OF;
+  return [...new Set(actions.flatMap((action) => keys[action] || []))];
 }

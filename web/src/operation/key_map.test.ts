@@ -94,4 +94,12 @@ describe("keysOf", () => {
       "{KeyF}",
     ]);
   });
+
+  it("names those of a scope where one is led", () => {
+    expect(keysOf(["switch_hand", "take", "turn_shaft", "finish"], true)).toEqual([
+      "{KeyH}",
+      "{Comma} {Period}, Shift + drag",
+      "{KeyF}",
+    ]);
+  });
 });

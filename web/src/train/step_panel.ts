@@ -74,12 +74,12 @@ export class StepPanel {
   }
 
   /** The steps of the procedure that is done, with the name of what each is done with. */
-  setSteps({ mode, steps, instruments }: ExerciseMessage): void {
+  setSteps({ mode, steps, instruments, arthroscopy }: ExerciseMessage): void {
     this.isAssessed = mode === "assessed";
     this.shown = "";
     this.items = steps.map((step, index) => {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
-      const keys = keysOf(step.actions).map((key) => keyCap(key));
+      const keys = keysOf(step.actions, arthroscopy !== null).map((key) => keyCap(key));
       const tool = instruments.find((one) => one.id === step.instrument);
       const again = make("button.step-again", {
         type: "button",
