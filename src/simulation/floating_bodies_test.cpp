@@ -99,6 +99,32 @@ TEST(FloatingBodies, JawsLockUntilTheyAreOpened) {
   EXPECT_LT(body(hand).z, high - 0.5) << "it sinks";
 }
 
+TEST(FloatingBodies, WhatIsLetGoInTheWayOutSlipsBackIntoTheJoint) {
+  for (const bool opens : {true, false}) {
+    World world(box_wrist(), removing(), 1);
+    Hand hand(world);
+    go_over(hand);
+    hand.drive(Driver::Forward);
+    hand.mm_per_tick = 0.006;
+    hand.go(kMiddle);
+    hand.go(kMiddle + Vec3{kHalf + 4, 0, 0});
+    ASSERT_FALSE(hand.now().scope.facts.is_in_joint[0]);
+    ASSERT_EQ(hand.now().scope.loose[0].hand, 0);
+    if (opens) {
+      hand.drive(Driver::Reverse);
+    } else {
+      Command put_down;
+      put_down.kind = CommandKind::PutDown;
+      hand.command(put_down);
+    }
+    for (int i = 0; i < 500; ++i) hand.step();
+    ASSERT_EQ(hand.now().scope.loose_count, 1);
+    EXPECT_GT(hand.now().scope.loose[0].hand, 1);
+    EXPECT_LT(body(hand).x, kMiddle.x + kHalf) << (opens ? "opened" : "put down");
+    EXPECT_EQ(facts(hand).out, 0);
+  }
+}
+
 TEST(FloatingBodies, JawsThatCloseOnTheWallBiteAndUnseenOnesAreCounted) {
   World world(box_wrist(), removing(), 1);
   Hand hand(world);
@@ -174,14 +200,17 @@ TEST(Drift, ARodPushesItAsideAndTheInflowFadesWithDistance) {
 TEST(LooseState, OneThatNoTickLeftIsRefused) {
   detail::LooseState state;
   state.done.there = 2;
-  EXPECT_TRUE(detail::is_possible(state, 2));
-  EXPECT_FALSE(detail::is_possible(state, 1));
+  EXPECT_TRUE(detail::is_possible(state, 2, 3));
+  EXPECT_FALSE(detail::is_possible(state, 1, 3));
   state.done.out = 1;
-  EXPECT_FALSE(detail::is_possible(state, 2)) << "which one?";
+  EXPECT_FALSE(detail::is_possible(state, 2, 3)) << "which one?";
   state.bodies[1].is_out = true;
-  EXPECT_TRUE(detail::is_possible(state, 2));
+  EXPECT_TRUE(detail::is_possible(state, 2, 3));
+  state.bodies[0].portal = 3;
+  EXPECT_FALSE(detail::is_possible(state, 2, 3)) << "there is no such portal";
+  state.bodies[0].portal = 2;
   state.bodies[0].hand = 7;
-  EXPECT_FALSE(detail::is_possible(state, 2));
+  EXPECT_FALSE(detail::is_possible(state, 2, 3));
 }
 
 }  // namespace

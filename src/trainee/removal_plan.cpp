@@ -49,8 +49,7 @@ void ScriptedArthroscopist::plan_search() {
 /// Of the tour's portals beside the scope the one through which jaws reach it; the next at each
 /// other try.
 std::uint8_t ScriptedArthroscopist::portal_for(const Vec3& at, int turn) const {
-  const double radius =
-      instruments::catalogue()[procedure_.tray.back()].shape.greatest_radius_mm();
+  const double radius = instruments::catalogue()[procedure_.tray.back()].shape.greatest_radius_mm();
   std::vector<std::uint8_t> all;
   for (std::uint8_t p = 0; p < map_.portals.size(); ++p) {
     const cases::Portal& portal = map_.portals[p];

@@ -12,7 +12,6 @@ namespace carpus::simulation {
 
 using detail::Item;
 using detail::kMaxLooseBodies;
-using detail::kNoHole;
 using detail::kNoPortal;
 using detail::LooseBody;
 
@@ -68,12 +67,20 @@ void World::State::watch_jaws(const Model& model, std::uint8_t hand) noexcept {
     return;
   }
   if (closes) return;
-  for (LooseBody& body : loose_state.bodies) {
-    if (body.hand != hand) continue;
-    body.hand = kNoHand;
-    body.velocity = {};
-    body.is_inside = true;
+  for (std::size_t i = 0; i < model.float_count; ++i) {
+    if (loose_state.bodies[i].hand == hand) let_go_of_loose(model, i);
   }
+}
+
+/// Where it is; in the way out it slips back into the joint.
+void World::State::let_go_of_loose(const Model& model, std::size_t which) noexcept {
+  LooseBody& body = loose_state.bodies[which];
+  body.hand = kNoHand;
+  body.velocity = {};
+  if (body.is_inside || body.portal >= model.map->portals.size()) return;
+  const WayIn way = way_in(model, body.portal);
+  body.at = way.skin + way.inwards * (way.capsule_mm + kInsideMm + radius_of(model, which));
+  body.is_inside = true;
 }
 
 void World::State::close_jaws(const Model& model, std::uint8_t hand, const Item& item) noexcept {
@@ -124,10 +131,7 @@ void World::State::carry_loose(const Model& model, std::size_t which) noexcept {
   LooseBody& body = loose_state.bodies[which];
   const std::uint8_t hand = body.hand;
   const Item* item = in_hand(hand);
-  if (item == nullptr || !loose_state.are_closed[hand]) {
-    body.hand = kNoHand;
-    return;
-  }
+  if (item == nullptr || !loose_state.are_closed[hand]) return let_go_of_loose(model, which);
   const double radius_mm = radius_of(model, which);
   const bool was_inside = body.is_inside;
   const Vec3 before = body.at;
@@ -137,12 +141,9 @@ void World::State::carry_loose(const Model& model, std::size_t which) noexcept {
   body.is_inside = scope_state.is_in_joint[hand];
   const double drawn = dot(body.velocity, item->shaft);
   const std::uint8_t portal = scope_state.portal[hand];
-  if (was_inside && !body.is_inside && drawn > kStrippedMmPerS && portal != kNoPortal) {
-    const WayIn way = way_in(model, portal);
-    body.at = way.skin + way.inwards * (way.capsule_mm + kInsideMm + radius_mm);
-    body.velocity = {};
-    body.hand = kNoHand;
-    body.is_inside = true;
+  if (portal != kNoPortal) body.portal = portal;
+  if (was_inside && !body.is_inside && drawn > kStrippedMmPerS) {
+    let_go_of_loose(model, which);
     ++loose_state.done.slips;
     emit(EventKind::LooseLost, now.held[hand], static_cast<std::int32_t>(which), 0.0);
     return;

@@ -27,7 +27,7 @@ constexpr double kGreatestMm = 1e4;
 
 }  // namespace
 
-bool is_possible(const LooseState& state, std::size_t count) noexcept {
+bool is_possible(const LooseState& state, std::size_t count, std::size_t portals) noexcept {
   if (state.done.there != count || state.done.out > count) return false;
   std::size_t out = 0;
   for (const LooseBody& body : state.bodies) {
@@ -36,6 +36,7 @@ bool is_possible(const LooseState& state, std::size_t count) noexcept {
         squared_length(body.velocity) > kGreatestMm * kGreatestMm) {
       return false;
     }
+    if (body.portal != procedure::kNoBody && body.portal >= portals) return false;
     if (body.is_out) ++out;
   }
   return out == state.done.out;

@@ -25,6 +25,7 @@ struct LooseBody {
   bool is_afloat = false;       ///< something has come into its joint; until then it lies by a bone
   bool is_inside = true;        ///< of its joint, not in the way out
   bool is_out = false;          ///< of the skin, for good
+  std::uint8_t portal = procedure::kNoBody;  ///< through which it is being drawn out
 };
 
 /// Of bodies so far as there are any.
@@ -43,6 +44,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(body.is_afloat);
     v(body.is_inside);
     v(body.is_out);
+    v(body.portal);
   }
   for (auto& is_closed : state.are_closed) v(is_closed);
   v(state.done.there);
@@ -56,7 +58,9 @@ void visit(SomeState& state, Visitor&& v) noexcept {
 }
 
 /// Whether a tick could have left it.
-[[nodiscard]] bool is_possible(const LooseState& state, std::size_t count) noexcept;
+[[nodiscard]] bool is_possible(const LooseState& state,
+                               std::size_t count,
+                               std::size_t portals) noexcept;
 
 /// What acts on a body.
 struct LooseSurroundings {

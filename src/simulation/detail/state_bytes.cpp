@@ -125,7 +125,8 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
     }
     if (model_->float_count > 0) {
       visit(loose, fields);
-      is_sound = is_sound && detail::is_possible(loose, model_->float_count);
+      is_sound =
+          is_sound && detail::is_possible(loose, model_->float_count, model_->map->portals.size());
     }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),

@@ -336,6 +336,7 @@ struct World::State {
   void move_loose_bodies(const Model& model) noexcept;
   void watch_jaws(const Model& model, std::uint8_t hand) noexcept;
   void close_jaws(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void let_go_of_loose(const Model& model, std::size_t which) noexcept;
   void carry_loose(const Model& model, std::size_t which) noexcept;
   [[nodiscard]] double radius_of(const Model& model, std::size_t loose) const noexcept;
   void float_loose(const Model& model, std::size_t which) noexcept;
