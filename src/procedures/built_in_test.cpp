@@ -92,6 +92,15 @@ TEST(BuiltIn, EachCanBeDoneAndScored) {
   }
 }
 
+TEST(BuiltIn, LooseBodiesNeedPlacesToLieBy) {
+  cases::CaseData data = wrist();
+  cases::ArthroscopicMap map = *data.arthroscopy;
+  map.points.resize(2);
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  const auto* removal = built_in().find("arthroscopic_loose_body_removal");
+  EXPECT_THROW((void)removal->opening(data), InvalidInput);
+}
+
 TEST(BuiltIn, FixationsBeginWithAWireInTheHand) {
   for (const procedure::Procedure* each :
        {&dorsal_scaphoid_fixation::declared(), &volar_scaphoid_fixation::declared()}) {

@@ -67,7 +67,7 @@ class RowCopier {
     } catch (const SQLite::Exception&) {
       return false;
     }
-    insert_.reset();
+    insert_.tryReset();  // the row before may have been refused
     for (int i = 0; i < row_.getColumnCount(); ++i) bind(i);
     insert_.exec();
     return true;
@@ -109,7 +109,13 @@ void copy_rows(SQLite::Database& from, SQLite::Database& to, const std::string& 
   try {
     RowCopier rows(from, to, table);
     const std::int64_t highest = highest_id(from, table);
-    for (std::int64_t id = 1; id <= highest; ++id) (void)rows.copy(id);
+    for (std::int64_t id = 1; id <= highest; ++id) {
+      try {
+        (void)rows.copy(id);
+      } catch (const SQLite::Exception&) {
+        continue;  // one row that today's schema refuses
+      }
+    }
   } catch (const SQLite::Exception&) {
     return;
   }
@@ -144,6 +150,8 @@ RecordsRepair save_what_can_be_read(const fs::path& file, const fs::path& saved)
   }
   copy_rows(database, copy, "quiz_answer");
   copy_rows(database, copy, "asset_form");
+  // A form whose attempt is lost would come to belong to the next one of that number.
+  copy.exec("DELETE FROM asset_form WHERE attempt NOT IN (SELECT id FROM attempt)");
   copy.exec("COMMIT");
   // A file by itself: it is about to get another name.
   copy.exec("PRAGMA journal_mode = DELETE");

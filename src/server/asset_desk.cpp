@@ -35,9 +35,10 @@ std::optional<std::string> problem_of(const records::Attempt& attempt) {
     return "This attempt was not finished; there is nothing to rate.";
   }
   if (score->is_void.value_or(false)) return "This attempt is void; there is nothing to rate.";
-  const bool looks_into_joints = std::any_of(
-      score->items.begin(), score->items.end(),
-      [](const protocol::ScoreItem& item) { return item.id == "cartilage_seen_share"; });
+  const bool looks_into_joints =
+      std::any_of(score->items.begin(), score->items.end(), [](const protocol::ScoreItem& item) {
+        return item.id == "cartilage_seen_share" || item.id == "brought_out_share";
+      });
   if (!looks_into_joints) return "Only an arthroscopy is rated by this form.";
   return std::nullopt;
 }

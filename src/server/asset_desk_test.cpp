@@ -175,6 +175,11 @@ TEST_F(AssetDeskTest, OneDomainBelowThreeDoesNotPassWhateverTheSum) {
   EXPECT_EQ(form.passes, false);
 }
 
+TEST_F(AssetDeskTest, RemovingLooseBodiesIsRatedToo) {
+  (void)records_->save(make_attempt("brought_out_share"));  // 5
+  EXPECT_EQ(forms_in(put(rating("Dr A", answers_at(3)), 5)).attempt, 5);
+}
+
 TEST_F(AssetDeskTest, SeveralRateAndEachAmendsWhatTheySaw) {
   (void)forms_in(put(rating("Dr A", answers_at(3))));
   (void)forms_in(put(rating("Dr B", answers_at(5))));

@@ -16,6 +16,7 @@
 #include "arthroscopy/pathology_table.hpp"
 #include "core/error.hpp"
 #include "simulation/box_joint_test_support.hpp"
+#include "simulation/detail/scope_watch.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/world.hpp"
 
@@ -133,6 +134,15 @@ TEST(Scopes, AWayInStrikesANerveThatItTouchesAndATendonThroughItsMiddleAlone) {
   EXPECT_TRUE(after_entering(StructureKind::Tendon, 0.2).was_struck);
   EXPECT_FALSE(after_entering(StructureKind::Tendon, 0.2, 0.0).was_struck)
       << "the marked way itself goes there";
+}
+
+TEST(Scopes, AnInstrumentInAJointByNoPortalIsNoStateThatATickLeft) {
+  detail::ScopeState state;
+  EXPECT_TRUE(detail::is_possible(state, 2));
+  state.is_in_joint[1] = true;
+  EXPECT_FALSE(detail::is_possible(state, 2));
+  state.portal[1] = 1;
+  EXPECT_TRUE(detail::is_possible(state, 2));
 }
 
 TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {

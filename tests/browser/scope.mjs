@@ -252,7 +252,7 @@ export async function basics(browser, station) {
     expect(/^1 of 3/.test(await words.innerText()), await words.innerText());
     await page.locator(".scope-drill-ring").waitFor();
     let most = 0;
-    for (let turn = 0; turn < 8; ++turn) {
+    for (let turn = 0; turn < (pictures === undefined ? 3 : 8); ++turn) {
       await hold(page, ",", 500);
       await page.waitForTimeout(300);
       const calls = await page
@@ -262,7 +262,7 @@ export async function basics(browser, station) {
       if (pictures !== undefined)
         await page.screenshot({ path: join(pictures, `basics_${mode}_${turn}.png`) });
     }
-    await page.waitForTimeout(6000); // with the turns the least look that is judged
+    await page.waitForTimeout(8500); // with the turns the least look that is judged
     await page.keyboard.press("f");
     await page.click(
       "dialog[open] button[value=finish], dialog[open] .primary",

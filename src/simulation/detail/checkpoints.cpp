@@ -53,6 +53,10 @@ void World::State::go_back_to(const Model& model, std::size_t kept) noexcept {
   for (; checkpoint_count > kept; --checkpoint_count) {
     has_bone_come_back = tissue.cuts().undo() || has_bone_come_back;
   }
+  // What jaws hold is not undone: it would come out with the hand that goes back.
+  for (std::size_t i = 0; i < model.float_count; ++i) {
+    if (loose_state.bodies[i].hand != kNoHand) let_go_of_loose(model, i);
+  }
   now = checkpoints[kept];
   for (std::size_t i = passes_at_checkpoint[kept]; i < spent.pass_count && i < detail::kMaxPasses;
        ++i) {

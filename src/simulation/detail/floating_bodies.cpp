@@ -153,6 +153,7 @@ void World::State::carry_loose(const Model& model, std::size_t which) noexcept {
   body.hand = kNoHand;
   ++loose_state.done.out;
   loose_state.done.seen_since = 0;
+  scope_state.in_view_ticks = {};  // seen again is what is looked at from now on
   emit(EventKind::LooseOut, now.held[hand], static_cast<std::int32_t>(which), 0.0);
 }
 
@@ -199,7 +200,11 @@ void World::State::move_loose_bodies(const Model& model) noexcept {
       float_loose(model, i);
     }
   }
-  if (loose_state.done.out > 0) loose_state.done.seen_since |= scope_state.points_in_view;
+  if (loose_state.done.out == 0) return;
+  for (std::size_t i = 0; i < model.map->points.size(); ++i) {
+    if (scope_state.in_view_ticks[i] < detail::kSeenTicks) continue;
+    loose_state.done.seen_since |= 1U << model.map->points[i].number;
+  }
 }
 
 procedure::LooseFacts World::State::loose_facts(const Model& model) const noexcept {

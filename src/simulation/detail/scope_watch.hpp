@@ -103,7 +103,8 @@ void visit_look(SomeLook& look, Visitor&& v) noexcept {
                   state.camera_turn_deg <= 180.0 && state.most_force_n >= 0.0;
   for (std::size_t h = 0; h < kHands; ++h) {
     is_sound = is_sound && (state.portal[h] == kNoPortal || state.portal[h] < portals) &&
-               state.path_mm[h] >= 0.0 && state.gives_mm[h] >= 0.0;
+               (!state.is_in_joint[h] || state.portal[h] != kNoPortal) && state.path_mm[h] >= 0.0 &&
+               state.gives_mm[h] >= 0.0;
   }
   return is_sound;
 }

@@ -162,7 +162,10 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
     is_in = false;
     emit(EventKind::LeftJoint, now.held[hand], portal, 0.0);
   }
-  if (deep < 0.0) portal = kNoPortal;
+  if (deep < 0.0) {
+    portal = kNoPortal;
+    is_in = false;
+  }
 }
 
 /// Whether nothing stands before the point: the line of sight stays in the joint and out of bone.
@@ -308,6 +311,7 @@ std::optional<arthroscopy::Sight> World::State::sight_of(const Model& model,
 void World::State::watch_scopes(const Model& model) noexcept {
   if (model.map == nullptr) return;
   detail::ScopeState& state = scope_state;
+  bool looks_in = false;
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr || !enters_joints(model, *item)) {
@@ -326,6 +330,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
     if (force > kInjuryN) ++state.injury_ticks;
     state.most_force_n = std::max(state.most_force_n, force);
     if (const auto sight = sight_of(model, *item)) {
+      looks_in = true;
       ++state.looking_ticks;
       if (!is_level(model, *sight)) ++state.tilted_ticks;
       look_at_points(model, joint, *sight);
@@ -334,6 +339,10 @@ void World::State::watch_scopes(const Model& model) noexcept {
     } else {
       note_probing(model, h, *item);
     }
+  }
+  if (!looks_in && state.points_in_view != 0) {  // what nobody looks at is not in view
+    state.points_in_view = 0;
+    state.in_view_ticks = {};
   }
   watch_drill(model);
 }

@@ -330,6 +330,14 @@ export class ScopeDesk {
     this.picture?.dispose();
   }
 
+  /** As the host has them: a page that comes back must not open what holds something. */
+  private takeJaws(): void {
+    for (const hand of [0, 1] as const) {
+      const isHeld = this.snapshot?.items.some((one) => one.hand === hand) ?? false;
+      this.areClosed[hand] = isHeld && this.scope?.jaws_closed[hand] === 1;
+    }
+  }
+
   /** Jaws lock: they close by one way of the driver, and open by the other. */
   private driverNow(): HandMessage["driver"] {
     if (!this.grasps) return "off";
@@ -369,6 +377,7 @@ export class ScopeDesk {
     if (this.scope !== undefined) {
       this.shaftDeg = this.scope.shaft_deg;
       this.cameraDeg = this.scope.camera_deg;
+      this.takeJaws();
     }
     this.isPlaced = true;
   }
@@ -408,12 +417,14 @@ export class ScopeDesk {
   }
 
   private lean(yaw: number, pitch: number): void {
+    this.rounds[this.moved] = []; // a hand that is led goes by itself no longer
     const held = this.hands[this.moved];
     this.hands[this.moved] = { ...held, lean: leaned(held.lean, yaw, pitch) };
     this.changed = true;
   }
 
   private advance(mm: number): void {
+    this.rounds[this.moved] = [];
     const held = this.hands[this.moved];
     const portal = this.portalNow(held.portal);
     if (portal === undefined) return;
@@ -454,9 +465,9 @@ export class ScopeDesk {
         return;
       case "next_portal": {
         const held = this.hands[this.moved];
-        // The host's word counts: a hand may be drawn farther out than the page has heard of.
+        // The host's word counts: it may have drawn the tip farther out than the page wished, or less.
         const isIn = (this.scope?.portals[this.moved] ?? "") !== "";
-        if (isIn && held.lean.depthMm > 0) {
+        if (isIn) {
           this.room.say("Draw it out of this portal first.");
           return;
         }
@@ -479,6 +490,7 @@ export class ScopeDesk {
       case "switch_hand": {
         this.keys.clear();
         this.moved = this.moved === 0 ? 1 : 0;
+        this.takeJaws();
         this.room.showHand(this.moved);
         this.changed = true;
         const isEmpty = !(snapshot?.items.some((one) => one.hand === this.moved) ?? false);

@@ -21,6 +21,7 @@ import {
   answerText,
   isDeclined,
   isFixation,
+  isRatedByAsset,
   looksIntoJoints,
   mustHaveWords,
   verdictText,
@@ -131,7 +132,7 @@ function show(
     make("section.verdict-row", {}, verdict(report), pictures),
     turning,
     table(report),
-    ...(report.is_void !== true && looksIntoJoints(report)
+    ...(report.is_void !== true && isRatedByAsset(report)
       ? [assetSection(attempt.id, { isLeft })]
       : []),
     ...(attempt.case_is_open && report.is_void !== true && isFixation(report)

@@ -14,7 +14,12 @@ export function isFixation(report: Pick<ScoreReport, "central_axis_length_mm">):
   return report.central_axis_length_mm > 0;
 }
 
-/** An arthroscopy. */
+/** An arthroscopy of a patient, not an exercise of single skills: a person can rate it. */
+export function isRatedByAsset(report: Pick<ScoreReport, "items">): boolean {
+  return looksIntoJoints(report) || report.items.some(({ id }) => id === "brought_out_share");
+}
+
+/** An arthroscopy whose cartilage was looked at. */
 export function looksIntoJoints(report: Pick<ScoreReport, "items">): boolean {
   return report.items.some(({ id }) => id === "cartilage_seen_share");
 }
