@@ -17,7 +17,6 @@ using cases::LesionLook;
 
 constexpr std::uint64_t kStream = 0x7B3;  // apart from other draws of the same seed
 constexpr double kAsideMm = 1.5;          // of the place [E]
-constexpr double kSunkShare = 0.9;        // of its radius it lies above the wall
 
 /// What an examination asks of it.
 std::uint8_t finding_of_loose() {
@@ -66,7 +65,7 @@ cases::JointLesions make_loose_bodies(const cases::CaseData& data,
     body.radius_mm = rng.uniform(choice.radius_mm[0], choice.radius_mm[1]);
     const Vec3 on_wall =
         near.is_inside_grid ? place.at + aside - body.outwards * near.distance_mm : place.at;
-    body.from = body.to = on_wall - body.outwards * (body.radius_mm * kSunkShare);
+    body.from = body.to = on_wall - body.outwards * (body.radius_mm * kLiesAboveShare);
     made.lesions.push_back(body);
     made.grades[finding] = 1;
   }

@@ -15,13 +15,17 @@
 
 namespace carpus::arthroscopy {
 
+/// Of its radius a body's middle lies above the wall on which it rests [E].
+inline constexpr double kLiesAboveShare = 0.9;
+
 struct LooseBodyChoice {
   std::array<std::uint8_t, 2> bodies{};  ///< least and most
-  std::array<double, 2> radius_mm{};     ///< least and most
+  std::array<double, 2> radius_mm{};     ///< least and most [mm]
   std::span<const std::uint8_t> places;  ///< of the tour, by their numbers
 };
 
-/// Fewer where the case lacks the places, none where it lacks all of them.
+/// Places in frame Patient as scanned [mm], on the walls of the map's joints. Fewer where the case
+/// lacks the places, none where it lacks all of them.
 [[nodiscard]] cases::JointLesions make_loose_bodies(const cases::CaseData& data,
                                                     const cases::ArthroscopicMap& map,
                                                     const LooseBodyChoice& choice,

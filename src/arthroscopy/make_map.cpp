@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Landmark by the radius's own surface -> skin mark by the table -> of the ways in near there,
-// which cut no nerve, artery or tendon where there is such a one, that with most room between the
-// pulled bones -> depth of the capsule by the joint's space. Points: bone of the joint's wall, a
-// ligament's course, the disc's middle.
+// clear of nerves and arteries where there is such a one, that of most worth: room between the
+// pulled bones, less what it costs in tendon, off the mark and past what lies ahead -> depth of the
+// capsule by the joint's space. Points: bone of the joint's wall, a ligament's course, the disc.
 #include "arthroscopy/make_map.hpp"
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "arthroscopy/make_loose_bodies.hpp"
 #include "core/units.hpp"
 
 namespace carpus::simulation::detail {
@@ -17,7 +18,6 @@ constexpr double kTakesUpS = 0.03;       // drag of a millimetre of cartilage in
 constexpr double kSinksMmPerS = 30.0;    // ... 10 % heavier [E]
 constexpr double kFriction = 0.5;        // on wet cartilage with synovium on it [E]
 constexpr double kCreepMmPerS = 1.0;     // slower it comes to rest
-constexpr double kSunkShare = 0.9;       // of its radius it lies above the wall
 constexpr double kTouchMm = 0.02;        // so near to the wall it lies on it
 constexpr double kFarthestBackMm = 0.1;  // a tick
 constexpr double kPushedPerS = 10.0;     // of what a rod overlaps it becomes speed
@@ -45,7 +45,7 @@ bool is_possible(const LooseState& state, std::size_t count, std::size_t portals
 void drift(LooseBody& body, double radius_mm, const LooseSurroundings& around) noexcept {
   const Vec3 drive = (around.flow + around.down * kSinksMmPerS) / kTakesUpS;
   body.velocity += (drive - body.velocity / kTakesUpS) * kTickSeconds;
-  const double deep = around.wall_mm + radius_mm * kSunkShare;
+  const double deep = around.wall_mm + radius_mm * arthroscopy::kLiesAboveShare;
   if (around.has_wall && deep > -kTouchMm) {
     const Vec3& out = around.outwards;
     const double into = dot(body.velocity, out);
