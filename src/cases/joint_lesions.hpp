@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cases/tissue_piece.hpp"
 #include "geometry/vec3.hpp"
 
 namespace carpus::cases {
@@ -61,6 +62,7 @@ inline constexpr std::size_t kMaxLesions = 24;
 struct JointLesions {
   Grades grades{};  ///< the truth
   std::vector<Lesion> lesions;
+  std::vector<TissuePiece> pieces;  ///< for a shaver
   /// By body, by how much it stands off where the hand's motion has it, at full traction [mm].
   std::vector<Vec3> shifts;
   double full_traction_n = 0;  ///< from which on it is that much; less below in proportion

@@ -79,6 +79,12 @@ struct Optic {
   double field_deg = 80.0;       ///< across its round picture
 };
 
+/// Of a shaver: where it cuts while it is driven forward. It lies on the shaft's side.
+struct Mouth {
+  double behind_mm = 1.0;  ///< its middle behind the tip
+  double reach_mm = 1.0;   ///< so near to there it draws tissue in
+};
+
 struct Instrument {
   std::string id;                         ///< stable, snake_case: "guide_wire", "acutrak_2_mini_24"
   std::string name;                       ///< for people: "Guide wire 1.14 mm"
@@ -99,6 +105,7 @@ struct Instrument {
   bool is_joystick = false;         ///< a fragment goes where a hand takes it by this
   bool enters_joints = false;       ///< through a portal, where it pivots; nowhere else
   bool has_jaws = false;            ///< which close driven forward, and open in reverse: it grasps
+  std::optional<Mouth> mouth;       ///< of a shaver
   std::optional<Optic> optic;       ///< of a scope
   bool is_double_pointed = false;   ///< may be held and drawn by either end
   double gauge_step_mm = 0.0;       ///< of its scale

@@ -270,6 +270,11 @@ Instrument read_instrument(JsonFields& fields, const Holders& holders) {
   instrument.is_joystick = fields.boolean_or("joystick", false);
   instrument.enters_joints = fields.boolean_or("enters_joints", false);
   instrument.has_jaws = fields.boolean_or("jaws", false);
+  if (fields.has("mouth")) {
+    JsonFields mouth = fields.object("mouth");
+    instrument.mouth = Mouth{mouth.number("behind_mm", 0, 10), mouth.number("reach_mm", 0.1, 5)};
+    mouth.refuse_unknown_fields();
+  }
   if (fields.has("optic")) {
     JsonFields optic = fields.object("optic");
     instrument.optic =

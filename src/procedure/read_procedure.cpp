@@ -9,6 +9,7 @@
 #include "procedure/detail/read_loose_removal.hpp"
 #include "procedure/detail/read_scope_drill.hpp"
 #include "procedure/detail/read_score_rules.hpp"
+#include "procedure/detail/read_shaving.hpp"
 #include "procedure/procedure.hpp"
 
 namespace carpus::procedure {
@@ -154,6 +155,10 @@ Procedure read_procedure(std::string_view json,
   if (fields.has("removal")) {
     JsonFields removal = fields.object("removal");
     procedure.removal = detail::read_loose_removal(removal);
+  }
+  if (fields.has("shaving")) {
+    JsonFields shaving = fields.object("shaving");
+    procedure.shaving = detail::read_shaving(shaving);
   }
   procedure.judges_displacement = fields.boolean_or("judges_displacement", false);
   refuse_twins(fields, "steps", procedure.steps);

@@ -151,6 +151,15 @@ struct TurnScope {
   bool operator==(const TurnScope&) const = default;
 };
 
+/// How a shaver is turned in the hand that holds it: at 0 its mouth is towards distal.
+struct TurnMouth {
+  /// 0 to 1
+  std::int64_t hand = 0;
+  /// [deg] -180 to 180
+  double mouth_deg = 0.0;
+  bool operator==(const TurnMouth&) const = default;
+};
+
 /// The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said
 /// to be held, so say it again meanwhile.
 struct Pedal {
@@ -241,6 +250,7 @@ using PageMessage = std::variant<Hello,
                                  Tube,
                                  CArm,
                                  TurnScope,
+                                 TurnMouth,
                                  Pedal,
                                  FindDevices,
                                  UseDevice,
@@ -377,6 +387,12 @@ struct Scope {
   std::vector<LooseBody> loose;
   /// how many were brought out 0 to 4
   std::int64_t loose_out = 0;
+  /// of each of arthroscopy.pieces, in percent
+  std::vector<std::int64_t> pieces_left;
+  /// by hand: how a shaver's mouth is turned, in degrees
+  std::vector<std::int64_t> mouth_deg;
+  /// by hand: a shaver runs
+  std::vector<std::int64_t> running;
   bool operator==(const Scope&) const = default;
 };
 

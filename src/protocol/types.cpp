@@ -302,6 +302,7 @@ void read(FieldReader& in, Instrument& out) {
   out.is_gauge = in.boolean("is_gauge");
   out.is_joystick = in.boolean("is_joystick");
   out.is_sleeve = in.boolean("is_sleeve");
+  out.has_mouth = in.boolean("has_mouth");
   out.has_jaws = in.boolean("has_jaws");
   out.stays = in.boolean("stays");
   out.family = in.string("family", 64);
@@ -322,6 +323,7 @@ void write(FieldWriter& out, const Instrument& in) {
   out.value("is_gauge", in.is_gauge);
   out.value("is_joystick", in.is_joystick);
   out.value("is_sleeve", in.is_sleeve);
+  out.value("has_mouth", in.has_mouth);
   out.value("has_jaws", in.has_jaws);
   out.value("stays", in.stays);
   out.text("family", in.family, 64);
@@ -447,6 +449,28 @@ void write(FieldWriter& out, const LooseBody& in) {
   out.vec3("at_mm", in.at_mm);
 }
 
+void read(FieldReader& in, TissuePiece& out) {
+  out.kind = static_cast<TissueKind>(in.choice("kind", kTissueKindNames));
+  out.joint = in.string("joint", 32);
+  out.body = in.string("body", 32);
+  out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
+  out.inwards = in.vec3("inwards", 2.0, 0.0);
+  out.height_mm = in.number("height_mm", 0.0, 20.0);
+  out.radius_mm = in.number("radius_mm", 0.0, 20.0);
+  out.is_loose = in.boolean("is_loose");
+}
+
+void write(FieldWriter& out, const TissuePiece& in) {
+  out.name("kind", name_of(in.kind));
+  out.text("joint", in.joint, 32);
+  out.text("body", in.body, 32);
+  out.vec3("at_mm", in.at_mm);
+  out.vec3("inwards", in.inwards);
+  out.value("height_mm", in.height_mm);
+  out.value("radius_mm", in.radius_mm);
+  out.value("is_loose", in.is_loose);
+}
+
 void read(FieldReader& in, FindingGrade& out) {
   out.id = in.string("id", 16);
   out.label = in.string("label", 128);
@@ -482,6 +506,7 @@ void read(FieldReader& in, Arthroscopy& out) {
   in.records("lesions", 0, 24, out.lesions);
   in.records("findings", 0, 16, out.findings);
   if (in.has("drill")) in.record("drill", out.drill.emplace());
+  in.records("pieces", 0, 160, out.pieces);
 }
 
 void write(FieldWriter& out, const Arthroscopy& in) {
@@ -499,6 +524,7 @@ void write(FieldWriter& out, const Arthroscopy& in) {
   } else {
     out.null("drill");
   }
+  out.records("pieces", in.pieces);
 }
 
 void read(FieldReader& in, Body& out) {

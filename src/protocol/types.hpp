@@ -143,6 +143,14 @@ inline constexpr std::array<std::string_view, 3> kFaultKindNames{"screw_out", "g
   return kFaultKindNames[static_cast<std::size_t>(value)];
 }
 
+/// A tuft of synovium that stands on the joint's wall, or a place of the disc, in the order of
+/// disc_mm.
+enum class TissueKind : std::uint8_t { Synovium, Disc };
+inline constexpr std::array<std::string_view, 2> kTissueKindNames{"synovium", "disc"};
+[[nodiscard]] constexpr std::string_view name_of(TissueKind value) noexcept {
+  return kTissueKindNames[static_cast<std::size_t>(value)];
+}
+
 /// How something that is wrong in a joint shows.
 enum class LesionLook : std::uint8_t { Stain, Tear, Worn, Soft, Fissured, Frayed, Bare, Loose };
 inline constexpr std::array<std::string_view, 8> kLesionLookNames{
@@ -466,6 +474,8 @@ struct Instrument {
   bool is_joystick = false;
   /// a wire is led through its bore
   bool is_sleeve = false;
+  /// of a shaver: it cuts there while it is driven forward
+  bool has_mouth = false;
   /// they close and lock driven forward, and open in reverse
   bool has_jaws = false;
   /// let go in bone, it stays there
@@ -580,6 +590,25 @@ struct LooseBody {
   bool operator==(const LooseBody&) const = default;
 };
 
+/// What a shaver takes away as one.
+struct TissuePiece {
+  TissueKind kind = TissueKind::Synovium;
+  std::string joint;
+  /// that it goes with
+  std::string body;
+  /// on the joint's wall, as scanned
+  Vec3 at_mm;
+  /// unit, into the joint
+  Vec3 inwards;
+  /// [mm] 0 to 20
+  double height_mm = 0.0;
+  /// [mm] 0 to 20
+  double radius_mm = 0.0;
+  /// of the disc: it hangs as a flap
+  bool is_loose = false;
+  bool operator==(const TissuePiece&) const = default;
+};
+
 /// One answer of several.
 struct FindingGrade {
   std::string id;
@@ -618,6 +647,8 @@ struct Arthroscopy {
   std::vector<Finding> findings;
   /// of a procedure of exercises
   std::optional<ScopeDrill> drill;
+  /// for a shaver, to be drawn and not to be told; see `scope`
+  std::vector<TissuePiece> pieces;
   bool operator==(const Arthroscopy&) const = default;
 };
 

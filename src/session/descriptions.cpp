@@ -54,6 +54,7 @@ protocol::Instrument message_of(const instruments::Instrument& instrument) {
   message.is_joystick = instrument.is_joystick;
   message.is_sleeve = instrument.is_sleeve;
   message.has_jaws = instrument.has_jaws;
+  message.has_mouth = instrument.mouth.has_value();
   message.stays = instrument.stays;
   message.family = instrument.family;
   message.tip_diameter_mm = instrument.tip_diameter_mm;

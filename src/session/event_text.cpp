@@ -35,6 +35,12 @@ std::string instrument_name(std::int64_t index) {
 constexpr std::string_view kShaftUnderSkin =
     "The shaft lies under the skin where a hand would hold it: turn it until it comes from outside";
 
+/// By what the event says.
+constexpr std::array<const char*, 3> kRanAgainst{
+    " runs against what lines the joint: turn its mouth away or let the pedal go",
+    " runs against cartilage: turn its mouth away or let the pedal go",
+    " runs against the scope: its lens would be cut"};
+
 class Sentence {
  public:
   Sentence(const simulation::Event& event,
@@ -113,6 +119,11 @@ class Sentence {
         return "A loose body is out";
       case EventKind::TissueBitten:
         return subject() + " closed on what lines the joint";
+      case EventKind::ShaverHarmed:
+        return subject() + kRanAgainst[std::min<std::size_t>(place(), kRanAgainst.size() - 1)];
+      case EventKind::SoundTissueShaved:
+        return event_.detail == 1 ? "The disc's rim is cut: it must stay for the wrist to be stable"
+                                  : "Sound disc came off";
       case EventKind::None:
         break;
     }

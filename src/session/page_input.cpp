@@ -182,6 +182,14 @@ Command command_of(const protocol::TurnScope& message) noexcept {
   return command;
 }
 
+Command command_of(const protocol::TurnMouth& message) noexcept {
+  Command command;
+  command.kind = CommandKind::TurnMouth;
+  command.hand = static_cast<std::uint8_t>(message.hand);
+  command.rotation_deg = message.mouth_deg;
+  return command;
+}
+
 Result<Command> command_of(const protocol::Answer& message) {
   const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
   for (std::size_t f = 0; f < table.findings.size(); ++f) {

@@ -40,6 +40,19 @@ void add_lesions(protocol::Arthroscopy& message,
   }
 }
 
+/// What is loose of the disc is to be seen, what of it is rim is not.
+void add_pieces(protocol::Arthroscopy& message,
+                const cases::JointLesions& wrong,
+                const cases::ArthroscopicMap& map,
+                const BodyNames& names) {
+  for (const cases::TissuePiece& piece : wrong.pieces) {
+    const bool is_loose = piece.kind == cases::TissueKind::Disc && piece.is_ill;
+    message.pieces.push_back({static_cast<protocol::TissueKind>(piece.kind),
+                              map.joints[piece.joint].id, names.name(piece.body), piece.at,
+                              piece.inwards, piece.height_mm, piece.radius_mm, is_loose});
+  }
+}
+
 /// What is asked of an examination.
 void add_questions(protocol::Arthroscopy& message) {
   const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
@@ -107,6 +120,14 @@ protocol::ScopeDrill drill_of(const cases::ArthroscopicMap& map,
   return message;
 }
 
+void add_shaving(protocol::Scope& message, const simulation::ScopeView& scope) {
+  if (scope.piece_count == 0) return;
+  message.pieces_left.assign(scope.pieces_left.begin(),
+                             scope.pieces_left.begin() + scope.piece_count);
+  for (const double deg : scope.mouth_deg) message.mouth_deg.push_back(std::llround(deg));
+  for (const bool runs : scope.are_running) message.running.push_back(runs ? 1 : 0);
+}
+
 /// What is wrong with the picture an assessed hand is to see by itself.
 protocol::DrillState drill_state_of(const simulation::Snapshot& now,
                                     const procedure::ScopeDrill& drill) {
@@ -155,7 +176,10 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
                               names.name(point.body)});
   }
   const std::optional<cases::JointLesions> wrong = simulation::lesions_of(data, procedure, seed);
-  if (wrong) add_lesions(message, *wrong, *data.arthroscopy, names);
+  if (wrong) {
+    add_lesions(message, *wrong, *data.arthroscopy, names);
+    add_pieces(message, *wrong, *data.arthroscopy, names);
+  }
   if (procedure.examines) add_questions(message);
   if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);
   message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong ? &*wrong : nullptr).rest();
@@ -193,6 +217,7 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
                              rounded(body.at_in_patient)});
   }
   message.loose_out = scope.facts.loose.out;
+  add_shaving(message, scope);
   for (const std::uint8_t grade : scope.answers) {
     message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
   }

@@ -44,8 +44,9 @@ enum class CommandKind : std::uint8_t {
   ReturnToStep = 15,
   /// `index`: which procedure::Judgement of the fracture; before anything is drilled.
   Judge = 16,
+  TurnMouth = 17,  ///< the shaver in `hand` is turned, its mouth with it, to `rotation_deg`
 };
-inline constexpr std::uint8_t kCommandKinds = 17;
+inline constexpr std::uint8_t kCommandKinds = 18;
 
 /// After it the state is not one that follows from the tick before.
 [[nodiscard]] constexpr bool goes_back(CommandKind kind) noexcept {

@@ -4,6 +4,7 @@
 
 #include "arthroscopy/make_lesions.hpp"
 #include "arthroscopy/make_loose_bodies.hpp"
+#include "arthroscopy/make_pieces.hpp"
 
 namespace carpus::simulation {
 
@@ -19,6 +20,16 @@ std::optional<cases::JointLesions> lesions_of(const cases::CaseData& data,
   if (const auto& removal = procedure.removal) {
     return arthroscopy::make_loose_bodies(
         data, map, {removal->bodies, removal->radius_mm, removal->places}, seed);
+  }
+  if (const auto& shaving = procedure.shaving) {
+    if (const auto& synovium = shaving->synovium) {
+      return arthroscopy::make_synovitis(
+          data, map, {synovium->patches, synovium->tufts, synovium->places}, seed);
+    }
+    if (const auto& disc = shaving->disc) {
+      return arthroscopy::make_torn_disc(data, map, {disc->tears, disc->frayed_mm, disc->rim_mm},
+                                         seed);
+    }
   }
   return std::nullopt;
 }

@@ -207,6 +207,15 @@ Refusal why_not(const procedure::Procedure& procedure,
       if (!is_turn) return Refusal::UnknownCommand;
       return now.scope.hand < kHands ? Refusal::None : Refusal::NothingInHand;
     }
+    case CommandKind::TurnMouth: {
+      if (!(command.rotation_deg >= -180.0 && command.rotation_deg <= 180.0)) {
+        return Refusal::UnknownCommand;
+      }
+      const std::uint8_t item = now.hands[command.hand].item;
+      const bool has_mouth =
+          item < kMaxItems && instruments::catalogue()[now.items[item].instrument].mouth;
+      return has_mouth ? Refusal::None : Refusal::NothingInHand;
+    }
     case CommandKind::SetTube:
       return command.index < procedure::kTubeSettings ? Refusal::None : Refusal::UnknownCommand;
     case CommandKind::Finish:

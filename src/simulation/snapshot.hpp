@@ -105,6 +105,11 @@ struct ScopeView {
   std::array<LooseView, procedure::kMaxLooseBodies> loose{};
   std::uint8_t loose_count = 0;
   std::array<bool, kHands> are_closed{};  ///< jaws, by hand
+  /// Of what a shaver takes away, in the order of World::lesions: of each so many percent are left.
+  std::array<std::uint8_t, cases::kMaxPieces> pieces_left{};
+  std::uint8_t piece_count = 0;
+  std::array<double, kHands> mouth_deg{};  ///< of a shaver, by hand
+  std::array<bool, kHands> are_running{};
   bool operator==(const ScopeView&) const = default;
 };
 
@@ -155,6 +160,9 @@ enum class EventKind : std::uint8_t {
   LooseLost = 30,     ///< it sprang from them, or was stripped off in the way; detail: which
   LooseOut = 31,      ///< it is out of the skin; detail: which
   TissueBitten = 32,  ///< jaws closed on what lines the joint
+  /// A shaver ran against what is to stay; detail: 0 lining, 1 cartilage, 2 the scope
+  ShaverHarmed = 33,
+  SoundTissueShaved = 34,  ///< a piece that was to stay came off; detail: 1 of the disc's rim
 };
 
 struct Event {

@@ -112,6 +112,8 @@ World::State::State(const Model& model)
   scene.set_cuts(tissue.cuts().fields());
   disc.reset(model.disc);
   loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
+  shaving_state = detail::untouched(model.pieces());
+  cut_disc_as_shaved(model);
 }
 
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
@@ -233,6 +235,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   watch_structures(model);
   watch_scopes(model);
   move_loose_bodies(model);
+  run_shavers(model);
   tick_off_steps(model);
   if (is_finishing) {
     spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);

@@ -322,6 +322,8 @@ void ScriptedArthroscopist::plan() {
     plan_drill(*procedure_.drill);
   } else if (procedure_.removal) {
     plan_removal();
+  } else if (procedure_.shaving) {
+    plan_shaving();
   } else {
     plan_tour();
   }
@@ -445,6 +447,10 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     using simulation::Driver;
     if (procedure_.removal) {
       input.hands[kProbe].driver = are_closed_ ? Driver::Forward : Driver::Reverse;
+    } else if (procedure_.shaving) {
+      // In the way in only a hasty foot presses.
+      const bool may = now.scope.facts.is_in_joint[kProbe] || skill_.hasty > 0.5;
+      input.hands[kProbe].driver = are_closed_ && may ? Driver::Forward : Driver::Off;
     }
   };
   if (!has_planned_) {
@@ -490,6 +496,10 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
   } else if (task.finishes) {
     input.command.kind = CommandKind::Finish;
     is_finished_ = true;
+  } else if (task.turns_mouth && in_task_ == 1) {
+    input.command.kind = CommandKind::TurnMouth;
+    input.command.hand = task.hand;
+    input.command.rotation_deg = wrapped(task.mouth_deg);
   } else if (task.turns && now.tick % kTurnEvery == 0) {
     const double left = wrapped(task.shaft_turn_deg - turn_deg_);
     const double most = kTurnDegPerTick * static_cast<double>(kTurnEvery);
@@ -502,7 +512,9 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
   }
   const bool is_turned = !task.turns || std::abs(wrapped(task.shaft_turn_deg - turn_deg_)) < 0.1;
   if (!is_turned && in_task_ > move_ticks_) in_task_ = move_ticks_;  // the turn is waited for
-  if (in_task_ >= move_ticks_ + task.dwell && is_turned) {
+  const bool is_cut =
+      task.until_gone >= 0 && now.scope.pieces_left[static_cast<std::size_t>(task.until_gone)] == 0;
+  if (is_cut || (in_task_ >= move_ticks_ + task.dwell && is_turned)) {
     ++at_;
     in_task_ = 0;
   }

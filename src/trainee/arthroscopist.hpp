@@ -90,6 +90,9 @@ class ScriptedArthroscopist {
     Jaws jaws = Jaws::AsTheyAre;
     bool seeks = false;           ///< what to do next is found out once it is begun
     double speed_mm_per_s = 0.0;  ///< 0: the usual
+    bool turns_mouth = false;     ///< of a shaver, to `mouth_deg`
+    double mouth_deg = 0.0;
+    int until_gone = -1;  ///< this piece of tissue; it goes on at once then
   };
   struct View {
     Vec3 tip;
@@ -143,6 +146,15 @@ class ScriptedArthroscopist {
   void plan_another_look(const simulation::Snapshot& now);
   [[nodiscard]] const simulation::LooseView* next_to_catch(const simulation::Snapshot& now) const;
   void go_on_seeking();
+
+  // shaving_plan.cpp
+  void plan_shaving();
+  void seek_to_cut(const simulation::Snapshot& now);
+  void plan_cut(std::size_t piece);
+  [[nodiscard]] std::size_t next_to_cut(const simulation::Snapshot& now) const;
+  [[nodiscard]] Vec3 piece_at(std::size_t piece) const;
+  [[nodiscard]] Vec3 out_of_joint(std::size_t piece) const;
+  [[nodiscard]] double mouth_turn_deg(const HandPose& held, const Vec3& towards) const;
 
   [[nodiscard]] Vec3 place_of(std::size_t point) const;
   [[nodiscard]] HandPose hole(std::uint8_t portal) const;
@@ -206,6 +218,11 @@ class ScriptedArthroscopist {
   int looks_ = 0;
   int brought_ = 0;  ///< tried to bring out, so often
   std::uint8_t out_when_looked_ = 0;
+  // Of shaving.
+  std::array<std::uint8_t, cases::kMaxPieces> cut_tries_{};
+  std::uint8_t last_patch_ = cases::kMaxPatches;
+  Vec3 last_cut_{};
+  Vec3 watched_{};         ///< what the scope was led to
   bool is_over_ = false;   ///< the open jaws were brought over a body ...
   std::uint8_t over_ = 0;  ///< ... this one
 };

@@ -88,6 +88,11 @@ void ScriptedArthroscopist::seek(const simulation::Snapshot& now) {
   const std::vector<Task> after(from + 1, tasks_.end());
   tasks_.erase(from, tasks_.end());
   planned_[kScope] = hands_[kScope].tip;
+  if (procedure_.shaving) {
+    seek_to_cut(now);
+    tasks_.insert(tasks_.end(), after.begin(), after.end());
+    return;
+  }
   const auto& loose = now.scope.loose;
   const bool has_one = std::any_of(loose.begin(), loose.begin() + now.scope.loose_count,
                                    [](const auto& body) { return body.hand == kProbe; });

@@ -135,6 +135,13 @@ void NetState::reset(const Net& net) noexcept {
   is_still_ = true;
 }
 
+void NetState::cut(const Net& net, std::size_t i) noexcept {
+  if (i >= net.size()) return;
+  is_cut_[i] = true;
+  at_[i] = net.rest_[i];
+  velocity_[i] = {};
+}
+
 void NetState::step(const Net& net, std::span<const Tip> tips) noexcept {
   force_ = {};
   const bool is_touched =
@@ -173,6 +180,7 @@ void NetState::small_step(const Net& net, std::span<const Tip> tips, double h) n
   }
   const double per_h2 = 1.0 / (h * h);
   for (const Net::Spring& spring : net.springs_) {
+    if (is_cut_[spring.a] || is_cut_[spring.b]) continue;
     const double wa = net.is_held_[spring.a] ? 0.0 : w;
     const double wb = net.is_held_[spring.b] ? 0.0 : w;
     const Vec3 way = at_[spring.b] - at_[spring.a];
@@ -192,7 +200,7 @@ void NetState::small_step(const Net& net, std::span<const Tip> tips, double h) n
     const Tip& tip = tips[t];
     if (!tip.is_there) continue;
     if (tip.hooked < net.size()) {
-      if (net.is_held_[tip.hooked]) continue;
+      if (net.is_held_[tip.hooked] || is_cut_[tip.hooked]) continue;
       const Vec3 off = at_[tip.hooked] - tip.at;
       const double by = 1.0 / (1.0 + kHookCompliance * per_h2 / w);
       at_[tip.hooked] -= off * by;
@@ -201,7 +209,7 @@ void NetState::small_step(const Net& net, std::span<const Tip> tips, double h) n
     }
     const double r2 = tip.radius_mm * tip.radius_mm;
     for (std::size_t i = 0; i < net.size(); ++i) {
-      if (net.is_held_[i]) continue;
+      if (net.is_held_[i] || is_cut_[i]) continue;
       const Vec3 off = at_[i] - tip.at;
       const double high = dot(off, net.normals_[i]);
       const double aside2 = squared_length(off) - high * high;
@@ -225,6 +233,7 @@ void NetState::small_step(const Net& net, std::span<const Tip> tips, double h) n
 double NetState::energy_n_mm(const Net& net) const noexcept {
   double springs = 0;
   for (const Net::Spring& spring : net.springs_) {
+    if (is_cut_[spring.a] || is_cut_[spring.b]) continue;
     const double longer = distance(at_[spring.a], at_[spring.b]) - spring.rest_mm;
     springs += longer * longer / spring.compliance_mm_per_n;
   }

@@ -92,6 +92,10 @@ class NetState {
   void reset(const Net& net) noexcept;
   /// One tick of 1 ms. Real-time: no allocation, bounded.
   void step(const Net& net, std::span<const Tip> tips) noexcept;
+  /// A particle is taken out for good, and the springs that it held with it. What is left is joined
+  /// as before: a hole. Is no part of visit(): whoever reads a state back cuts again.
+  void cut(const Net& net, std::size_t i) noexcept;
+  [[nodiscard]] bool is_cut(std::size_t i) const noexcept { return is_cut_[i]; }
   /// With which the tissue pushes a tip away, of the last tick [N].
   [[nodiscard]] Vec3 force_on(std::size_t tip) const noexcept { return force_[tip]; }
   /// Of springs and motion [N mm]: what would be left without tips.
@@ -117,6 +121,7 @@ class NetState {
   std::array<Vec3, kMaxParticles> start_{};  ///< of the tick
   std::array<Vec3, kMaxParticles> start_velocity_{};
   std::array<Vec3, kTips> force_{};
+  std::array<bool, kMaxParticles> is_cut_{};
   bool is_still_ = true;
 };
 

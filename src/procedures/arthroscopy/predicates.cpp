@@ -66,7 +66,8 @@ bool is_scope_in(const Situation& now) noexcept {
 bool is_probe_in(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, false, [](std::uint8_t by) { return by != kPortal34; });
 }
-bool is_grasper_in(const Situation& now) noexcept {
+/// Something works beside the scope.
+bool is_tool_in(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, false, [](std::uint8_t) { return true; });
 }
 bool is_scope_ulnar(const Situation& now) noexcept {
@@ -107,6 +108,12 @@ bool has_looked_again(const Situation& now) noexcept {
   constexpr int kPlaces = 5;
   return now.scope.loose.out > 0 && std::popcount(now.scope.loose.seen_since) >= kPlaces;
 }
+bool has_seen_patch(const Situation& now) noexcept { return now.scope.shaving.patches_seen != 0; }
+bool has_cut_ill(const Situation& now) noexcept { return now.scope.shaving.ill_removed > 0; }
+bool has_looked_at_cut(const Situation& now) noexcept {
+  constexpr int kPlaces = 5;
+  return has_cut_ill(now) && std::popcount(now.scope.shaving.seen_since) >= kPlaces;
+}
 bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
 
 }  // namespace
@@ -116,7 +123,8 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"is_pulled", is_pulled},
       NamedPredicate{"is_scope_in", is_scope_in},
       NamedPredicate{"is_probe_in", is_probe_in},
-      NamedPredicate{"is_grasper_in", is_grasper_in},
+      NamedPredicate{"is_grasper_in", is_tool_in},
+      NamedPredicate{"is_shaver_in", is_tool_in},
       NamedPredicate{"has_seen_radial", has_seen<1, 2, 3>},
       NamedPredicate{"has_seen_scapholunate", has_seen<7>},
       NamedPredicate{"has_seen_lunate", has_seen<8, 10>},
@@ -139,6 +147,9 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"has_caught_one", has_caught_one},
       NamedPredicate{"has_brought_one_out", has_brought_one_out},
       NamedPredicate{"has_looked_again", has_looked_again},
+      NamedPredicate{"has_seen_patch", has_seen_patch},
+      NamedPredicate{"has_cut_ill", has_cut_ill},
+      NamedPredicate{"has_looked_at_cut", has_looked_at_cut},
       NamedPredicate{"is_finishing", is_finishing}};
   return kPredicates;
 }

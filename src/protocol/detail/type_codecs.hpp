@@ -77,6 +77,9 @@ void write(FieldWriter& out, const DrillState& in);
 void read(FieldReader& in, LooseBody& out);
 void write(FieldWriter& out, const LooseBody& in);
 
+void read(FieldReader& in, TissuePiece& out);
+void write(FieldWriter& out, const TissuePiece& in);
+
 void read(FieldReader& in, FindingGrade& out);
 void write(FieldWriter& out, const FindingGrade& in);
 

@@ -57,6 +57,9 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       scope_state.shaft_turn_deg = command.rotation_deg;
       scope_state.camera_turn_deg = command.tilt_deg;
       return;
+    case CommandKind::TurnMouth:
+      shaving_state.mouth_deg[command.hand] = command.rotation_deg;
+      return;
     case CommandKind::Decline:
       spent.ended = static_cast<std::uint8_t>(command.index << 1U);
       is_finishing = true;

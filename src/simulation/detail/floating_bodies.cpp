@@ -40,16 +40,15 @@ Vec3 World::State::lesion_middle(const Model& model, std::size_t lesion) const n
   return (poses[at.body] * Point<frame::Bone>{middle}).v;
 }
 
-/// Whether what the jaws of this hand close on is seen by the scope in the other.
-bool World::State::is_tip_seen(const Model& model, std::uint8_t hand) noexcept {
+/// Whether the scope in the other hand sees a place in the joint of this one.
+bool World::State::is_seen_beside(const Model& model, std::uint8_t hand, const Vec3& at) noexcept {
   const auto other = static_cast<std::uint8_t>(1U - hand);
   const Item* scope = in_hand(other);
-  const Item* item = in_hand(hand);
-  if (scope == nullptr || item == nullptr || !scope_state.is_in_joint[other]) return false;
+  if (scope == nullptr || !scope_state.is_in_joint[other]) return false;
   const std::uint8_t joint = model.map->portals[scope_state.portal[other]].joint;
   if (joint != model.map->portals[scope_state.portal[hand]].joint) return false;
   const auto sight = sight_of(model, *scope);
-  return sight && sees(model, joint, *sight, item->tip);
+  return sight && sees(model, joint, *sight, at);
 }
 
 void World::State::watch_jaws(const Model& model, std::uint8_t hand) noexcept {
@@ -86,7 +85,7 @@ void World::State::let_go_of_loose(const Model& model, std::size_t which) noexce
 void World::State::close_jaws(const Model& model, std::uint8_t hand, const Item& item) noexcept {
   procedure::LooseFacts& done = loose_state.done;
   ++done.closings;
-  if (!is_tip_seen(model, hand)) ++done.unseen_closings;
+  if (!is_seen_beside(model, hand, item.tip)) ++done.unseen_closings;
   const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
   const Vec3 mouth = item.tip + item.shaft * kMouthMm;
   std::size_t nearest = kMaxLooseBodies;

@@ -102,6 +102,7 @@ World::State::Wall World::State::wall_at(const Model& model,
   if (space.is_near && space.distance_mm <= kWallMm + gives) return {};
   const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
   if (is_in_hole(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
+  if (is_in_cut_disc(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
   const Vec3 aside = tip - way.skin - way.inwards * deep;
@@ -182,7 +183,7 @@ bool World::State::is_in_sight(const Model& model,
     const Touched bone = surface_at(at);
     if (bone.body != kNoBody && bone.distance_mm < -kHiddenMm) return false;
   }
-  return true;
+  return !is_behind_tuft(model, joint, eye, point);
 }
 
 /// One of the points a tick: all of them many times a second. Those of another joint are not seen.
@@ -362,6 +363,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.unanswered = unanswered(model);
   facts.drill = drill_state.done;
   facts.loose = loose_facts(model);
+  facts.shaving = shaving_state.done;
   return facts;
 }
 
@@ -408,6 +410,7 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.line_share = drill_state.line_share;
   view.is_probe_seen = drill_state.is_probe_seen;
   publish_loose(model);
+  publish_shaving(model);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

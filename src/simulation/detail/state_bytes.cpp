@@ -76,6 +76,7 @@ std::vector<std::byte> World::write_state() const {
     }
     if (model_->procedure.drill) visit(state.drill_state, fields);
     if (model_->float_count > 0) visit(state.loose_state, fields);
+    if (!model_->pieces().empty()) visit(state.shaving_state, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -111,6 +112,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   yielding::NetState disc;
   detail::DrillState drill;
   detail::LooseState loose;
+  detail::ShavingState shaving;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -127,6 +129,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
       visit(loose, fields);
       is_sound =
           is_sound && detail::is_possible(loose, model_->float_count, model_->map->portals.size());
+    }
+    if (!model_->pieces().empty()) {
+      visit(shaving, fields);
+      is_sound = is_sound && detail::is_possible(shaving, model_->pieces());
     }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
@@ -146,7 +152,9 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->scope_state = scope;
   next->drill_state = drill;
   next->loose_state = loose;
+  next->shaving_state = shaving;
   if (model_->map != nullptr) next->disc = disc;
+  next->cut_disc_as_shaved(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);

@@ -25,6 +25,7 @@
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
+#include "simulation/detail/shaving.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
 #include "simulation/permission.hpp"
@@ -62,6 +63,8 @@ struct World::Model {
   yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
   std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
   detail::DrillPlan drill;                          ///< of a procedure that declares one
+  /// What a shaver takes away; none of most procedures.
+  [[nodiscard]] std::span<const cases::TissuePiece> pieces() const noexcept;
 };
 
 /// Everything that changes.
@@ -74,6 +77,7 @@ struct World::State {
   detail::ScopeState scope_state;
   detail::DrillState drill_state;
   detail::LooseState loose_state;
+  detail::ShavingState shaving_state;
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
@@ -341,9 +345,42 @@ struct World::State {
   [[nodiscard]] double radius_of(const Model& model, std::size_t loose) const noexcept;
   void float_loose(const Model& model, std::size_t which) noexcept;
   void publish_loose(const Model& model) noexcept;
-  [[nodiscard]] bool is_tip_seen(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] bool is_seen_beside(const Model& model, std::uint8_t hand, const Vec3& at) noexcept;
   [[nodiscard]] Vec3 lesion_middle(const Model& model, std::size_t lesion) const noexcept;
   [[nodiscard]] procedure::LooseFacts loose_facts(const Model& model) const noexcept;
+
+  // shavers.cpp
+  struct PieceNow {
+    Vec3 at;  ///< Patient, on the joint's wall
+    Vec3 inwards;
+    double height_mm = 0.0;
+  };
+  void run_shavers(const Model& model) noexcept;
+  void run_shaver(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void look_at_patches(const Model& model) noexcept;
+  [[nodiscard]] bool is_patch_seen(const Model& model,
+                                   std::uint8_t hand,
+                                   std::uint8_t patch) const noexcept;
+  void note_shaver_harm(const Model& model,
+                        std::uint8_t hand,
+                        std::uint8_t joint,
+                        const detail::MouthPlace& mouth) noexcept;
+  [[nodiscard]] PieceNow piece_now(const Model& model, std::size_t i) const noexcept;
+  [[nodiscard]] std::size_t piece_in_mouth(const Model& model,
+                                           std::uint8_t joint,
+                                           const detail::MouthPlace& mouth,
+                                           double reach_mm) const noexcept;
+  [[nodiscard]] bool is_behind_tuft(const Model& model,
+                                    std::uint8_t joint,
+                                    const Vec3& eye,
+                                    const Vec3& point) const noexcept;
+  [[nodiscard]] bool is_in_cut_disc(const Model& model,
+                                    std::uint8_t joint,
+                                    const Vec3& at,
+                                    double radius_mm) const noexcept;
+  [[nodiscard]] bool is_running(const Model& model, std::uint8_t hand) const noexcept;
+  void cut_disc_as_shaved(const Model& model) noexcept;
+  void publish_shaving(const Model& model) noexcept;
 
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;

@@ -53,6 +53,9 @@ export type ScrewPlace = "inside" | "distal" | "proximal" | "side";
 /** What is wrong with a fixation. */
 export type FaultKind = "screw_out" | "gap" | "step";
 
+/** A tuft of synovium that stands on the joint's wall, or a place of the disc, in the order of disc_mm. */
+export type TissueKind = "synovium" | "disc";
+
 /** How something that is wrong in a joint shows. */
 export type LesionLook = "stain" | "tear" | "worn" | "soft" | "fissured" | "frayed" | "bare" | "loose";
 
@@ -314,6 +317,8 @@ export interface Instrument {
   readonly is_joystick: boolean;
   /** a wire is led through its bore */
   readonly is_sleeve: boolean;
+  /** of a shaver: it cuts there while it is driven forward */
+  readonly has_mouth: boolean;
   /** they close and lock driven forward, and open in reverse */
   readonly has_jaws: boolean;
   /** let go in bone, it stays there */
@@ -420,6 +425,24 @@ export interface LooseBody {
   readonly at_mm: Vec3;
 }
 
+/** What a shaver takes away as one. */
+export interface TissuePiece {
+  readonly kind: TissueKind;
+  readonly joint: string;
+  /** that it goes with */
+  readonly body: string;
+  /** on the joint's wall, as scanned */
+  readonly at_mm: Vec3;
+  /** unit, into the joint */
+  readonly inwards: Vec3;
+  /** [mm] 0 to 20 */
+  readonly height_mm: number;
+  /** [mm] 0 to 20 */
+  readonly radius_mm: number;
+  /** of the disc: it hangs as a flap */
+  readonly is_loose: boolean;
+}
+
 /** One answer of several. */
 export interface FindingGrade {
   readonly id: string;
@@ -456,6 +479,8 @@ export interface Arthroscopy {
   readonly findings: readonly Finding[];
   /** of a procedure of exercises */
   readonly drill: ScopeDrill | null;
+  /** for a shaver, to be drawn and not to be told; see `scope` */
+  readonly pieces: readonly TissuePiece[];
 }
 
 /** A body that moves as one: a bone or a fragment. Its pose takes places as they were scanned (and as /api/scene.glb has them) to where they are now. */
@@ -976,6 +1001,15 @@ export interface TurnScopeMessage {
   readonly camera_deg: number;
 }
 
+/** How a shaver is turned in the hand that holds it: at 0 its mouth is towards distal. */
+export interface TurnMouthMessage {
+  readonly type: "turn_mouth";
+  /** 0 to 1 */
+  readonly hand: number;
+  /** [deg] -180 to 180 */
+  readonly mouth_deg: number;
+}
+
 /** The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said to be held, so say it again meanwhile. */
 export interface PedalMessage {
   readonly type: "pedal";
@@ -1062,6 +1096,7 @@ export type PageMessage =
   | TubeMessage
   | CArmMessage
   | TurnScopeMessage
+  | TurnMouthMessage
   | PedalMessage
   | FindDevicesMessage
   | UseDeviceMessage
@@ -1193,6 +1228,12 @@ export interface ScopeMessage {
   readonly loose: readonly LooseBody[];
   /** how many were brought out 0 to 4 */
   readonly loose_out: number;
+  /** of each of arthroscopy.pieces, in percent */
+  readonly pieces_left: readonly number[];
+  /** by hand: how a shaver's mouth is turned, in degrees */
+  readonly mouth_deg: readonly number[];
+  /** by hand: a shaver runs */
+  readonly running: readonly number[];
 }
 
 /** By how much the disc has yielded; comes when that changed. */

@@ -22,6 +22,7 @@ export const SCHEMA: Schema = {
     drive: { values: ["none", "powered", "by_hand"] },
     screw_place: { values: ["inside", "distal", "proximal", "side"] },
     fault_kind: { values: ["screw_out", "gap", "step"] },
+    tissue_kind: { values: ["synovium", "disc"] },
     lesion_look: { values: ["stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"] },
     device_health: { values: ["closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"] },
     calibration_step: { values: ["begin", "take", "cancel"] },
@@ -160,6 +161,7 @@ export const SCHEMA: Schema = {
       is_gauge: {"type": "boolean"},
       is_joystick: {"type": "boolean"},
       is_sleeve: {"type": "boolean"},
+      has_mouth: {"type": "boolean"},
       has_jaws: {"type": "boolean"},
       stays: {"type": "boolean"},
       family: {"type": "string", "max_length": 64},
@@ -220,6 +222,16 @@ export const SCHEMA: Schema = {
       hand: {"type": "integer", "min": -1, "max": 1},
       at_mm: {"type": "vec3", "limit": 10000},
     } },
+    tissue_piece: { fields: {
+      kind: {"type": "tissue_kind"},
+      joint: {"type": "string", "max_length": 32},
+      body: {"type": "string", "max_length": 32},
+      at_mm: {"type": "vec3", "limit": 10000},
+      inwards: {"type": "vec3", "limit": 2},
+      height_mm: {"type": "number", "min": 0, "max": 20},
+      radius_mm: {"type": "number", "min": 0, "max": 20},
+      is_loose: {"type": "boolean"},
+    } },
     finding_grade: { fields: {
       id: {"type": "string", "max_length": 16},
       label: {"type": "string", "max_length": 128},
@@ -241,6 +253,7 @@ export const SCHEMA: Schema = {
       lesions: {"type": "array", "of": {"type": "lesion"}, "max_items": 24},
       findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
       drill: {"type": "scope_drill", "optional": true},
+      pieces: {"type": "array", "of": {"type": "tissue_piece"}, "max_items": 160},
     } },
     body: { fields: {
       name: {"type": "string", "max_length": 32},
@@ -531,6 +544,10 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     shaft_deg: {"type": "number", "min": -180, "max": 180},
     camera_deg: {"type": "number", "min": -180, "max": 180},
   },
+  turn_mouth: {
+    hand: {"type": "integer", "min": 0, "max": 1},
+    mouth_deg: {"type": "number", "min": -180, "max": 180},
+  },
   pedal: {
     down: {"type": "boolean"},
   },
@@ -634,6 +651,9 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     jaws_closed: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 2},
     loose: {"type": "array", "of": {"type": "loose_body"}, "max_items": 4},
     loose_out: {"type": "integer", "min": 0, "max": 4},
+    pieces_left: {"type": "array", "of": {"type": "integer", "min": 0, "max": 100}, "max_items": 160},
+    mouth_deg: {"type": "array", "of": {"type": "integer", "min": -180, "max": 180}, "max_items": 2},
+    running: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 2},
   },
   disc: {
     off_um: {"type": "array", "of": {"type": "integer", "min": -20000, "max": 20000}, "max_items": 480},

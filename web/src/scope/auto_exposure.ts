@@ -6,7 +6,7 @@
 
 /** Grey of the round field that it goes for, 0 to 1, as shown. */
 const WANTED_GREY = 0.52;
-const LEAST = 0.22;
+const LEAST = 0.07;
 const MOST = 1.6;
 /** In so long it goes most of the way, in the logarithm [s]. */
 const SETTLES_S = 0.45;

@@ -21,6 +21,8 @@ export interface JointWall {
   pose(poses: readonly BodyPose[]): void;
   /** Places of the disc as scanned that yield. */
   setDisc(placesMm: readonly Vec3[]): void;
+  /** Which of these places a shaver has taken away, and which way is out of the joint there. */
+  cutDisc(places: readonly { readonly place: number; readonly outwards: Vec3 }[]): void;
   /** By how much they are off, three micrometres each; empty: they rest. */
   yieldDisc(offUm: readonly number[]): void;
 }
@@ -31,6 +33,8 @@ const DISC = 3;
 const PLACES = 4;
 /** ... and less, the farther its nearest is [mm]. */
 const DISC_REACH_MM = 2.5;
+/** So far under the disc the ulna's head lies [mm]. */
+const UNDER_MM = 1.7;
 
 /** @param surface  of the node, in Patient [mm]. undefined where it is no joint's wall. */
 export function jointWallOf(joint: string, surface: THREE.BufferGeometry): JointWall | undefined {
@@ -77,13 +81,23 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
   const isDisc = Array.from({ length: count }, (_, v) => Math.round(lining.getX(v)) === DISC);
   let bound: readonly Bound[] = [];
   let off: readonly number[] = [];
+  let cut: ReadonlyMap<number, Vec3> = new Map();
+  const gone = new THREE.BufferAttribute(new Float32Array(count), 1);
+  geometry.setAttribute("gone", gone);
   const yielded = new THREE.Vector3();
   /** Turned as the forearm is. */
   const addYield = (poses: readonly BodyPose[]): void => {
-    if (off.length === 0) return;
+    if (off.length === 0 && cut.size === 0) return;
     for (const { vertex, places, weights } of bound) {
       yielded.set(0, 0, 0);
       places.forEach((place, i) => {
+        const outwards = cut.get(place);
+        if (outwards !== undefined) {
+          const deep = UNDER_MM * (weights[i] ?? 0);
+          yielded.x += deep * outwards[0];
+          yielded.y += deep * outwards[1];
+          yielded.z += deep * outwards[2];
+        }
         const w = (weights[i] ?? 0) / 1000;
         yielded.x += w * (off[3 * place] ?? 0);
         yielded.y += w * (off[3 * place + 1] ?? 0);
@@ -121,6 +135,22 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
     setDisc: (placesMm) => {
       bound = placesMm.length === 0 ? [] : boundTo(rest, isDisc, placesMm);
       off = [];
+      cut = new Map();
+      gone.array.fill(0);
+      gone.needsUpdate = true;
+    },
+    cutDisc: (places) => {
+      if (places.length === cut.size) return;
+      cut = new Map(places.map(({ place, outwards }) => [place, outwards]));
+      gone.array.fill(0);
+      for (const { vertex, places: near, weights } of bound) {
+        let share = 0;
+        near.forEach((place, i) => {
+          if (cut.has(place)) share += weights[i] ?? 0;
+        });
+        gone.setX(vertex, share);
+      }
+      gone.needsUpdate = true;
     },
     yieldDisc: (offUm) => {
       off = offUm;

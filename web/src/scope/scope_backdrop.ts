@@ -4,7 +4,7 @@
 // What a scope sees behind everything: outside the skin that its lamp lights, with the portal's mark; inside
 // the joint what it came through, where the wall has its hole.
 import * as THREE from "three";
-import type { LensUniforms } from "./scope_shader";
+import { LAMP, type LensUniforms } from "./scope_shader";
 
 const VERTEX = /* glsl */ `
 varying vec2 vAt;
@@ -51,7 +51,7 @@ vec3 tract(vec3 way) {
   vec3 fat = mix(vec3(0.82, 0.50, 0.32), vec3(0.96, 0.72, 0.52), villi);
   vec3 albedo = mix(synovium, fat, smoothstep(0.52, 0.66, noise(at * 0.45 + 3.3)));
   float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(way, axis)));
-  float e = 15.0 * (cone / (kAwayMm * kAwayMm + 11.0) + 0.0032);
+  float e = ${LAMP} * (cone / (kAwayMm * kAwayMm + 11.0) + 0.0032);
   // Folds: what turns away from the light is darker.
   float fold = 0.35 + 0.65 * smoothstep(0.25, 0.75, 0.6 * soft + 0.4 * noise(at * 1.1 + 19.0));
   return albedo * (0.75 * e * fold + 0.03) * exposure;

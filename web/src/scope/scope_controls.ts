@@ -41,7 +41,12 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
   const jaws = act("Jaws", "{KeyG}", "jaws");
   jaws.classList.add("scope-jaws");
   jaws.title = "Closes the jaws, and opens them again";
-  const held = TURNS.map(([label, keys, title, motion]) => {
+  const whileDown = (
+    label: string,
+    keys: string,
+    title: string,
+    motion: ScopeMotion,
+  ): HTMLButtonElement => {
     const b = make("button", { type: "button", title }, label, keyCap(keys));
     nameShortcut(b, keys);
     whileHeld(
@@ -54,7 +59,10 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
       },
     );
     return b;
-  });
+  };
+  const held = TURNS.map((turn) => whileDown(...turn));
+  const pedal = whileDown("Pedal", "{KeyG}", "The shaver runs while it is held", { kind: "run" });
+  pedal.classList.add("scope-pedal");
   return make(
     "div.scope-controls",
     { role: "group", "aria-label": "Scope" },
@@ -64,6 +72,7 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
     act("Level", "8", "level"),
     act("Other hand", "{KeyH}", "switch_hand"),
     jaws,
+    pedal,
     act("Portal", "{KeyV}", "next_portal"),
     act("Panorama", "7", "panorama"),
     findings,

@@ -35,9 +35,9 @@ import {
 } from "./scope_hand_model";
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePicture } from "./scope_picture";
-import { DISC_JOINT, type Plan } from "./scope_plan";
-import { rodLook } from "./scope_rod";
+import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
+import { ScopeTools } from "./scope_tools";
 import "./scope.css";
 
 type HandIndex = 0 | 1;
@@ -48,6 +48,7 @@ export interface ScopeRoom {
   operates(): boolean;
   send(hand: Omit<HandMessage, "type" | "sequence">): void;
   turn(shaftDeg: number, cameraDeg: number): void;
+  turnMouth(hand: HandIndex, mouthDeg: number): void;
   take(instrument: string, hand: HandIndex): void;
   /** @param byN  more traction, or less */
   pull(byN: number): void;
@@ -94,8 +95,7 @@ export class ScopeDesk {
   ];
   /** What is left of a hand's way round the wrist to its next portal. */
   private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
-  /** By hand: the jaws, as they are wished. */
-  private readonly areClosed: [boolean, boolean] = [false, false];
+  private readonly tools = new ScopeTools();
   private moved: HandIndex = 0;
   private shaftDeg = 0;
   private cameraDeg = 0;
@@ -116,10 +116,10 @@ export class ScopeDesk {
   ) {
     this.controls = makeScopeControls({
       hold: (holder, motion) => {
-        if (this.room.operates()) this.keys.set(holder, motion);
+        if (this.room.operates()) this.press(holder, motion);
       },
       letGo: (holder) => {
-        this.keys.delete(holder);
+        this.letGo(holder);
       },
       act: (act) => {
         this.act(act);
@@ -161,7 +161,7 @@ export class ScopeDesk {
     this.hands[0] = { portal: 0, lean: OUTSIDE };
     this.hands[1] = { portal: 1, lean: OUTSIDE };
     this.rounds[0] = this.rounds[1] = [];
-    this.areClosed[0] = this.areClosed[1] = false;
+    this.tools.begin(exercise);
     this.moved = 0;
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
@@ -175,15 +175,17 @@ export class ScopeDesk {
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
-    this.picture.setLesions(
+    this.picture.setWrong(
       this.plan.lesions,
+      this.plan.pieces,
       exercise.bodies.map((one) => one.name),
     );
     this.picture.setBeads([]);
     this.findings.set(this.plan.findings);
     for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
-    this.controls.classList.toggle("grasps", this.grasps);
+    this.controls.classList.toggle("grasps", this.tools.kind === "grasper");
+    this.controls.classList.toggle("shaves", this.tools.kind === "shaver");
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.showPoints();
@@ -211,8 +213,22 @@ export class ScopeDesk {
 
   seeScope(message: ScopeMessage): void {
     const before = this.scope?.points_seen.length;
+    if (this.hasCutDisc(message)) this.cutDisc(message.pieces_left);
     this.scope = message;
     if (before !== message.points_seen.length) this.showPoints();
+  }
+
+  private hasCutDisc({ pieces_left: left }: ScopeMessage): boolean {
+    if (this.plan?.pieces[0]?.kind !== "disc") return false;
+    const before = this.scope?.pieces_left;
+    return left.some((percent, i) => percent === 0 && before?.[i] !== 0);
+  }
+
+  private cutDisc(left: readonly number[]): void {
+    const { plan } = this;
+    if (plan === undefined) return;
+    this.walls.find((one) => one.joint === DISC_JOINT)?.cutDisc(cutPlaces(plan, left));
+    this.posed.delete(DISC_JOINT);
   }
 
   seeDisc(message: DiscMessage): void {
@@ -295,12 +311,8 @@ export class ScopeDesk {
       },
       other === undefined
         ? undefined
-        : {
-            tipMm: other.tip_mm,
-            shaft: other.shaft,
-            look: rodLook(this.hasJaws(other.instrument), scope.jaws_closed[1 - scope.hand] === 1),
-          },
-      scope.loose,
+        : this.tools.rod(other, scope, portal?.up ?? plan.distal, performance.now()),
+      scope,
       Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
       isOutside ? portal : undefined,
     );
@@ -311,7 +323,7 @@ export class ScopeDesk {
     const { scope, snapshot, plan } = this;
     if (plan === undefined) return;
     const wanted = plan.portals[this.hands[0].portal]?.name ?? "";
-    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, grasps: this.grasps });
+    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, tool: this.tools.kind });
     this.showDrill(plan, scope);
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
@@ -330,22 +342,17 @@ export class ScopeDesk {
     this.picture?.dispose();
   }
 
-  /** As the host has them: a page that comes back must not open what holds something. */
-  private takeJaws(): void {
-    for (const hand of [0, 1] as const) {
-      const isHeld = this.snapshot?.items.some((one) => one.hand === hand) ?? false;
-      this.areClosed[hand] = isHeld && this.scope?.jaws_closed[hand] === 1;
-    }
+  private takeTools(): void {
+    const { snapshot } = this;
+    this.tools.take(
+      this.scope,
+      (hand) => snapshot?.items.some((one) => one.hand === hand) ?? false,
+    );
   }
 
-  /** Jaws lock: they close by one way of the driver, and open by the other. */
   private driverNow(): HandMessage["driver"] {
-    if (!this.grasps) return "off";
-    return this.areClosed[this.moved] ? "forward" : "reverse";
-  }
-
-  private hasJaws(instrument: string): boolean {
-    return this.exercise?.instruments.some((one) => one.id === instrument && one.has_jaws) ?? false;
+    const pedalIsDown = [...this.keys.values()].some((motion) => motion.kind === "run");
+    return this.tools.driver(this.moved, pedalIsDown);
   }
 
   private portalNow(index: number): PortalNow | undefined {
@@ -377,7 +384,7 @@ export class ScopeDesk {
     if (this.scope !== undefined) {
       this.shaftDeg = this.scope.shaft_deg;
       this.cameraDeg = this.scope.camera_deg;
-      this.takeJaws();
+      this.takeTools();
     }
     this.isPlaced = true;
   }
@@ -409,11 +416,23 @@ export class ScopeDesk {
         return;
       }
       case "turn_shaft":
-        this.turnBy(motion.by * TURN_DEG_PER_S * seconds, 0);
+        this.turnHeld(motion.by * TURN_DEG_PER_S * seconds);
         return;
       case "turn_camera":
         this.turnBy(0, motion.by * TURN_DEG_PER_S * seconds);
+        return;
+      case "run": // told with the hand
     }
+  }
+
+  /** The scope's shaft; or the shaver, where that is in the hand that is led. */
+  private turnHeld(deg: number): void {
+    const held = this.snapshot?.items.find((one) => one.hand === this.moved);
+    if (!this.tools.hasMouth(held?.instrument)) {
+      this.turnBy(deg, 0);
+      return;
+    }
+    this.room.turnMouth(this.moved, this.tools.turnMouth(this.moved, deg));
   }
 
   private lean(yaw: number, pitch: number): void {
@@ -451,11 +470,11 @@ export class ScopeDesk {
         return;
       case "jaws": {
         const held = snapshot?.items.find((one) => one.hand === this.moved);
-        if (held === undefined || !this.hasJaws(held.instrument)) {
+        if (held === undefined || !this.tools.hasJaws(held.instrument)) {
           this.room.say("This hand holds no grasper: take it in the other hand first.");
           return;
         }
-        this.areClosed[this.moved] = !this.areClosed[this.moved];
+        this.tools.turnJaws(this.moved);
         this.changed = true;
         return;
       }
@@ -490,7 +509,7 @@ export class ScopeDesk {
       case "switch_hand": {
         this.keys.clear();
         this.moved = this.moved === 0 ? 1 : 0;
-        this.takeJaws();
+        this.takeTools();
         this.room.showHand(this.moved);
         this.changed = true;
         const isEmpty = !(snapshot?.items.some((one) => one.hand === this.moved) ?? false);
@@ -507,17 +526,27 @@ export class ScopeDesk {
     }
   }
 
+  private press(holder: string, motion: ScopeMotion): void {
+    this.keys.set(holder, motion);
+    if (motion.kind === "run") this.changed = true;
+  }
+
+  private letGo(holder: string): void {
+    if (this.keys.get(holder)?.kind === "run") this.changed = true; // at once: a pedal is no pedal else
+    this.keys.delete(holder);
+  }
+
   private listen(signal: AbortSignal): void {
     window.addEventListener(
       "keydown",
       (event) => {
         if (!this.takesKeys(event)) return;
-        const motion = scopeMotion(event.code, event.shiftKey);
+        const motion = this.motionOf(event.code, event.shiftKey);
         const act = this.actOf(event.code);
         if (motion === undefined && act === undefined) return;
         event.preventDefault();
         event.stopImmediatePropagation();
-        if (motion !== undefined) this.keys.set(event.code, motion);
+        if (motion !== undefined) this.press(event.code, motion);
         else if (act !== undefined && !event.repeat) this.act(act);
       },
       { signal, capture: true },
@@ -525,7 +554,7 @@ export class ScopeDesk {
     window.addEventListener(
       "keyup",
       (event) => {
-        this.keys.delete(event.code);
+        this.letGo(event.code);
       },
       { signal, capture: true },
     );
@@ -539,14 +568,15 @@ export class ScopeDesk {
     this.listenToMouse(signal);
   }
 
-  /** Jaws are the scope's business only where there are some. */
+  /** One key: jaws go by one press, a pedal is held down. */
   private actOf(code: string): ScopeAct | undefined {
     const act = scopeAct(code);
-    return act === "jaws" && !this.grasps ? undefined : act;
+    return act === "jaws" && this.tools.kind !== "grasper" ? undefined : act;
   }
 
-  private get grasps(): boolean {
-    return this.exercise?.instruments.some((one) => one.has_jaws) ?? false;
+  private motionOf(code: string, shift: boolean): ScopeMotion | undefined {
+    const isPedal = scopeAct(code) === "jaws" && this.tools.kind === "shaver";
+    return isPedal ? { kind: "run" } : scopeMotion(code, shift);
   }
 
   private takesKeys(event: KeyboardEvent): boolean {
@@ -571,7 +601,7 @@ export class ScopeDesk {
       "pointermove",
       (event) => {
         if (drag === undefined || event.buttons === 0) return;
-        if (drag === 2 || event.shiftKey) this.turnBy(-event.movementX * TURN_DEG_PER_PX, 0);
+        if (drag === 2 || event.shiftKey) this.turnHeld(-event.movementX * TURN_DEG_PER_PX);
         else this.lean(event.movementX * LEAN_RAD_PER_PX, -event.movementY * LEAN_RAD_PER_PX);
       },
       { signal },

@@ -6,7 +6,9 @@ export type ScopeMotion =
   | { readonly kind: "lean"; readonly yaw: number; readonly pitch: number }
   | { readonly kind: "advance"; readonly by: number }
   | { readonly kind: "turn_shaft"; readonly by: number }
-  | { readonly kind: "turn_camera"; readonly by: number };
+  | { readonly kind: "turn_camera"; readonly by: number }
+  /** A shaver's pedal is down. */
+  | { readonly kind: "run" };
 
 export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level" | "findings" | "jaws";
 

@@ -3,7 +3,7 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { BodyPose, LooseBody, Vec3 } from "../protocol";
+import type { BodyPose, ScopeMessage, Vec3 } from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { LooseBodies } from "./loose_bodies";
@@ -11,19 +11,15 @@ import { ScopeBackdrop } from "./scope_backdrop";
 import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
 import { lesionUniforms, setLesions, type Lesion } from "./scope_lesions";
-import { rodGeometries, type RodLook } from "./scope_rod";
+import { rodGeometries } from "./scope_rod";
 import { lensUniforms, wetMaterial } from "./scope_shader";
+import type { Rod } from "./scope_tools";
+import { TissuePieces, type TissuePiece } from "./tissue_pieces";
 
 export interface ScopeSight {
   readonly eyeMm: Vec3;
   readonly axis: Vec3;
   readonly up: Vec3;
-}
-
-export interface Rod {
-  readonly tipMm: Vec3;
-  readonly shaft: Vec3;
-  readonly look: RodLook;
 }
 
 /** The lamp's fibres lie beside the lens [mm]. */
@@ -48,6 +44,9 @@ export class ScopePicture {
   private wrong: readonly Lesion[] = [];
   private readonly loose: LooseBodies;
   private readonly beads: ScopeBeads;
+  private readonly pieces: TissuePieces;
+  /** Whoever wants less motion sees tufts that keep still. */
+  private readonly isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly small = smallContext();
   /** When light was measured last: at the first picture it is right at once. */
@@ -69,7 +68,8 @@ export class ScopePicture {
     this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
     this.beads = new ScopeBeads(this.lens);
-    this.scene.add(this.backdrop.mesh, this.loose.group, this.beads.group);
+    this.pieces = new TissuePieces(wetMaterial(this.lens, false));
+    this.scene.add(this.backdrop.mesh, this.loose.group, this.pieces.group, this.beads.group);
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
@@ -82,9 +82,14 @@ export class ScopePicture {
   }
 
   /** What is wrong in the joints of this exercise. @param bodies  names in the order of the poses */
-  setLesions(lesions: readonly Lesion[], bodies: readonly string[]): void {
+  setWrong(
+    lesions: readonly Lesion[],
+    pieces: readonly TissuePiece[],
+    bodies: readonly string[],
+  ): void {
     this.wrong = lesions;
     this.loose.set(lesions);
+    this.pieces.set(pieces, bodies);
     this.beads.setBodies(bodies);
   }
 
@@ -97,18 +102,19 @@ export class ScopePicture {
   lay(joint: string, poses: readonly BodyPose[]): void {
     setLesions(this.lesions, this.wrong, joint);
     this.beads.lay(poses);
+    this.pieces.lay(poses);
   }
 
   /**
    * @param joint  id of the one that the scope's portal leads into
-   * @param loose  what floats
+   * @param scope  what floats, and what a shaver has left
    * @param skin  the portal that the lens is before; undefined once it is under the skin
    */
   draw(
     joint: string,
     sight: ScopeSight,
     rod: Rod | undefined,
-    loose: readonly LooseBody[],
+    scope: Pick<ScopeMessage, "loose" | "pieces_left" | "running">,
     sizePx: number,
     skin: { readonly skinMm: Vec3; readonly inwards: Vec3 } | undefined,
   ): void {
@@ -126,15 +132,19 @@ export class ScopePicture {
     for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.loose.group.visible = this.beads.group.visible = skin === undefined;
+    this.pieces.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
-    this.loose.lay(joint, loose);
+    this.loose.lay(joint, scope.loose);
+    this.pieces.show(
+      joint,
+      scope.pieces_left,
+      rod?.mouth !== undefined && scope.running.includes(1) ? mouthAt(rod) : undefined,
+      this.isStill ? 0 : performance.now() / 1000,
+    );
     if (rod !== undefined) {
       this.rod.geometry = this.rods[rod.look];
       this.rod.position.set(...rod.tipMm);
-      this.rod.quaternion.setFromUnitVectors(
-        new THREE.Vector3(0, 0, 1),
-        new THREE.Vector3(...rod.shaft).normalize(),
-      );
+      this.rod.quaternion.copy(turnOf(rod));
       this.rod.updateMatrixWorld();
     }
     this.renderer.render(this.scene, this.camera);
@@ -161,6 +171,7 @@ export class ScopePicture {
     this.backdrop.dispose();
     this.loose.dispose();
     this.beads.dispose();
+    this.pieces.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
@@ -168,6 +179,31 @@ export class ScopePicture {
     }
     this.renderer.dispose();
   }
+}
+
+/** Its shaft along +z, and what of it has a side, that side towards +x. */
+function turnOf({ shaft, mouth }: Rod): THREE.Quaternion {
+  const z = new THREE.Vector3(...shaft).normalize();
+  if (mouth === undefined) {
+    return new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), z);
+  }
+  const y = new THREE.Vector3().crossVectors(z, new THREE.Vector3(...mouth)).normalize();
+  const x = new THREE.Vector3().crossVectors(y, z);
+  return new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().makeBasis(x, y, z));
+}
+
+/** In the middle of its window [mm]. */
+function mouthAt({ tipMm, shaft, mouth }: Rod): { readonly atMm: Vec3 } {
+  const BEHIND_MM = 1.3;
+  const OUT_MM = 0.7;
+  const side = mouth ?? [0, 0, 0];
+  return {
+    atMm: [
+      tipMm[0] + BEHIND_MM * shaft[0] + OUT_MM * side[0],
+      tipMm[1] + BEHIND_MM * shaft[1] + OUT_MM * side[1],
+      tipMm[2] + BEHIND_MM * shaft[2] + OUT_MM * side[2],
+    ],
+  };
 }
 
 function smallContext(): CanvasRenderingContext2D | null {

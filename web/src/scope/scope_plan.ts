@@ -2,9 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What an arthroscopy goes by, as the host says it. Pure.
-import type { ExerciseMessage } from "../protocol";
+import type { ExerciseMessage, Vec3 } from "../protocol";
 
 export type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
 
 /** In which the disc lies. */
 export const DISC_JOINT = "radiocarpal";
+
+/** Places of the disc that a shaver has taken away. @param left  of the plan's pieces, in percent */
+export function cutPlaces(
+  plan: Plan,
+  left: readonly number[],
+): readonly { readonly place: number; readonly outwards: Vec3 }[] {
+  return plan.pieces.flatMap(({ kind, inwards }, place) =>
+    kind === "disc" && left[place] === 0
+      ? [{ place, outwards: [-inwards[0], -inwards[1], -inwards[2]] as const }]
+      : [],
+  );
+}

@@ -9,6 +9,7 @@ import type { ScopeMessage, SnapshotMessage } from "../protocol";
 import { ForceGauge } from "./force_gauge";
 import { KEYS_IN_WORDS } from "./scope_keys";
 import type { Plan } from "./scope_plan";
+import type { ToolKind } from "./scope_tools";
 import { scopeWords } from "./scope_words_model";
 
 export interface ScopeSituation {
@@ -19,8 +20,8 @@ export interface ScopeSituation {
   readonly moved: 0 | 1;
   /** The portal that the scope is held before. */
   readonly wanted: string;
-  /** Beside the scope works a grasper, not a probe. */
-  readonly grasps: boolean;
+  /** What works beside the scope. */
+  readonly tool: ToolKind;
 }
 
 export class ScopeReadings {
@@ -55,7 +56,7 @@ export class ScopeReadings {
     );
   }
 
-  show({ plan, scope, snapshot, moved, wanted, grasps }: ScopeSituation): void {
+  show({ plan, scope, snapshot, moved, wanted, tool }: ScopeSituation): void {
     const forces = snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [];
     this.gauge.show(forces, performance.now());
     const words = scopeWords(
@@ -75,13 +76,17 @@ export class ScopeReadings {
       if (portal === "") return "outside";
       return scope?.in_joint[hand] === 1 ? `in the joint by ${portal}` : `in portal ${portal}`;
     };
-    const tool = grasps ? "grasper" : "probe";
-    const jaws = scope?.jaws_closed[1] === 1 ? ", closed" : ", open";
+    const isClosed = scope?.jaws_closed[1] === 1;
+    const state = {
+      probe: "",
+      grasper: isClosed ? ", closed" : ", open",
+      shaver: scope?.running[1] === 1 ? ", running" : "",
+    }[tool];
     setText(
       this.status,
-      `Scope ${where(0)} · ${tool} ${where(1)}${grasps ? jaws : ""} · ` +
+      `Scope ${where(0)} · ${tool} ${where(1)}${state} · ` +
         `moving the ${moved === 0 ? "scope" : tool} · ` +
-        (grasps ? `brought out ${scope?.loose_out ?? 0} · ` : "") +
+        (tool === "grasper" ? `brought out ${scope?.loose_out ?? 0} · ` : "") +
         (plan.drill === null
           ? `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · `
           : "") +

@@ -9,8 +9,8 @@ import type { BodyPose, ExerciseMessage, ScopeMessage, SnapshotMessage } from ".
 import { add, scaled } from "../tool_placement";
 import { jointWallOf, type JointWall } from "./joint_wall";
 import { ScopePicture } from "./scope_picture";
-import { rodLook } from "./scope_rod";
-import { DISC_JOINT, type Plan } from "./scope_plan";
+import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
+import { ScopeTools } from "./scope_tools";
 
 export interface ScopeMoment {
   readonly snapshot: SnapshotMessage;
@@ -28,7 +28,7 @@ export class ScopeReplay {
   private readonly outside = make("p.scope-replay-outside", {}, "The scope is outside.");
   private readonly walls: readonly JointWall[];
   private readonly radiusMm: number;
-  private readonly jaws: ReadonlySet<string>;
+  private readonly tools = new ScopeTools();
   private moment: ScopeMoment | undefined;
   private changed = false;
 
@@ -40,13 +40,14 @@ export class ScopeReplay {
     this.walls = walls;
     this.picture = new ScopePicture(walls);
     this.picture.setField(plan.field_deg);
-    this.picture.setLesions(
+    this.tools.begin(exercise);
+    this.picture.setWrong(
       plan.lesions,
+      plan.pieces,
       exercise.bodies.map((one) => one.name),
     );
     for (const wall of walls) if (wall.joint === DISC_JOINT) wall.setDisc(plan.disc_mm);
     const scope = exercise.instruments.find((one) => one.id === plan.scope);
-    this.jaws = new Set(exercise.instruments.filter((one) => one.has_jaws).map((one) => one.id));
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.element = make("div.scope-replay", {}, this.picture.canvas, this.outside);
   }
@@ -82,7 +83,10 @@ export class ScopeReplay {
     setText(this.caption, `${where}, ${seen} of ${this.plan.points.length} places seen`);
     if (!isIn || item === undefined || portal === undefined) return;
     for (const wall of this.walls) {
-      if (wall.joint === DISC_JOINT) wall.yieldDisc(moment.discUm);
+      if (wall.joint === DISC_JOINT) {
+        wall.cutDisc(cutPlaces(this.plan, scope.pieces_left));
+        wall.yieldDisc(moment.discUm);
+      }
       if (wall.joint === portal.joint) wall.pose(bodies);
     }
     this.picture.lay(portal.joint, bodies);
@@ -98,12 +102,8 @@ export class ScopeReplay {
       },
       other === undefined
         ? undefined
-        : {
-            tipMm: other.tip_mm,
-            shaft: other.shaft,
-            look: rodLook(this.jaws.has(other.instrument), scope.jaws_closed[1 - scope.hand] === 1),
-          },
-      scope.loose,
+        : this.tools.rod(other, scope, this.plan.distal, snapshot.tick),
+      scope,
       box.width * Math.min(1, window.devicePixelRatio),
       undefined,
     );

@@ -6,13 +6,17 @@
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-export type RodLook = "probe" | "open" | "closed";
+export type RodLook = "probe" | "open" | "closed" | "shaver" | "blade";
 
 const LENGTH_MM = 40;
 const PROBE_MM = 0.5;
 const FORCEPS_MM = 1;
 const JAW_MM = 3.2;
 const OPEN_RAD = 0.34;
+const SHAVER_MM = 1;
+/** Its window: from, to, and how far from the axis it is cut [mm]. */
+const WINDOW_MM = [0.25, 2.6, 0.3] as const;
+const BLADE_MM = 0.82;
 
 const ringsFrom = (from: number): number[] => {
   const rings: number[] = [];
@@ -20,9 +24,9 @@ const ringsFrom = (from: number): number[] => {
   return rings;
 };
 
-function turned(profile: readonly (readonly [number, number])[]): THREE.BufferGeometry {
+function turned(profile: readonly (readonly [number, number])[], sides = 12): THREE.BufferGeometry {
   const points = profile.map(([radius, z]) => new THREE.Vector2(radius, z));
-  const geometry = new THREE.LatheGeometry(points, 12);
+  const geometry = new THREE.LatheGeometry(points, sides);
   geometry.rotateX(Math.PI / 2);
   return geometry;
 }
@@ -61,6 +65,47 @@ function forceps(openRad: number): THREE.BufferGeometry {
   return finished(mergeGeometries([jaw(1, openRad), jaw(-1, openRad), shaft]));
 }
 
+/** A tube whose window is on the side of +x, and the blade in it: turned away it leaves the window open. */
+function shaver(bladeShuts: boolean): THREE.BufferGeometry {
+  const [from, to, deep] = WINDOW_MM;
+  const rings = [0, 0.12, 0.25, 0.5, 0.9, 1.3, 1.7, 2.1, 2.4, 2.6, ...ringsFrom(3)];
+  const profile = rings.map(
+    (z) => [z < 1 ? Math.sqrt(1 - (1 - z) ** 2) * SHAVER_MM : SHAVER_MM, z] as const,
+  );
+  const tube = turned(profile, 20);
+  const dark = cutAway(tube, (z) => (z > from && z < to ? deep : Infinity));
+  const inner = turned(
+    profile.filter(([, z]) => z > 0.1 && z < 3.2).map(([r, z]) => [r * BLADE_MM, z] as const),
+    12,
+  );
+  // Its teeth.
+  const at = inner.getAttribute("position");
+  for (let v = 0; v < at.count; ++v) {
+    const edge = bladeShuts ? 0.55 : deep - 0.2;
+    const teeth = 0.12 * Math.sin(9 * at.getZ(v));
+    if (at.getX(v) > edge + teeth) at.setX(v, edge + teeth);
+  }
+  inner.computeVertexNormals();
+  const made = mergeGeometries([tube, inner]);
+  const ready = finished(made);
+  const lining = ready.getAttribute("lining");
+  dark.forEach((isDark, v) => {
+    if (isDark) lining.setW(v, 1);
+  });
+  return ready;
+}
+
+/** Flattens what lies beyond a plane across +x. @returns  by vertex, whether it was cut */
+function cutAway(shape: THREE.BufferGeometry, planeAt: (z: number) => number): readonly boolean[] {
+  const at = shape.getAttribute("position");
+  const cut = Array.from({ length: at.count }, (_, v) => at.getX(v) > planeAt(at.getZ(v)));
+  cut.forEach((isCut, v) => {
+    if (isCut) at.setX(v, planeAt(at.getZ(v)));
+  });
+  shape.computeVertexNormals();
+  return cut;
+}
+
 export function rodGeometries(): Readonly<Record<RodLook, THREE.BufferGeometry>> {
   return {
     probe: finished(
@@ -68,6 +113,8 @@ export function rodGeometries(): Readonly<Record<RodLook, THREE.BufferGeometry>>
     ),
     open: forceps(OPEN_RAD),
     closed: forceps(0),
+    shaver: shaver(false),
+    blade: shaver(true),
   };
 }
 

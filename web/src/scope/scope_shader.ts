@@ -7,6 +7,9 @@
 import * as THREE from "three";
 import { LESIONS_GLSL, lesionUniforms, type LesionUniforms } from "./scope_lesions";
 
+/** How bright the lamp is: a disc 12 mm away is still well exposed. */
+export const LAMP = "46.0";
+
 export interface LensUniforms {
   readonly eye: THREE.IUniform<THREE.Vector3>;
   readonly axis: THREE.IUniform<THREE.Vector3>;
@@ -37,6 +40,8 @@ uniform float halfField;
 attribute vec4 lining;
 attribute vec3 fibre;
 attribute vec3 rest;
+attribute float gone;
+varying float vGone;
 varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
@@ -45,7 +50,12 @@ varying vec3 vScreen;
 varying vec3 vRest;
 void main() {
   vRest = rest;
-  vec3 at = (modelMatrix * vec4(position, 1.0)).xyz;
+  vGone = gone;
+  mat4 place = modelMatrix;
+#ifdef USE_INSTANCING
+  place = modelMatrix * instanceMatrix;
+#endif
+  vec3 at = (place * vec4(position, 1.0)).xyz;
   vec3 to = at - eye;
   vec3 seen = vec3(dot(to, right), dot(to, up), dot(to, axis));
   float aside = length(seen.xy);
@@ -55,7 +65,7 @@ void main() {
   gl_Position = vec4(round * far, (2.0 * far / 60.0 - 1.0) * far, far);
   vScreen = vec3(round * far, far);
   vAt = at;
-  vNormal = mat3(modelMatrix) * normal;
+  vNormal = mat3(place) * normal;
   vLining = lining;
   vFibre = fibre;
 }`;
@@ -71,6 +81,7 @@ varying vec3 vNormal;
 varying vec4 vLining;
 varying vec3 vFibre;
 varying vec3 vScreen;
+varying float vGone;
 
 float hash(vec3 p) {
   p = fract(p * vec3(0.1031, 0.1030, 0.0973));
@@ -103,7 +114,7 @@ void main() {
   float grain = noise(vAt * 6.0);
   // What lines it, sharpened: edges are some tenths of a millimetre wide, and ragged.
   vec4 w = vLining + (soft - 0.5) * 0.16 * step(0.02, vLining) ;
-  w = smoothstep(0.22, 0.78, w);
+  w = smoothstep(0.22, 0.78, w) * (1.0 - isMetal);
   float known = clamp(w.x + w.y + w.z + w.w, 0.0, 1.0);
   float red = 1.0 - known;
 
@@ -153,21 +164,30 @@ void main() {
   float det = dot(dx, r1);
   vec3 bent = abs(det) * n - sign(det) * (hx * r1 + hy * r2) * 0.35;
   n = length(bent) > 1e-9 ? normalize(bent) : n;
-  albedo = mix(albedo, vec3(0.62, 0.64, 0.66), isMetal);
+  // Of metal only what lies deep in it is dark.
+  albedo = mix(albedo, vec3(0.62, 0.64, 0.66) * (1.0 - 0.85 * vLining.w), isMetal);
   rough = mix(rough, 0.16, isMetal);
   float wet = 1.0;
   paintLesions(albedo, rough, wet);
+  // Where a shaver took the disc away: its cut edge, and beneath it the cartilage of the ulna's head.
+  float cut = vGone + 0.30 * (noise(vRest * 4.0) - 0.5) * step(0.01, vGone);
+  float edge = smoothstep(0.14, 0.30, cut) * (1.0 - smoothstep(0.55, 0.75, cut));
+  float under = smoothstep(0.55, 0.75, cut);
+  albedo = mix(albedo, mix(vec3(0.95, 0.90, 0.76), vec3(0.98, 0.97, 0.92), grain), edge);
+  albedo = mix(albedo, vec3(0.80, 0.82, 0.80), under);
+  wet = mix(wet, 1.0, max(edge, under));
 
   vec3 away = lamp - vAt;
   float d2 = dot(away, away);
   vec3 l = away * inversesqrt(d2);
   float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(-l, axis)));
-  float e = 15.0 * (cone / (d2 + 11.0) + 0.0032);
+  float e = ${LAMP} * (cone / (d2 + 11.0) + 0.0032);
   float wrap = mix(0.45, 0.0, isMetal);
   float nl = dot(n, l);
   float lit = max(0.0, (nl + wrap) / (1.0 + wrap));
   lit *= lit;
   vec3 tint = mix(vec3(1.0, 0.8, 0.68), vec3(1.0, 0.5, 0.36), red);
+  tint = mix(tint, vec3(0.9, 0.95, 1.0), isMetal); // steel is not red
   vec3 colour = albedo * (e * lit + tint * (0.30 * e + 0.03));
   // Wet: a sharp highlight, a sheen about it, and a brighter rim.
   vec3 h = normalize(l + view);
@@ -177,6 +197,7 @@ void main() {
   float ggx = a2 / (3.14159 * denominator * denominator);
   float fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(n, view), 0.18, 1.0), 5.0);
   colour += e * step(0.0, nl) * wet * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
+  colour += 0.3 * e * isMetal * (1.0 - vLining.w) * pow(nh, 5.0);
   // A film of fluid over all of it, uneven: a small hard glare.
   vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
   float coat = pow(max(dot(film, h), 0.0), 420.0);
@@ -194,7 +215,7 @@ void main() {
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
   float grey = dot(colour, vec3(0.3, 0.59, 0.11));
   colour = mix(vec3(grey), colour, 1.22);
-  colour += (grain - 0.5) * mix(0.035, 0.012, grey);
+  colour += (grain - 0.5) * mix(0.014, 0.006, grey);
   colour *= 1.0 - smoothstep(0.985, 1.0, r);
   gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
 }`;

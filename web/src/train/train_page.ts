@@ -299,6 +299,9 @@ export class TrainPage {
         turn: (shaftDeg, cameraDeg) => {
           this.connection.tell({ type: "turn_scope", shaft_deg: shaftDeg, camera_deg: cameraDeg });
         },
+        turnMouth: (hand, mouthDeg) => {
+          this.connection.tell({ type: "turn_mouth", hand, mouth_deg: mouthDeg });
+        },
         take: (instrument, hand) => {
           this.actions.ask({ id: "take", hand, instrument });
         },

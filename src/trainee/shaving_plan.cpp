@@ -1,0 +1,142 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a scripted arthroscopist shaves: it looks for what is ill, goes from piece to piece of what
+// it has seen, turns the mouth onto each, and presses the pedal until it is gone.
+#include <algorithm>
+
+#include "trainee/arthroscopist.hpp"
+
+namespace carpus::trainee {
+namespace {
+
+constexpr std::uint8_t kScope = 0;  // hands
+constexpr std::uint8_t kProbe = 1;
+constexpr double kInsideMm = 2.0;
+constexpr double kSeenDeg = 28.0;   // off the line of sight it is still well seen
+constexpr double kLiftedMm = 0.25;  // by which the mouth stays off the wall
+constexpr double kTurnStepDeg = 4.0;
+constexpr double kCutS = 1.0;       // a piece takes less
+constexpr double kFarMm = 3.0;      // to a piece farther off the hand is lifted
+constexpr double kWatchedMm = 2.5;  // off what the scope was led to, it is led anew
+constexpr int kMostLooks = 2;
+
+double cosine_of(double deg) { return arthroscopy::cos_sin_deg(deg)[0]; }
+
+}  // namespace
+
+/// Where a piece stands now, its middle.
+Vec3 ScriptedArthroscopist::piece_at(std::size_t i) const {
+  const cases::TissuePiece& piece = lesions_->pieces[i];
+  return (poses_[piece.body] * Point<frame::Bone>{piece.at + piece.inwards * (piece.height_mm / 2)})
+      .v;
+}
+
+Vec3 ScriptedArthroscopist::out_of_joint(std::size_t i) const {
+  const cases::TissuePiece& piece = lesions_->pieces[i];
+  return -(poses_[piece.body] * Direction<frame::Bone>{piece.inwards}).v;
+}
+
+/// By which the mouth looks that way, as nearly as the shaft lets it.
+double ScriptedArthroscopist::mouth_turn_deg(const HandPose& held, const Vec3& towards) const {
+  double best = 0.0;
+  double most = -2.0;
+  for (double deg = -180.0; deg < 180.0; deg += kTurnStepDeg) {
+    const arthroscopy::Sight sight =
+        arthroscopy::sight_of({90.0, 90.0}, {held.tip, held.shaft, deg, 0.0}, map_.distal);
+    const double cosine = dot(sight.axis, towards);
+    if (cosine <= most) continue;
+    most = cosine;
+    best = deg;
+  }
+  return best;
+}
+
+/// Of what was seen and is left the nearest to where the shaver is; none where all is done.
+std::size_t ScriptedArthroscopist::next_to_cut(const simulation::Snapshot& now) const {
+  const auto& pieces = lesions_->pieces;
+  std::size_t best = pieces.size();
+  double least = 1e9;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const bool is_seen = (now.scope.facts.shaving.patches_seen >> pieces[i].patch & 1U) != 0;
+    if (!pieces[i].is_ill || !is_seen || now.scope.pieces_left[i] == 0) continue;
+    if (cut_tries_[i] >= 2 * skill_.tries) continue;
+    const double far = distance(piece_at(i), last_cut_) +
+                       (pieces[i].patch == last_patch_ ? 0.0 : 20.0) + 3.0 * cut_tries_[i];
+    if (far >= least) continue;
+    least = far;
+    best = i;
+  }
+  return best;
+}
+
+void ScriptedArthroscopist::plan_cut(std::size_t i) {
+  const cases::TissuePiece& piece = lesions_->pieces[i];
+  const int turn = cut_tries_[i]++;
+  const Vec3 at = piece_at(i);
+  const bool is_new = piece.patch != last_patch_ || last_patch_ == cases::kMaxPatches;
+  if (is_new || turn > 0) working_.work = portal_for(at, 2 * turn);
+  last_patch_ = piece.patch;
+  if (!has_probe_) {
+    take_probe(working_.work);
+    has_probe_ = true;
+  }
+  const bool leads_blind = rng_.uniform(0.0, 1.0) < skill_.leads_blind;
+  const bool is_aside = is_new || distance(at, watched_) > kWatchedMm;
+  if ((is_aside && !leads_blind) || turn > 0) {
+    watched_ = at;
+    watch(working_, {&at, 1}, cosine_of(kSeenDeg), std::min(turn, 3));
+  }
+  if (in_[kProbe] != working_.work) go_in(kProbe, working_.work);
+  const auto all = instruments::catalogue();
+  const instruments::Instrument& shaver = all[procedure_.tray.back()];
+  const Vec3 out = out_of_joint(i);
+  HandPose held = through(working_.work, at);
+  const Vec3 across = normalized_or(out - held.shaft * dot(out, held.shaft), out);
+  const double radius_mm = shaver.shape.greatest_radius_mm();
+  const Vec3 tip = at - held.shaft * shaver.mouth->behind_mm - across * (radius_mm + kLiftedMm);
+  held = through(working_.work, tip + error(skill_.aim_error_mm));
+  const std::size_t first = tasks_.size();
+  if (is_new || turn > 0 || distance(at, last_cut_) > kFarMm) {
+    go(kProbe, through(working_.work, in_portal(working_.work, kInsideMm)), 0.0);
+    go(kProbe, through(working_.work, comes_in_at(working_.work, tip)), 0.0);
+  }
+  go(kProbe, held, 0.0);
+  tasks_.back().turns_mouth = true;
+  tasks_.back().mouth_deg = mouth_turn_deg(held, across) + rng_.normal() * skill_.turn_error_deg;
+  // A foot that is hasty stays on the pedal.
+  const bool keeps_running = rng_.uniform(0.0, 1.0) < skill_.hasty * skill_.hasty;
+  if (!keeps_running) tasks_[first].jaws = Jaws::Open;
+  go(kProbe, held, kCutS);
+  tasks_.back().jaws = Jaws::Closed;
+  tasks_.back().until_gone = static_cast<int>(i);
+  last_cut_ = at;
+  go_on_seeking();
+}
+
+/// As plan_removal: looks for it first.
+void ScriptedArthroscopist::plan_shaving() {
+  working_.look = 0;
+  working_.work = work_portal(0);
+  go_in(kScope, working_.look);
+  plan_search();
+  go_on_seeking();
+}
+
+void ScriptedArthroscopist::seek_to_cut(const simulation::Snapshot& now) {
+  if (lesions_ == nullptr) return;
+  const std::size_t piece = next_to_cut(now);
+  if (piece < lesions_->pieces.size()) return plan_cut(piece);
+  // Nothing that was seen is left: another place may be where it was not looked.
+  go(kProbe, hands_[kProbe], 0.0);
+  tasks_.back().jaws = Jaws::Open;
+  if (in_[kProbe] != procedure::kNoBody) {
+    go(kProbe, through(working_.work, in_portal(working_.work, kInsideMm)), skill_.reaction_s);
+  }
+  const bool looks = looks_ < kMostLooks && rng_.uniform(0.0, 1.0) < skill_.looks_again;
+  if (looks_++ >= kMostLooks || !looks) return;
+  plan_search();
+  go_on_seeking();
+}
+
+}  // namespace carpus::trainee
