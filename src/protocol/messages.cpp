@@ -189,6 +189,17 @@ void write(FieldWriter& out, const TurnScope& in) {
   out.value("camera_deg", in.camera_deg);
 }
 
+void read(FieldReader& in, SetFluid& out) {
+  out.control = static_cast<FluidControl>(in.choice("control", kFluidControlNames));
+  out.value = in.integer("value", 0, 63);
+}
+
+void write(FieldWriter& out, const SetFluid& in) {
+  out.name("type", "set_fluid");
+  out.name("control", name_of(in.control));
+  out.value("value", in.value);
+}
+
 void read(FieldReader& in, Pedal& out) { out.down = in.boolean("down"); }
 
 void write(FieldWriter& out, const Pedal& in) {
@@ -430,6 +441,7 @@ void read(FieldReader& in, Scope& out) {
   in.list("jaws_closed", 0, 2, 0, 1, out.jaws_closed);
   in.records("loose", 0, 4, out.loose);
   out.loose_out = in.integer("loose_out", 0, 4);
+  if (in.has("fluid")) in.record("fluid", out.fluid.emplace());
 }
 
 void write(FieldWriter& out, const Scope& in) {
@@ -454,6 +466,11 @@ void write(FieldWriter& out, const Scope& in) {
   out.list("jaws_closed", in.jaws_closed);
   out.records("loose", in.loose);
   out.value("loose_out", in.loose_out);
+  if (in.fluid) {
+    out.record("fluid", *in.fluid);
+  } else {
+    out.null("fluid");
+  }
 }
 
 void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }
@@ -604,7 +621,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 22> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 23> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -617,6 +634,7 @@ constexpr std::array<MessageKind<PageMessage>, 22> kPageMessageKinds{
      {"tube", &read_as<PageMessage, Tube>},
      {"c_arm", &read_as<PageMessage, CArm>},
      {"turn_scope", &read_as<PageMessage, TurnScope>},
+     {"set_fluid", &read_as<PageMessage, SetFluid>},
      {"pedal", &read_as<PageMessage, Pedal>},
      {"find_devices", &read_as<PageMessage, FindDevices>},
      {"use_device", &read_as<PageMessage, UseDevice>},

@@ -151,6 +151,15 @@ struct TurnScope {
   bool operator==(const TurnScope&) const = default;
 };
 
+/// How fluid runs through the joint from now on.
+struct SetFluid {
+  FluidControl control = FluidControl::Inflow;
+  /// inflow: steps of scope.fluid.step_mmhg; outflow: 1 open; flush: 0; dry: 1 without fluid 0 to
+  /// 63
+  std::int64_t value = 0;
+  bool operator==(const SetFluid&) const = default;
+};
+
 /// The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said
 /// to be held, so say it again meanwhile.
 struct Pedal {
@@ -241,6 +250,7 @@ using PageMessage = std::variant<Hello,
                                  Tube,
                                  CArm,
                                  TurnScope,
+                                 SetFluid,
                                  Pedal,
                                  FindDevices,
                                  UseDevice,
@@ -377,6 +387,8 @@ struct Scope {
   std::vector<LooseBody> loose;
   /// how many were brought out 0 to 4
   std::int64_t loose_out = 0;
+  /// where the procedure has any
+  std::optional<JointFluid> fluid;
   bool operator==(const Scope&) const = default;
 };
 

@@ -85,6 +85,21 @@ struct LooseView {
   bool operator==(const LooseView&) const = default;
 };
 
+/// Fluid in the joint that is looked into.
+struct FluidView {
+  bool is_there = false;  ///< the procedure declares it
+  std::uint8_t inflow_steps = 0;
+  bool is_outflow_open = true;
+  bool is_dry = false;
+  bool is_flushing = false;
+  double pressure_mmhg = 0.0;
+  double haze_per_mm = 0.0;  ///< optical depth, of blood
+  double bubbles = 0.0;      ///< share of those that are drawn at most
+  double fog_depth = 0.0;    ///< optical depth of mist on the lens
+  double smear_depth = 0.0;  ///< of blood on it
+  bool operator==(const FluidView&) const = default;
+};
+
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
 struct ScopeView {
   std::uint8_t hand = kNoHand;  ///< that holds one
@@ -105,6 +120,7 @@ struct ScopeView {
   std::array<LooseView, procedure::kMaxLooseBodies> loose{};
   std::uint8_t loose_count = 0;
   std::array<bool, kHands> are_closed{};  ///< jaws, by hand
+  FluidView fluid;
   bool operator==(const ScopeView&) const = default;
 };
 
@@ -151,10 +167,13 @@ enum class EventKind : std::uint8_t {
   Judged = 27,        ///< detail: procedure::Judgement
   /// A wire would not go in: its shaft lies in soft tissue where a hand would hold it; detail: body
   ShaftUnderSkin = 28,
-  LooseCaught = 29,   ///< a loose body is in the jaws; detail: which
-  LooseLost = 30,     ///< it sprang from them, or was stripped off in the way; detail: which
-  LooseOut = 31,      ///< it is out of the skin; detail: which
-  TissueBitten = 32,  ///< jaws closed on what lines the joint
+  LooseCaught = 29,      ///< a loose body is in the jaws; detail: which
+  LooseLost = 30,        ///< it sprang from them, or was stripped off in the way; detail: which
+  LooseOut = 31,         ///< it is out of the skin; detail: which
+  TissueBitten = 32,     ///< jaws closed on what lines the joint
+  PressureTooHigh = 40,  ///< of the fluid in the joint; value: mmHg
+  TissueSwells = 41,     ///< of what went into it; value: ml
+  ViewClouded = 42,      ///< blood or what lies on the lens hides the joint
 };
 
 struct Event {

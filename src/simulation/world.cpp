@@ -112,6 +112,7 @@ World::State::State(const Model& model)
   scene.set_cuts(tissue.cuts().fields());
   disc.reset(model.disc);
   loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
+  if (model.procedure.fluid) fluid = detail::fluid_at_first(detail::FluidTable::generic());
 }
 
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
@@ -232,6 +233,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   yield_disc(model);
   watch_structures(model);
   watch_scopes(model);
+  run_fluid(model);
   move_loose_bodies(model);
   tick_off_steps(model);
   if (is_finishing) {

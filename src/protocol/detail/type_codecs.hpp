@@ -77,6 +77,9 @@ void write(FieldWriter& out, const DrillState& in);
 void read(FieldReader& in, LooseBody& out);
 void write(FieldWriter& out, const LooseBody& in);
 
+void read(FieldReader& in, JointFluid& out);
+void write(FieldWriter& out, const JointFluid& in);
+
 void read(FieldReader& in, FindingGrade& out);
 void write(FieldWriter& out, const FindingGrade& in);
 

@@ -21,6 +21,7 @@
 #include "haptics/virtual_coupling.hpp"
 #include "instruments/instrument.hpp"
 #include "simulation/detail/bodies.hpp"
+#include "simulation/detail/joint_fluid.hpp"
 #include "simulation/detail/loose_bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/detail/scope_drill.hpp"
@@ -74,6 +75,8 @@ struct World::State {
   detail::ScopeState scope_state;
   detail::DrillState drill_state;
   detail::LooseState loose_state;
+  detail::JointFluid fluid;
+  double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
@@ -344,6 +347,15 @@ struct World::State {
   [[nodiscard]] bool is_tip_seen(const Model& model, std::uint8_t hand) noexcept;
   [[nodiscard]] Vec3 lesion_middle(const Model& model, std::size_t lesion) const noexcept;
   [[nodiscard]] procedure::LooseFacts loose_facts(const Model& model) const noexcept;
+
+  // fluid_in_joint.cpp
+  void run_fluid(const Model& model) noexcept;
+  void note_portals() noexcept;
+  [[nodiscard]] detail::FluidAround around_fluid(const Model& model) noexcept;
+  void bleed_into_joint(const Model& model, double ml_per_s) noexcept;
+  void draw_fluid(double ml_per_s) noexcept;
+  [[nodiscard]] bool is_clear_to(const Model& model, double far_mm) const noexcept;
+  void publish_fluid(const Model& model) noexcept;
 
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;
