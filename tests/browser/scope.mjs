@@ -132,8 +132,9 @@ async function setTaps(page, picture) {
   const reads = (words) =>
     page.locator(".scope-fluid", { hasText: words }).waitFor();
   await reads(/Pump 35 mmHg · joint \d+ mmHg · outflow open/);
-  for (let i = 0; i < 3; ++i) await page.keyboard.press("PageDown");
-  await reads("Pump 20 mmHg");
+  await page.keyboard.press("PageDown");
+  await page.keyboard.press("PageDown");
+  await reads("Pump 25 mmHg");
   await page.keyboard.press("End");
   await reads("outflow closed");
   await page.getByRole("button", { name: "Dry" }).click();
@@ -142,7 +143,8 @@ async function setTaps(page, picture) {
   await page.keyboard.press("Home");
   await reads("flushing");
   await page.keyboard.press("0");
-  for (let i = 0; i < 3; ++i) await page.keyboard.press("PageUp");
+  await page.keyboard.press("PageUp");
+  await page.keyboard.press("PageUp");
   await page.keyboard.press("End");
   await reads(/Pump 35 mmHg · joint \d+ mmHg · outflow open/);
   await picture("bubbles");

@@ -69,7 +69,7 @@ const TURN_DEG_PER_S = 75;
 const TURN_DEG_PER_PX = 0.6;
 const REPEAT_MS = 200;
 /** Within it the host answers what was asked of the fluid. */
-const ANSWERED_MS = 1500;
+const ANSWERED_MS = 5000;
 /** So near to a place of its way round the wrist it goes on to the next [mm]. */
 const ROUNDED_MM = 5;
 
