@@ -14,6 +14,7 @@
 #include "cases/joint_lesions.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
+#include "procedure/fluid_use.hpp"
 #include "procedure/situation.hpp"
 
 namespace carpus::procedure {
@@ -69,6 +70,7 @@ struct ScopeRecord {
   double least_cosine = 1;  ///< of half the scope's field
   cases::Grades truth{};    ///< of an examination, by finding (data/pathology.json)
   cases::Grades answers = cases::not_judged();
+  FluidFacts fluid;           ///< of a procedure that declares it
   std::uint32_t lesions = 0;  ///< that there are
   std::uint32_t lesions_seen = 0;
   std::vector<ScopeLook> looks;

@@ -19,6 +19,7 @@
 #include "cases/case_data.hpp"
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
+#include "procedure/fluid_use.hpp"
 #include "procedure/loose_removal.hpp"
 #include "procedure/operation_record.hpp"
 #include "procedure/scope_drill.hpp"
@@ -90,6 +91,8 @@ struct Procedure {
   std::optional<LooseRemoval> removal;
   /// Tissue that is to be taken away with a shaver, generated likewise.
   std::optional<Shaving> shaving;
+  /// Fluid runs through the joint that is looked into (arthroscopy/fluid_table.hpp).
+  std::optional<FluidUse> fluid;
   /// Whether the fracture is displaced is asked before anything is drilled.
   bool judges_displacement = false;
   /// @throws InvalidInput when it cannot be done on this case, saying why.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/json_fields.hpp"
+#include "procedure/detail/read_fluid_use.hpp"
 #include "procedure/detail/read_loose_removal.hpp"
 #include "procedure/detail/read_scope_drill.hpp"
 #include "procedure/detail/read_score_rules.hpp"
@@ -159,6 +160,10 @@ Procedure read_procedure(std::string_view json,
   if (fields.has("shaving")) {
     JsonFields shaving = fields.object("shaving");
     procedure.shaving = detail::read_shaving(shaving);
+  }
+  if (fields.has("fluid")) {
+    JsonFields fluid = fields.object("fluid");
+    procedure.fluid = detail::read_fluid_use(fluid);
   }
   procedure.judges_displacement = fields.boolean_or("judges_displacement", false);
   refuse_twins(fields, "steps", procedure.steps);

@@ -162,6 +162,17 @@ TEST(ReadProcedure, ReadsWhatIsToBeTakenOutAndRefusesWhatMakesNoSense) {
   EXPECT_NE(problem("place", 1).find("place"), std::string::npos) << "misspelt";
 }
 
+TEST(ReadProcedure, ReadsWhetherFluidRunsAndRefusesWhatItDoesNotKnow) {
+  Json file = good();
+  EXPECT_FALSE(read_procedure(file.dump(), "lunate.json", kPredicates).fluid);
+  file["fluid"] = Json::parse(R"({"tourniquet": false, "mark": "[E]"})");
+  const Procedure read = read_procedure(file.dump(), "lunate.json", kPredicates);
+  ASSERT_TRUE(read.fluid.has_value());
+  EXPECT_FALSE(read.fluid->has_tourniquet);
+  file["fluid"]["tornique"] = true;
+  EXPECT_NE(problem_of(file).find("tornique"), std::string::npos);
+}
+
 TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   Json file = good();
   for (int i = 0; i < 31; ++i) {

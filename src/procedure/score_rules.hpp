@@ -24,7 +24,7 @@ struct Limits {
 struct ScoreRule {
   std::string id;     ///< of the measure; stable, snake_case, ends with its unit
   std::string label;  ///< for people
-  std::string unit;   ///< "deg", "mm", "mm2", "%", "s", "cGy cm2", "1"
+  std::string unit;   ///< "deg", "mm", "mm2", "ml", "%", "s", "cGy cm2", "1"
   Limits good;        ///< full points
   Limits fail;        ///< none outside; linear between
   double weight = 0;  ///< 0: measured and told, not counted

@@ -200,6 +200,17 @@ void write(FieldWriter& out, const TurnMouth& in) {
   out.value("mouth_deg", in.mouth_deg);
 }
 
+void read(FieldReader& in, SetFluid& out) {
+  out.control = static_cast<FluidControl>(in.choice("control", kFluidControlNames));
+  out.value = in.integer("value", 0, 63);
+}
+
+void write(FieldWriter& out, const SetFluid& in) {
+  out.name("type", "set_fluid");
+  out.name("control", name_of(in.control));
+  out.value("value", in.value);
+}
+
 void read(FieldReader& in, Pedal& out) { out.down = in.boolean("down"); }
 
 void write(FieldWriter& out, const Pedal& in) {
@@ -444,6 +455,7 @@ void read(FieldReader& in, Scope& out) {
   in.list("pieces_left", 0, 160, 0, 100, out.pieces_left);
   in.list("mouth_deg", 0, 2, -180, 180, out.mouth_deg);
   in.list("running", 0, 2, 0, 1, out.running);
+  if (in.has("fluid")) in.record("fluid", out.fluid.emplace());
 }
 
 void write(FieldWriter& out, const Scope& in) {
@@ -471,6 +483,11 @@ void write(FieldWriter& out, const Scope& in) {
   out.list("pieces_left", in.pieces_left);
   out.list("mouth_deg", in.mouth_deg);
   out.list("running", in.running);
+  if (in.fluid) {
+    out.record("fluid", *in.fluid);
+  } else {
+    out.null("fluid");
+  }
 }
 
 void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }
@@ -621,7 +638,7 @@ Result<Union> parse_tagged(std::string_view text,
   return Refusal{"unknown message type '" + type + "'"};
 }
 
-constexpr std::array<MessageKind<PageMessage>, 23> kPageMessageKinds{
+constexpr std::array<MessageKind<PageMessage>, 24> kPageMessageKinds{
     {{"hello", &read_as<PageMessage, Hello>},
      {"end", &read_as<PageMessage, End>},
      {"start", &read_as<PageMessage, Start>},
@@ -635,6 +652,7 @@ constexpr std::array<MessageKind<PageMessage>, 23> kPageMessageKinds{
      {"c_arm", &read_as<PageMessage, CArm>},
      {"turn_scope", &read_as<PageMessage, TurnScope>},
      {"turn_mouth", &read_as<PageMessage, TurnMouth>},
+     {"set_fluid", &read_as<PageMessage, SetFluid>},
      {"pedal", &read_as<PageMessage, Pedal>},
      {"find_devices", &read_as<PageMessage, FindDevices>},
      {"use_device", &read_as<PageMessage, UseDevice>},

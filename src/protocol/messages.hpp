@@ -160,6 +160,15 @@ struct TurnMouth {
   bool operator==(const TurnMouth&) const = default;
 };
 
+/// How fluid runs through the joint from now on.
+struct SetFluid {
+  FluidControl control = FluidControl::Inflow;
+  /// inflow: steps of scope.fluid.step_mmhg; outflow: 1 open; flush: 0; dry: 1 without fluid 0 to
+  /// 63
+  std::int64_t value = 0;
+  bool operator==(const SetFluid&) const = default;
+};
+
 /// The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said
 /// to be held, so say it again meanwhile.
 struct Pedal {
@@ -251,6 +260,7 @@ using PageMessage = std::variant<Hello,
                                  CArm,
                                  TurnScope,
                                  TurnMouth,
+                                 SetFluid,
                                  Pedal,
                                  FindDevices,
                                  UseDevice,
@@ -393,6 +403,8 @@ struct Scope {
   std::vector<std::int64_t> mouth_deg;
   /// by hand: a shaver runs
   std::vector<std::int64_t> running;
+  /// where the procedure has any
+  std::optional<JointFluid> fluid;
   bool operator==(const Scope&) const = default;
 };
 

@@ -471,6 +471,34 @@ void write(FieldWriter& out, const TissuePiece& in) {
   out.value("is_loose", in.is_loose);
 }
 
+void read(FieldReader& in, JointFluid& out) {
+  out.inflow_mmhg = in.number("inflow_mmhg", 0.0, 500.0);
+  out.step_mmhg = in.number("step_mmhg", 0.0, 100.0);
+  out.most_inflow_mmhg = in.number("most_inflow_mmhg", 0.0, 500.0);
+  out.outflow_open = in.boolean("outflow_open");
+  out.dry = in.boolean("dry");
+  out.flushing = in.boolean("flushing");
+  out.pressure_mmhg = in.number("pressure_mmhg", 0.0, 500.0);
+  out.haze_per_mm = in.number("haze_per_mm", 0.0, 100.0);
+  out.bubbles = in.number("bubbles", 0.0, 1.0);
+  out.fog = in.number("fog", 0.0, 100.0);
+  out.smear = in.number("smear", 0.0, 100.0);
+}
+
+void write(FieldWriter& out, const JointFluid& in) {
+  out.value("inflow_mmhg", in.inflow_mmhg);
+  out.value("step_mmhg", in.step_mmhg);
+  out.value("most_inflow_mmhg", in.most_inflow_mmhg);
+  out.value("outflow_open", in.outflow_open);
+  out.value("dry", in.dry);
+  out.value("flushing", in.flushing);
+  out.value("pressure_mmhg", in.pressure_mmhg);
+  out.value("haze_per_mm", in.haze_per_mm);
+  out.value("bubbles", in.bubbles);
+  out.value("fog", in.fog);
+  out.value("smear", in.smear);
+}
+
 void read(FieldReader& in, FindingGrade& out) {
   out.id = in.string("id", 16);
   out.label = in.string("label", 128);

@@ -106,6 +106,14 @@ inline constexpr std::array<std::string_view, 3> kDoseLevelNames{"low", "usual",
   return kDoseLevelNames[static_cast<std::size_t>(value)];
 }
 
+/// What is set of the fluid in a joint.
+enum class FluidControl : std::uint8_t { Inflow, Outflow, Flush, Dry };
+inline constexpr std::array<std::string_view, 4> kFluidControlNames{"inflow", "outflow", "flush",
+                                                                    "dry"};
+[[nodiscard]] constexpr std::string_view name_of(FluidControl value) noexcept {
+  return kFluidControlNames[static_cast<std::size_t>(value)];
+}
+
 /// Of a drawn part.
 enum class Material : std::uint8_t { Steel, Titanium, Handle, Black };
 inline constexpr std::array<std::string_view, 4> kMaterialNames{"steel", "titanium", "handle",
@@ -607,6 +615,32 @@ struct TissuePiece {
   /// of the disc: it hangs as a flap
   bool is_loose = false;
   bool operator==(const TissuePiece&) const = default;
+};
+
+/// Fluid in the joint that is looked into, as it is set and as it shows. Light is left by e to the
+/// minus of optical depths.
+struct JointFluid {
+  /// what drives the inflow, as it is set [mmHg] 0 to 500
+  double inflow_mmhg = 0.0;
+  /// by which it is set [mmHg] 0 to 100
+  double step_mmhg = 0.0;
+  /// [mmHg] 0 to 500
+  double most_inflow_mmhg = 0.0;
+  bool outflow_open = false;
+  /// looked into without fluid
+  bool dry = false;
+  bool flushing = false;
+  /// in the joint [mmHg] 0 to 500
+  double pressure_mmhg = 0.0;
+  /// optical depth of blood 0 to 100
+  double haze_per_mm = 0.0;
+  /// of as many as are drawn at most 0 to 1
+  double bubbles = 0.0;
+  /// optical depth of mist on the lens 0 to 100
+  double fog = 0.0;
+  /// optical depth of blood on it 0 to 100
+  double smear = 0.0;
+  bool operator==(const JointFluid&) const = default;
 };
 
 /// One answer of several.

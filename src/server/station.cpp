@@ -194,6 +194,10 @@ void Station::on_message(const protocol::TurnMouth& turn) {
   if (has_exercise()) command(session::Session::take(turn));
 }
 
+void Station::on_message(const protocol::SetFluid& set) {
+  if (has_exercise()) command(session::Session::take(set));
+}
+
 void Station::on_message(const protocol::Answer& answer) {
   if (!has_exercise()) return;
   const Result<Command> asked = session::Session::take(answer);

@@ -125,6 +125,7 @@ class Station : public PageHandler {
   void on_message(const protocol::Tube& tube);
   void on_message(const protocol::TurnScope& turn);
   void on_message(const protocol::TurnMouth& turn);
+  void on_message(const protocol::SetFluid& set);
   void on_message(const protocol::Answer& answer);
   void on_message(const protocol::CArm& c_arm);
   void on_message(const protocol::Pedal& pedal);

@@ -124,6 +124,12 @@ class Sentence {
       case EventKind::SoundTissueShaved:
         return event_.detail == 1 ? "The disc's rim is cut: it must stay for the wrist to be stable"
                                   : "Sound disc came off";
+      case EventKind::PressureTooHigh:
+        return "The joint is under too much pressure: fluid goes into the tissue";
+      case EventKind::TissueSwells:
+        return "Fluid has gone into the tissue: the wrist swells";
+      case EventKind::ViewClouded:
+        return "The view is clouded: let fluid run through, or raise its pressure";
       case EventKind::None:
         break;
     }
@@ -180,7 +186,7 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 33> kNames{"none",
+constexpr std::array<std::string_view, 43> kNames{"none",
                                                   "touched_bone",
                                                   "entered_bone",
                                                   "left_far_side",
@@ -212,7 +218,17 @@ constexpr std::array<std::string_view, 33> kNames{"none",
                                                   "loose_caught",
                                                   "loose_lost",
                                                   "loose_out",
-                                                  "tissue_bitten"};
+                                                  "tissue_bitten",
+                                                  "none",
+                                                  "none",
+                                                  "none",
+                                                  "none",
+                                                  "none",
+                                                  "none",
+                                                  "none",
+                                                  "pressure_too_high",
+                                                  "tissue_swells",
+                                                  "view_clouded"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {
@@ -248,6 +264,7 @@ std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told) {
     case EventKind::WrongBone:
     case EventKind::StructureStruck:
     case EventKind::TissueBitten:
+    case EventKind::ViewClouded:
     case EventKind::Seated:
     case EventKind::StepCompleted:
       return std::nullopt;

@@ -24,8 +24,12 @@ protocol::LoggedEvent described(Event event) {
 
 TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   std::set<std::string> kinds;
-  constexpr int kLast = static_cast<int>(EventKind::TissueBitten);
+  constexpr int kLast = static_cast<int>(EventKind::ViewClouded);
+  std::size_t count = 0;
   for (int i = 1; i <= kLast; ++i) {
+    // Kinds come in groups; between them numbers are free.
+    if (name_of(static_cast<EventKind>(i)) == "none") continue;
+    ++count;
     Event event;
     event.kind = static_cast<EventKind>(i);
     event.instrument = 0;
@@ -36,7 +40,8 @@ TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
     EXPECT_NE(told.kind, "none") << i;
     kinds.insert(told.kind);
   }
-  EXPECT_EQ(kinds.size(), static_cast<std::size_t>(kLast));
+  EXPECT_EQ(kinds.size(), count);
+  EXPECT_EQ(count, 35U);
 }
 
 TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {

@@ -190,6 +190,14 @@ Command command_of(const protocol::TurnMouth& message) noexcept {
   return command;
 }
 
+Command command_of(const protocol::SetFluid& message) noexcept {
+  Command command;
+  command.kind = CommandKind::SetFluid;
+  command.index = simulation::fluid_index(static_cast<procedure::FluidControl>(message.control),
+                                          static_cast<std::uint8_t>(message.value));
+  return command;
+}
+
 Result<Command> command_of(const protocol::Answer& message) {
   const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
   for (std::size_t f = 0; f < table.findings.size(); ++f) {

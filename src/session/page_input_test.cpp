@@ -110,5 +110,12 @@ TEST(PageInput, ViewsOfAHeldForearmTurnTheCArmWithIt) {
   EXPECT_DOUBLE_EQ(command_of(shot, pronated).rotation_deg, -150) << "once round";
 }
 
+TEST(PageInput, FluidIsSetByControlAndValue) {
+  const simulation::Command command =
+      command_of(protocol::SetFluid{protocol::FluidControl::Dry, 1});
+  EXPECT_EQ(command.kind, simulation::CommandKind::SetFluid);
+  EXPECT_EQ(command.index, simulation::fluid_index(procedure::FluidControl::Dry, 1));
+}
+
 }  // namespace
 }  // namespace carpus::session

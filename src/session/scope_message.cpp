@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arthroscopy/disc_net.hpp"
+#include "arthroscopy/fluid_table.hpp"
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/pathology_table.hpp"
 #include "session/body_names.hpp"
@@ -147,6 +148,26 @@ protocol::DrillState drill_state_of(const simulation::Snapshot& now,
   return message;
 }
 
+/// As finely as it can be told apart: what stands still is told once.
+protocol::JointFluid fluid_of(const simulation::FluidView& fluid) {
+  const auto to = [](double value, double steps) { return std::round(value * steps) / steps; };
+  constexpr double kPressure = 1;
+  constexpr double kHaze = 1000;
+  constexpr double kShare = 50;
+  const arthroscopy::FluidSource& source = arthroscopy::FluidTable::generic().source;
+  return {fluid.inflow_steps * source.step_mmhg,
+          source.step_mmhg,
+          source.most_inflow_mmhg,
+          fluid.is_outflow_open,
+          fluid.is_dry,
+          fluid.is_flushing,
+          to(fluid.pressure_mmhg, kPressure),
+          to(fluid.haze_per_mm, kHaze),
+          to(fluid.bubbles, kShare),
+          to(fluid.fog_depth, kShare),
+          to(fluid.smear_depth, kShare)};
+}
+
 }  // namespace
 
 std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
@@ -218,6 +239,7 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
   }
   message.loose_out = scope.facts.loose.out;
   add_shaving(message, scope);
+  if (scope.fluid.is_there) message.fluid = fluid_of(scope.fluid);
   for (const std::uint8_t grade : scope.answers) {
     message.answers.push_back(grade == cases::kNotJudged ? -1 : grade);
   }

@@ -107,6 +107,21 @@ TEST(ScopeMessage, TellsWhereFloatsWhatIsNotOut) {
   EXPECT_EQ(message->loose_out, 1);
 }
 
+TEST(ScopeMessage, TellsOfFluidWhatPumpAndPictureShow) {
+  simulation::Snapshot now = holding(procedure::Mode::Assessed);
+  EXPECT_FALSE(scope_message(with_places(), arthroscopy(), now)->fluid) << "there is none";
+  now.scope.fluid.is_there = true;
+  now.scope.fluid.inflow_steps = 7;
+  now.scope.fluid.pressure_mmhg = 25.93;
+  now.scope.fluid.haze_per_mm = 0.12345;
+  const auto message = scope_message(with_places(), arthroscopy(), now);
+  ASSERT_TRUE(message && message->fluid);
+  EXPECT_DOUBLE_EQ(message->fluid->inflow_mmhg, 35);
+  EXPECT_DOUBLE_EQ(message->fluid->pressure_mmhg, 26);
+  EXPECT_DOUBLE_EQ(message->fluid->haze_per_mm, 0.123);
+  EXPECT_TRUE(message->fluid->outflow_open);
+}
+
 TEST(ScopeMessage, TheLineOfAnExerciseIsToldPointByPoint) {
   const cases::CaseData data = with_places();
   const auto plan = arthroscopy_of(data, exercises(), 1);

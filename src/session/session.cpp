@@ -62,6 +62,10 @@ simulation::Command Session::take(const protocol::TurnMouth& message) noexcept {
   return command_of(message);
 }
 
+simulation::Command Session::take(const protocol::SetFluid& message) noexcept {
+  return command_of(message);
+}
+
 const HeldInput& Session::take(const protocol::CArm& message) noexcept {
   hold(held_, message, latest_.wrist);
   return held_;

@@ -40,6 +40,7 @@ class Session {
   [[nodiscard]] static simulation::Command take(const protocol::Tube& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::TurnScope& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::TurnMouth& message) noexcept;
+  [[nodiscard]] static simulation::Command take(const protocol::SetFluid& message) noexcept;
   [[nodiscard]] static Result<simulation::Command> take(const protocol::Answer& message);
   const HeldInput& take(const protocol::CArm& message) noexcept;
   const HeldInput& take(const protocol::Pedal& message) noexcept;

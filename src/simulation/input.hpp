@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "geometry/vec3.hpp"
+#include "procedure/fluid_use.hpp"
 #include "procedure/situation.hpp"
 
 namespace carpus::simulation {
@@ -45,8 +46,9 @@ enum class CommandKind : std::uint8_t {
   /// `index`: which procedure::Judgement of the fracture; before anything is drilled.
   Judge = 16,
   TurnMouth = 17,  ///< the shaver in `hand` is turned, its mouth with it, to `rotation_deg`
+  SetFluid = 18,   ///< of the joint: `index` is packed by fluid_index
 };
-inline constexpr std::uint8_t kCommandKinds = 18;
+inline constexpr std::uint8_t kCommandKinds = 19;
 
 /// After it the state is not one that follows from the tick before.
 [[nodiscard]] constexpr bool goes_back(CommandKind kind) noexcept {
@@ -59,6 +61,13 @@ inline constexpr std::uint8_t kNoGrade = kGradesAFinding - 1;
 [[nodiscard]] constexpr std::uint8_t answer_index(std::size_t finding,
                                                   std::uint8_t grade) noexcept {
   return static_cast<std::uint8_t>(finding * kGradesAFinding + grade);
+}
+
+/// A procedure::FluidControl and its value.
+inline constexpr std::uint8_t kFluidValues = 64;
+[[nodiscard]] constexpr std::uint8_t fluid_index(procedure::FluidControl control,
+                                                 std::uint8_t value) noexcept {
+  return static_cast<std::uint8_t>(static_cast<std::uint8_t>(control) * kFluidValues + value);
 }
 
 struct Command {

@@ -9,6 +9,7 @@
 
 #include "procedure/aid.hpp"
 #include "simulation/c_arm_angles.hpp"
+#include "simulation/detail/joint_fluid.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::simulation {
@@ -215,6 +216,14 @@ Refusal why_not(const procedure::Procedure& procedure,
       const bool has_mouth =
           item < kMaxItems && instruments::catalogue()[now.items[item].instrument].mouth;
       return has_mouth ? Refusal::None : Refusal::NothingInHand;
+    }
+    case CommandKind::SetFluid: {
+      if (!procedure.fluid || now.scope.hand >= kHands) return Refusal::UnknownCommand;
+      const auto control = static_cast<procedure::FluidControl>(command.index / kFluidValues);
+      return detail::can_set(arthroscopy::FluidTable::generic(), control,
+                             command.index % kFluidValues)
+                 ? Refusal::None
+                 : Refusal::UnknownCommand;
     }
     case CommandKind::SetTube:
       return command.index < procedure::kTubeSettings ? Refusal::None : Refusal::UnknownCommand;

@@ -85,6 +85,21 @@ struct LooseView {
   bool operator==(const LooseView&) const = default;
 };
 
+/// Fluid in the joint that is looked into.
+struct FluidView {
+  bool is_there = false;  ///< the procedure declares it
+  std::uint8_t inflow_steps = 0;
+  bool is_outflow_open = true;
+  bool is_dry = false;
+  bool is_flushing = false;
+  double pressure_mmhg = 0.0;
+  double haze_per_mm = 0.0;  ///< optical depth, of blood
+  double bubbles = 0.0;      ///< share of those that are drawn at most
+  double fog_depth = 0.0;    ///< optical depth of mist on the lens
+  double smear_depth = 0.0;  ///< of blood on it
+  bool operator==(const FluidView&) const = default;
+};
+
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
 struct ScopeView {
   std::uint8_t hand = kNoHand;  ///< that holds one
@@ -110,6 +125,7 @@ struct ScopeView {
   std::uint8_t piece_count = 0;
   std::array<double, kHands> mouth_deg{};  ///< of a shaver, by hand
   std::array<bool, kHands> are_running{};
+  FluidView fluid;
   bool operator==(const ScopeView&) const = default;
 };
 
@@ -163,6 +179,9 @@ enum class EventKind : std::uint8_t {
   /// A shaver ran against what is to stay; detail: 0 lining, 1 cartilage, 2 the scope
   ShaverHarmed = 33,
   SoundTissueShaved = 34,  ///< a piece that was to stay came off; detail: 1 of the disc's rim
+  PressureTooHigh = 40,    ///< of the fluid in the joint; value: mmHg
+  TissueSwells = 41,       ///< of what went into it; value: ml
+  ViewClouded = 42,        ///< blood or what lies on the lens hides the joint
 };
 
 struct Event {

@@ -114,6 +114,7 @@ World::State::State(const Model& model)
   loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
   shaving_state = detail::untouched(model.pieces());
   cut_disc_as_shaved(model);
+  if (model.procedure.fluid) fluid = detail::fluid_at_first(detail::FluidTable::generic());
 }
 
 /// Until the first input the first instrument waits where the procedure says, outside all tissue: a
@@ -234,8 +235,9 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   yield_disc(model);
   watch_structures(model);
   watch_scopes(model);
-  move_loose_bodies(model);
   run_shavers(model);
+  run_fluid(model);
+  move_loose_bodies(model);
   tick_off_steps(model);
   if (is_finishing) {
     spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);

@@ -116,6 +116,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   static const procedure::ScopeRecord kNone;
   std::vector<Measure> measures = arthroscopy::conduct_measures(data, declared(), record);
   add_answers(measures, record.scope ? *record.scope : kNone);
+  arthroscopy::add_fluid_measures(measures, record);
   procedure::ScoreReport report;
   procedure::grade(report, declared().rules, measures);
   return report;

@@ -118,5 +118,25 @@ TEST(ExaminationScore, WhoAnsweredNothingFoundNothing) {
             static_cast<double>(PathologyTable::generic().findings.size()));
 }
 
+TEST(ExaminationScore, FluidIsJudgedByWhatItHidAndWhatItDidToTheTissue) {
+  auto record = record_of({}, all_well());
+  EXPECT_FALSE(item(record, "clouded_share").value) << "whose scope was never in led none";
+  record.scope->fluid.watched_ticks = 60'000;
+  record.scope->fluid.used_ml = 40;
+  for (const char* id : {"clouded_share", "pressure_over_limit_s", "fluid_in_tissue_ml"}) {
+    EXPECT_EQ(item(record, id).value, 0) << id;
+    EXPECT_DOUBLE_EQ(item(record, id).points, item(record, id).possible) << id;
+  }
+  EXPECT_NE(item(record, "fluid_in_tissue_ml").reason.find("40"), std::string::npos);
+  record.scope->fluid.clouded_ticks = 30'000;
+  record.scope->fluid.over_limit_ticks = 60'000;
+  record.scope->fluid.tissue_ml = 10;
+  EXPECT_EQ(item(record, "clouded_share").value, 50);
+  EXPECT_EQ(item(record, "pressure_over_limit_s").value, 60);
+  for (const char* id : {"clouded_share", "pressure_over_limit_s", "fluid_in_tissue_ml"}) {
+    EXPECT_EQ(item(record, id).points, 0) << id;
+  }
+}
+
 }  // namespace
 }  // namespace carpus::procedures::arthroscopic_examination

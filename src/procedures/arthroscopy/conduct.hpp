@@ -37,4 +37,9 @@ void refuse_without_places(const cases::CaseData& data,
     const procedure::Procedure& procedure,
     const procedure::OperationRecord& record);
 
+/// `clouded_share`, `pressure_over_limit_s`, `fluid_in_tissue_ml`, of procedures that declare
+/// fluid.
+void add_fluid_measures(std::vector<procedure::Measure>& measures,
+                        const procedure::OperationRecord& record);
+
 }  // namespace carpus::procedures::arthroscopy

@@ -75,6 +75,7 @@ procedure::ScoreReport score_shaving(const cases::CaseData& data,
   const procedure::ShavingFacts done =
       record.scope ? record.scope->facts.shaving : procedure::ShavingFacts{};
   for (Measure& each : shaving_measures(done)) measures.push_back(std::move(each));
+  if (procedure.fluid) add_fluid_measures(measures, record);
   procedure::ScoreReport report;
   procedure::grade(report, procedure.rules, measures);
   return report;

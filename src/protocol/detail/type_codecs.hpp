@@ -80,6 +80,9 @@ void write(FieldWriter& out, const LooseBody& in);
 void read(FieldReader& in, TissuePiece& out);
 void write(FieldWriter& out, const TissuePiece& in);
 
+void read(FieldReader& in, JointFluid& out);
+void write(FieldWriter& out, const JointFluid& in);
+
 void read(FieldReader& in, FindingGrade& out);
 void write(FieldWriter& out, const FindingGrade& in);
 

@@ -53,6 +53,10 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
           grade == kNoGrade ? cases::kNotJudged : grade;
       return;
     }
+    case CommandKind::SetFluid:
+      return detail::set(fluid, detail::FluidTable::generic(),
+                         static_cast<detail::FluidControl>(command.index / kFluidValues),
+                         command.index % kFluidValues);
     case CommandKind::TurnScope:
       scope_state.shaft_turn_deg = command.rotation_deg;
       scope_state.camera_turn_deg = command.tilt_deg;

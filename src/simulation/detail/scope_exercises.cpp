@@ -72,7 +72,7 @@ bool World::State::sees(const Model& model,
                         const Vec3& tip) const noexcept {
   return arthroscopy::is_in_field(sight, tip) &&
          distance(sight.eye, tip) <= arthroscopy::kUsefulMm &&
-         is_in_sight(model, joint, sight.eye, tip);
+         is_clear_to(model, distance(sight.eye, tip)) && is_in_sight(model, joint, sight.eye, tip);
 }
 
 void World::State::watch_drill(const Model& model) noexcept {

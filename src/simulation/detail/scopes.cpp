@@ -238,6 +238,7 @@ void World::State::look_at_lesions(const Model& model,
   const Vec3 at = lesion_middle(model, turn);
   const bool is_seen = lesion.joint == joint && arthroscopy::is_in_field(sight, at) &&
                        distance(sight.eye, at) <= arthroscopy::kUsefulMm &&
+                       is_clear_to(model, distance(sight.eye, at)) &&
                        is_in_sight(model, joint, sight.eye, at);
   std::uint32_t& ticks = scope_state.lesion_ticks[turn];
   ticks = is_seen ? ticks + count : 0;
@@ -336,7 +337,9 @@ void World::State::watch_scopes(const Model& model) noexcept {
       if (!is_level(model, *sight)) ++state.tilted_ticks;
       look_at_points(model, joint, *sight);
       look_at_lesions(model, joint, *sight);
-      note_scope_look(joint, *sight);
+      if (is_clear_to(model, detail::FluidTable::generic().view.clouded_at_mm)) {
+        note_scope_look(joint, *sight);
+      }
     } else {
       note_probing(model, h, *item);
     }
@@ -386,6 +389,7 @@ procedure::ScopeRecord World::State::scope_record(const Model& model) const {
     break;
   }
   record.answers = state.answers;
+  record.fluid = fluid.facts;
   if (model.lesions) {
     record.truth = model.lesions->grades;
     record.lesions = static_cast<std::uint32_t>(model.lesions->lesions.size());
@@ -411,6 +415,7 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.is_probe_seen = drill_state.is_probe_seen;
   publish_loose(model);
   publish_shaving(model);
+  publish_fluid(model);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;

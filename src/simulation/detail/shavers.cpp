@@ -180,6 +180,8 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
     return;
   }
   ++done.running_ticks;
+  const bool has_fluid = model.procedure.fluid.has_value();
+  if (has_fluid) draw_fluid(detail::FluidTable::generic().joint.shaver_ml_per_s);
   const instruments::Instrument& kind = kind_of(model, item);
   const double radius_mm = kind.shape.greatest_radius_mm();
   const Vec3 level = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
@@ -204,7 +206,11 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
   if (piece >= model.pieces().size()) return note_shaver_harm(model, hand, joint, mouth);
   if (!detail::cut_piece(shaving_state, model.pieces(), piece)) return;
   const TissuePiece& cut = model.pieces()[piece];
-  if (cut.kind == TissueKind::Disc) disc.cut(model.disc, piece);
+  if (cut.kind == TissueKind::Disc) {
+    disc.cut(model.disc, piece);
+  } else if (has_fluid) {  // the disc's middle has no vessels
+    bleed_into_joint(model, detail::FluidTable::generic().bleeding.tuft_ml_per_s);
+  }
   if (!cut.is_ill) emit(EventKind::SoundTissueShaved, now.held[hand], cut.is_rim ? 1 : 0, 0.0);
 }
 

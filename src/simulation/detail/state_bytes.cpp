@@ -77,6 +77,7 @@ std::vector<std::byte> World::write_state() const {
     if (model_->procedure.drill) visit(state.drill_state, fields);
     if (model_->float_count > 0) visit(state.loose_state, fields);
     if (!model_->pieces().empty()) visit(state.shaving_state, fields);
+    if (model_->procedure.fluid) visit(state.fluid, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -113,6 +114,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::DrillState drill;
   detail::LooseState loose;
   detail::ShavingState shaving;
+  detail::JointFluid fluid;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -134,6 +136,12 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
       visit(shaving, fields);
       is_sound = is_sound && detail::is_possible(shaving, model_->pieces());
     }
+    if (model_->procedure.fluid) {
+      visit(fluid, fields);
+      is_sound =
+          is_sound && detail::is_possible(fluid, detail::FluidTable::generic(),
+                                          model_->map->joints.size(), model_->map->portals.size());
+    }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
                                    model_->catalogue.size(),
@@ -153,6 +161,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->drill_state = drill;
   next->loose_state = loose;
   next->shaving_state = shaving;
+  next->fluid = fluid;
   if (model_->map != nullptr) next->disc = disc;
   next->cut_disc_as_shaved(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());

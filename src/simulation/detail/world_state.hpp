@@ -21,6 +21,7 @@
 #include "haptics/virtual_coupling.hpp"
 #include "instruments/instrument.hpp"
 #include "simulation/detail/bodies.hpp"
+#include "simulation/detail/joint_fluid.hpp"
 #include "simulation/detail/loose_bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/detail/scope_drill.hpp"
@@ -78,6 +79,8 @@ struct World::State {
   detail::DrillState drill_state;
   detail::LooseState loose_state;
   detail::ShavingState shaving_state;
+  detail::JointFluid fluid;
+  double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
@@ -381,6 +384,15 @@ struct World::State {
   [[nodiscard]] bool is_running(const Model& model, std::uint8_t hand) const noexcept;
   void cut_disc_as_shaved(const Model& model) noexcept;
   void publish_shaving(const Model& model) noexcept;
+
+  // fluid_in_joint.cpp
+  void run_fluid(const Model& model) noexcept;
+  void note_portals() noexcept;
+  [[nodiscard]] detail::FluidAround around_fluid(const Model& model) noexcept;
+  void bleed_into_joint(const Model& model, double ml_per_s) noexcept;
+  void draw_fluid(double ml_per_s) noexcept;
+  [[nodiscard]] bool is_clear_to(const Model& model, double far_mm) const noexcept;
+  void publish_fluid(const Model& model) noexcept;
 
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;

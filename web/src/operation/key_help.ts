@@ -75,6 +75,15 @@ export const HELP: readonly HelpGroup[] = [
     ],
   },
   {
+    title: "Fluid, at a scope",
+    lines: [
+      { keys: "Page up / down", text: "pressure of the inflow by 5 mmHg, more / less" },
+      { keys: "End", text: "open or close the outflow" },
+      { keys: "Home", text: "flush for some seconds; dry: rinse the lens" },
+      { keys: "0", text: "without fluid, or with it again" },
+    ],
+  },
+  {
     title: "Aids, in practice",
     lines: [
       { keys: "F2", text: "ghost: the planned line and screw" },

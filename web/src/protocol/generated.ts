@@ -38,6 +38,9 @@ export type Aid = "ghost" | "section" | "hint";
 /** Of the C-arm's tube. */
 export type DoseLevel = "low" | "usual" | "high";
 
+/** What is set of the fluid in a joint. */
+export type FluidControl = "inflow" | "outflow" | "flush" | "dry";
+
 /** Of a drawn part. */
 export type Material = "steel" | "titanium" | "handle" | "black";
 
@@ -441,6 +444,30 @@ export interface TissuePiece {
   readonly radius_mm: number;
   /** of the disc: it hangs as a flap */
   readonly is_loose: boolean;
+}
+
+/** Fluid in the joint that is looked into, as it is set and as it shows. Light is left by e to the minus of optical depths. */
+export interface JointFluid {
+  /** what drives the inflow, as it is set [mmHg] 0 to 500 */
+  readonly inflow_mmhg: number;
+  /** by which it is set [mmHg] 0 to 100 */
+  readonly step_mmhg: number;
+  /** [mmHg] 0 to 500 */
+  readonly most_inflow_mmhg: number;
+  readonly outflow_open: boolean;
+  /** looked into without fluid */
+  readonly dry: boolean;
+  readonly flushing: boolean;
+  /** in the joint [mmHg] 0 to 500 */
+  readonly pressure_mmhg: number;
+  /** optical depth of blood 0 to 100 */
+  readonly haze_per_mm: number;
+  /** of as many as are drawn at most 0 to 1 */
+  readonly bubbles: number;
+  /** optical depth of mist on the lens 0 to 100 */
+  readonly fog: number;
+  /** optical depth of blood on it 0 to 100 */
+  readonly smear: number;
 }
 
 /** One answer of several. */
@@ -1010,6 +1037,14 @@ export interface TurnMouthMessage {
   readonly mouth_deg: number;
 }
 
+/** How fluid runs through the joint from now on. */
+export interface SetFluidMessage {
+  readonly type: "set_fluid";
+  readonly control: FluidControl;
+  /** inflow: steps of scope.fluid.step_mmhg; outflow: 1 open; flush: 0; dry: 1 without fluid 0 to 63 */
+  readonly value: number;
+}
+
 /** The C-arm's foot pedal: live pictures while it is down. It is let go 2 s after it was last said to be held, so say it again meanwhile. */
 export interface PedalMessage {
   readonly type: "pedal";
@@ -1097,6 +1132,7 @@ export type PageMessage =
   | CArmMessage
   | TurnScopeMessage
   | TurnMouthMessage
+  | SetFluidMessage
   | PedalMessage
   | FindDevicesMessage
   | UseDeviceMessage
@@ -1234,6 +1270,8 @@ export interface ScopeMessage {
   readonly mouth_deg: readonly number[];
   /** by hand: a shaver runs */
   readonly running: readonly number[];
+  /** where the procedure has any */
+  readonly fluid: JointFluid | null;
 }
 
 /** By how much the disc has yielded; comes when that changed. */

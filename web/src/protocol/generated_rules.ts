@@ -17,6 +17,7 @@ export const SCHEMA: Schema = {
     right_answer: { values: ["fix", "reduce_first", "decline"] },
     aid: { values: ["ghost", "section", "hint"] },
     dose_level: { values: ["low", "usual", "high"] },
+    fluid_control: { values: ["inflow", "outflow", "flush", "dry"] },
     material: { values: ["steel", "titanium", "handle", "black"] },
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
@@ -231,6 +232,19 @@ export const SCHEMA: Schema = {
       height_mm: {"type": "number", "min": 0, "max": 20},
       radius_mm: {"type": "number", "min": 0, "max": 20},
       is_loose: {"type": "boolean"},
+    } },
+    joint_fluid: { fields: {
+      inflow_mmhg: {"type": "number", "min": 0, "max": 500},
+      step_mmhg: {"type": "number", "min": 0, "max": 100},
+      most_inflow_mmhg: {"type": "number", "min": 0, "max": 500},
+      outflow_open: {"type": "boolean"},
+      dry: {"type": "boolean"},
+      flushing: {"type": "boolean"},
+      pressure_mmhg: {"type": "number", "min": 0, "max": 500},
+      haze_per_mm: {"type": "number", "min": 0, "max": 100},
+      bubbles: {"type": "number", "min": 0, "max": 1},
+      fog: {"type": "number", "min": 0, "max": 100},
+      smear: {"type": "number", "min": 0, "max": 100},
     } },
     finding_grade: { fields: {
       id: {"type": "string", "max_length": 16},
@@ -548,6 +562,10 @@ export const PAGE_TO_HOST: Readonly<Record<string, Rules>> = {
     hand: {"type": "integer", "min": 0, "max": 1},
     mouth_deg: {"type": "number", "min": -180, "max": 180},
   },
+  set_fluid: {
+    control: {"type": "fluid_control"},
+    value: {"type": "integer", "min": 0, "max": 63},
+  },
   pedal: {
     down: {"type": "boolean"},
   },
@@ -654,6 +672,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     pieces_left: {"type": "array", "of": {"type": "integer", "min": 0, "max": 100}, "max_items": 160},
     mouth_deg: {"type": "array", "of": {"type": "integer", "min": -180, "max": 180}, "max_items": 2},
     running: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 2},
+    fluid: {"type": "joint_fluid", "optional": true},
   },
   disc: {
     off_um: {"type": "array", "of": {"type": "integer", "min": -20000, "max": 20000}, "max_items": 480},

@@ -4,6 +4,7 @@
 // What a scope sees behind everything: outside the skin that its lamp lights, with the portal's mark; inside
 // the joint what it came through, where the wall has its hole.
 import * as THREE from "three";
+import { FLUID_GLSL } from "./fluid_shader";
 import { LAMP, type LensUniforms } from "./scope_shader";
 
 const VERTEX = /* glsl */ `
@@ -38,6 +39,7 @@ float noise(vec3 p) {
              mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
                  mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y), f.z);
 }
+${FLUID_GLSL}
 // What the scope came through, where the joint's wall has its hole: synovium and fat, as far away as they
 // would hang about the shaft, lit as the wall is.
 vec3 tract(vec3 way) {
@@ -81,10 +83,11 @@ void main() {
       colour *= mix(vec3(1.0), vec3(0.25, 0.18, 0.55), 0.8 * (1.0 - smoothstep(0.3, 0.5, abs(ring - 2.6))));
     }
   } else {
-    colour = tract(way);
+    colour = throughBlood(tract(way), eye + 6.0 * way);
   }
   colour *= 1.0 - 0.45 * pow(r, 3.5);
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
+  if (isOutside < 0.5) colour = throughLens(colour, vAt);
   colour *= 1.0 - smoothstep(0.985, 1.0, r);
   gl_FragColor = vec4(pow(colour, vec3(1.0 / 2.2)), 1.0);
 }`;

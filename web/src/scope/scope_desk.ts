@@ -16,6 +16,8 @@ import type {
 } from "../protocol";
 import { add, dot, length, rotated, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
+import { fluidAct, FluidControls } from "./fluid_controls";
+import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
 import { makeScopeControls } from "./scope_controls";
@@ -53,6 +55,7 @@ export interface ScopeRoom {
   /** @param byN  more traction, or less */
   pull(byN: number): void;
   answer(finding: string, grade: string): void;
+  setFluid(setting: FluidSetting): void;
   say(text: string): void;
   /** Mouse and keys move this hand from now on. */
   showHand(hand: HandIndex): void;
@@ -66,6 +69,8 @@ const WHEEL_MM = 0.6;
 const TURN_DEG_PER_S = 75;
 const TURN_DEG_PER_PX = 0.6;
 const REPEAT_MS = 200;
+/** Within it the host answers what was asked of the fluid. */
+const ANSWERED_MS = 5000;
 /** So near to a place of its way round the wrist it goes on to the next [mm]. */
 const ROUNDED_MM = 5;
 
@@ -81,6 +86,9 @@ export class ScopeDesk {
   private readonly findings: FindingsDialog;
   private readonly readings = new ScopeReadings();
   private readonly drill = new ScopeDrillOverlay();
+  private readonly fluid = new FluidControls((act) => {
+    this.actOnFluid(act);
+  });
   private picture: ScopePicture | undefined;
   private plan: Plan | undefined;
   private exercise: ExerciseMessage | undefined;
@@ -96,6 +104,7 @@ export class ScopeDesk {
   /** What is left of a hand's way round the wrist to its next portal. */
   private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
   private readonly tools = new ScopeTools();
+  private inflow = { mmhg: 0, askedMs: -Infinity };
   private moved: HandIndex = 0;
   private shaftDeg = 0;
   private cameraDeg = 0;
@@ -131,6 +140,8 @@ export class ScopeDesk {
     this.findings = new FindingsDialog((finding, grade) => {
       this.room.answer(finding, grade);
     });
+    this.controls.append(this.fluid.taps);
+    this.readings.column.children[0]?.after(this.fluid.reading);
     this.element.append(
       this.readings.column,
       this.drill.element,
@@ -302,6 +313,7 @@ export class ScopeDesk {
       this.posed.add(joint);
     }
     const box = picture.canvas.getBoundingClientRect();
+    picture.setFluid(scope.fluid, portal?.up ?? plan.distal);
     picture.draw(
       joint,
       {
@@ -325,6 +337,7 @@ export class ScopeDesk {
     const wanted = plan.portals[this.hands[0].portal]?.name ?? "";
     this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, tool: this.tools.kind });
     this.showDrill(plan, scope);
+    this.fluid.show(scope?.fluid ?? null);
     const budget = this.picture?.budget;
     this.element.dataset["calls"] = String(budget?.calls ?? 0);
     this.element.dataset["triangles"] = String(budget?.triangles ?? 0);
@@ -536,6 +549,20 @@ export class ScopeDesk {
     this.keys.delete(holder);
   }
 
+  private actOnFluid(act: FluidAct): void {
+    const fluid = this.scope?.fluid ?? null;
+    if (fluid === null || !this.room.operates()) return;
+    // What was asked for and not answered yet counts: keys come faster than the host's word.
+    const isAsked = performance.now() - this.inflow.askedMs < ANSWERED_MS;
+    const now = isAsked ? { ...fluid, inflow_mmhg: this.inflow.mmhg } : fluid;
+    const setting = settingOf(act, now);
+    if (setting === undefined) return;
+    if (setting.control === "inflow") {
+      this.inflow = { mmhg: setting.value * fluid.step_mmhg, askedMs: performance.now() };
+    }
+    this.room.setFluid(setting);
+  }
+
   private listen(signal: AbortSignal): void {
     window.addEventListener(
       "keydown",
@@ -543,11 +570,13 @@ export class ScopeDesk {
         if (!this.takesKeys(event)) return;
         const motion = this.motionOf(event.code, event.shiftKey);
         const act = this.actOf(event.code);
-        if (motion === undefined && act === undefined) return;
+        const tap = (this.scope?.fluid ?? null) === null ? undefined : fluidAct(event.code);
+        if (motion === undefined && act === undefined && tap === undefined) return;
         event.preventDefault();
         event.stopImmediatePropagation();
         if (motion !== undefined) this.press(event.code, motion);
         else if (act !== undefined && !event.repeat) this.act(act);
+        else if (tap !== undefined && !event.repeat) this.actOnFluid(tap);
       },
       { signal, capture: true },
     );

@@ -3,13 +3,14 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { BodyPose, ScopeMessage, Vec3 } from "../protocol";
+import type { BodyPose, JointFluid, ScopeMessage, Vec3 } from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { LooseBodies } from "./loose_bodies";
 import { ScopeBackdrop } from "./scope_backdrop";
 import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
+import { ScopeFluid } from "./scope_fluid";
 import { lesionUniforms, setLesions, type Lesion } from "./scope_lesions";
 import { rodGeometries } from "./scope_rod";
 import { lensUniforms, wetMaterial } from "./scope_shader";
@@ -48,6 +49,8 @@ export class ScopePicture {
   /** Whoever wants less motion sees tufts that keep still. */
   private readonly isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   private readonly backdrop = new ScopeBackdrop(this.lens);
+  private readonly fluid = new ScopeFluid(this.lens);
+  private high: Vec3 = [0, 0, 1];
   private readonly small = smallContext();
   /** When light was measured last: at the first picture it is right at once. */
   private exposedMs = -Infinity;
@@ -69,7 +72,13 @@ export class ScopePicture {
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
     this.beads = new ScopeBeads(this.lens);
     this.pieces = new TissuePieces(wetMaterial(this.lens, false));
-    this.scene.add(this.backdrop.mesh, this.loose.group, this.pieces.group, this.beads.group);
+    this.scene.add(
+      this.backdrop.mesh,
+      this.loose.group,
+      this.pieces.group,
+      this.beads.group,
+      this.fluid.mesh,
+    );
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
@@ -96,6 +105,12 @@ export class ScopePicture {
   /** Marks of an exercise. */
   setBeads(beads: readonly Bead[]): void {
     this.beads.set(beads);
+  }
+
+  /** Fluid between, none: null. @param high  unit, up in the room: there bubbles collect */
+  setFluid(fluid: JointFluid | null, high: Vec3): void {
+    this.fluid.set(fluid);
+    this.high = high;
   }
 
   /** The bones have moved, or the scope has gone to another joint. */
@@ -147,6 +162,12 @@ export class ScopePicture {
       this.rod.quaternion.copy(turnOf(rod));
       this.rod.updateMatrixWorld();
     }
+    const wall = skin === undefined ? this.walls.get(joint) : undefined;
+    this.fluid.lay(
+      wall?.geometry.getAttribute("position").array,
+      { ...sight, high: this.high, halfFieldRad: this.lens.halfField.value },
+      performance.now(),
+    );
     this.renderer.render(this.scene, this.camera);
     this.expose(performance.now());
   }
@@ -172,6 +193,7 @@ export class ScopePicture {
     this.loose.dispose();
     this.beads.dispose();
     this.pieces.dispose();
+    this.fluid.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();

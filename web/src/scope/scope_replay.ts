@@ -92,6 +92,7 @@ export class ScopeReplay {
     this.picture.lay(portal.joint, bodies);
     const other = snapshot.items.find((one) => one.hand === 1 - scope.hand);
     const box = this.element.getBoundingClientRect();
+    this.picture.setFluid(scope.fluid, this.plan.distal);
     this.picture.draw(
       portal.joint,
       {

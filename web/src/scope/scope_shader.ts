@@ -5,6 +5,7 @@
 // long, as arthroscopy/optics.hpp has it), light that comes from beside the lens and falls off, and
 // what lines the joint told apart by colour, gloss and grain, all procedural.
 import * as THREE from "three";
+import { FLUID_GLSL } from "./fluid_shader";
 import { LESIONS_GLSL, lesionUniforms, type LesionUniforms } from "./scope_lesions";
 
 /** How bright the lamp is: a disc 12 mm away is still well exposed. */
@@ -18,6 +19,9 @@ export interface LensUniforms {
   readonly lamp: THREE.IUniform<THREE.Vector3>;
   readonly halfField: THREE.IUniform<number>;
   readonly exposure: THREE.IUniform<number>;
+  /** As fluid_shader.ts has it. */
+  readonly water: THREE.IUniform<THREE.Vector4>;
+  readonly drift: THREE.IUniform<number>;
   readonly [name: string]: THREE.IUniform;
 }
 
@@ -31,6 +35,8 @@ export function lensUniforms(): LensUniforms {
     lamp: v(),
     halfField: { value: 0.7 },
     exposure: { value: 1 },
+    water: { value: new THREE.Vector4() },
+    drift: { value: 0 },
   };
 }
 
@@ -99,6 +105,7 @@ float noise(vec3 p) {
 }
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
 ${LESIONS_GLSL}
+${FLUID_GLSL}
 void main() {
   vec3 to = vAt - eye;
   float far = length(to);
@@ -176,6 +183,9 @@ void main() {
   albedo = mix(albedo, mix(vec3(0.95, 0.90, 0.76), vec3(0.98, 0.97, 0.92), grain), edge);
   albedo = mix(albedo, vec3(0.80, 0.82, 0.80), under);
   wet = mix(wet, 1.0, max(edge, under));
+  // Without fluid a thin film is left: duller, its glints fewer.
+  wet *= 1.0 - 0.62 * water.w;
+  rough += 0.10 * water.w * (1.0 - isMetal);
 
   vec3 away = lamp - vAt;
   float d2 = dot(away, away);
@@ -209,13 +219,15 @@ void main() {
   // A mark shines by itself, whatever the lamp does.
   colour = mix(colour, shines.rgb * (0.35 + 0.65 * max(dot(smooth_n, view), 0.0)) / exposure, 0.85 * shines.a);
   // Water between.
-  colour = mix(colour, vec3(0.10, 0.055, 0.04), 1.0 - exp(-0.022 * max(0.0, far - 3.0)));
+  colour = mix(colour, vec3(0.10, 0.055, 0.04), (1.0 - water.w) * (1.0 - exp(-0.022 * max(0.0, far - 3.0))));
+  colour = throughBlood(colour, vAt);
   // The camera: its exposure, darker at the rim, filmic, a little noise in the dark.
   colour *= exposure * (1.0 - 0.45 * pow(r, 3.5));
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
   float grey = dot(colour, vec3(0.3, 0.59, 0.11));
   colour = mix(vec3(grey), colour, 1.22);
   colour += (grain - 0.5) * mix(0.014, 0.006, grey);
+  colour = throughLens(colour, vScreen.xy / vScreen.z);
   colour *= 1.0 - smoothstep(0.985, 1.0, r);
   gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
 }`;

@@ -311,6 +311,9 @@ export class TrainPage {
         answer: (finding, grade) => {
           this.connection.tell({ type: "answer", finding, grade });
         },
+        setFluid: (setting) => {
+          this.connection.tell({ type: "set_fluid", ...setting });
+        },
         say: (text) => {
           this.panels.notice.say(text);
         },
