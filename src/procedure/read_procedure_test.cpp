@@ -162,6 +162,15 @@ TEST(ReadProcedure, ReadsWhatIsToBeTakenOutAndRefusesWhatMakesNoSense) {
   EXPECT_NE(problem("place", 1).find("place"), std::string::npos) << "misspelt";
 }
 
+TEST(ReadProcedure, AScrewIsControlledOrAWristExamined) {
+  Json file = good();
+  EXPECT_FALSE(read_procedure(file.dump(), "lunate.json", kPredicates).controls_screw);
+  file["controls_screw"] = true;
+  EXPECT_TRUE(read_procedure(file.dump(), "lunate.json", kPredicates).controls_screw);
+  file["examines"] = true;
+  EXPECT_NE(problem_of(file).find("controls_screw"), std::string::npos);
+}
+
 TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   Json file = good();
   for (int i = 0; i < 31; ++i) {

@@ -18,6 +18,7 @@
 #include "instruments/instrument.hpp"
 #include "procedure/loose_removal.hpp"
 #include "procedure/scope_drill.hpp"
+#include "procedure/screw_control.hpp"
 #include "procedure/tube_setting.hpp"
 
 namespace carpus::procedure {
@@ -125,6 +126,7 @@ struct ScopeFacts {
   std::uint8_t unanswered = 0;      ///< of what an examination asks
   DrillFacts drill;                 ///< of exercises with a scope
   LooseFacts loose;                 ///< of what floats in the joints
+  ScrewFacts screw;                 ///< of a screw that is controlled
   /// By hand: the number of that portal in data/portals.json, the same in every case.
   std::array<std::uint8_t, kHands> portal_number{kNoBody, kNoBody};
   bool operator==(const ScopeFacts&) const = default;

@@ -111,6 +111,8 @@ class Sentence {
         return "The loose body slipped from the jaws: close on its middle, draw back slowly";
       case EventKind::LooseOut:
         return "A loose body is out";
+      case EventKind::ScrewProbed:
+        return probed_of_screw();
       case EventKind::TissueBitten:
         return subject() + " closed on what lines the joint";
       case EventKind::None:
@@ -120,6 +122,18 @@ class Sentence {
   }
 
  private:
+  [[nodiscard]] std::string probed_of_screw() const {
+    switch (static_cast<cases::ScrewSite>(event_.detail)) {
+      case cases::ScrewSite::Proximal:
+        return "Felt in sight: over the screw's trailing end";
+      case cases::ScrewSite::Scaphocapitate:
+        return "Felt in sight: the scaphocapitate side";
+      case cases::ScrewSite::Stt:
+        return "Felt in sight: the scaphotrapeziotrapezoid joint";
+    }
+    return {};
+  }
+
   [[nodiscard]] std::string struck() const {
     const std::string& what = bodies_.structure(static_cast<std::size_t>(event_.detail));
     const auto all = instruments::catalogue();
@@ -169,6 +183,7 @@ std::string_view felt(EventKind kind) {
   }
 }
 
+constexpr std::string_view kScrewProbed = "screw_probed";  // its number is apart from the others
 constexpr std::array<std::string_view, 33> kNames{"none",
                                                   "touched_bone",
                                                   "entered_bone",
@@ -205,6 +220,7 @@ constexpr std::array<std::string_view, 33> kNames{"none",
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {
+  if (name == kScrewProbed) return EventKind::ScrewProbed;
   const auto it = std::find(kNames.begin(), kNames.end(), name);
   return it == kNames.end() ? EventKind::None : static_cast<EventKind>(it - kNames.begin());
 }
@@ -212,6 +228,7 @@ EventKind kind_of(std::string_view name) noexcept {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
+  if (kind == EventKind::ScrewProbed) return kScrewProbed;
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }

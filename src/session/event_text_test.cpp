@@ -39,6 +39,14 @@ TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   EXPECT_EQ(kinds.size(), static_cast<std::size_t>(kLast));
 }
 
+TEST(EventText, OfAScrewSaysWhereItWasFelt) {
+  Event event;
+  event.kind = EventKind::ScrewProbed;
+  event.detail = 1;
+  EXPECT_EQ(described(event).kind, "screw_probed");
+  EXPECT_NE(described(event).text.find("scaphocapitate"), std::string::npos);
+}
+
 TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
   Event event;
   event.kind = EventKind::WrongBone;

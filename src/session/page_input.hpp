@@ -32,7 +32,8 @@ void hold(HeldInput& held, const protocol::Pedal& message) noexcept;
 /// The nearest voltage that the tube has.
 [[nodiscard]] simulation::Command command_of(const protocol::Tube& message) noexcept;
 [[nodiscard]] simulation::Command command_of(const protocol::TurnScope& message) noexcept;
-[[nodiscard]] Result<simulation::Command> command_of(const protocol::Answer& message);
+[[nodiscard]] Result<simulation::Command> command_of(const protocol::Answer& message,
+                                                     const procedure::Procedure& procedure);
 /// @param wrist  as it is held now: angles may be counted from it.
 [[nodiscard]] simulation::Command command_of(const protocol::TakeShot& message,
                                              const simulation::WristPose& wrist) noexcept;

@@ -39,7 +39,7 @@ class Session {
   [[nodiscard]] simulation::Command take(const protocol::TakeShot& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::Tube& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::TurnScope& message) noexcept;
-  [[nodiscard]] static Result<simulation::Command> take(const protocol::Answer& message);
+  [[nodiscard]] Result<simulation::Command> take(const protocol::Answer& message) const;
   const HeldInput& take(const protocol::CArm& message) noexcept;
   const HeldInput& take(const protocol::Pedal& message) noexcept;
   [[nodiscard]] const HeldInput& held() const noexcept { return held_; }

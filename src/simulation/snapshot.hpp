@@ -155,6 +155,7 @@ enum class EventKind : std::uint8_t {
   LooseLost = 30,     ///< it sprang from them, or was stripped off in the way; detail: which
   LooseOut = 31,      ///< it is out of the skin; detail: which
   TissueBitten = 32,  ///< jaws closed on what lines the joint
+  ScrewProbed = 50,   ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
 };
 
 struct Event {

@@ -156,6 +156,7 @@ void World::State::update_hash(const Model& model) noexcept {
     if (scope_state.look_count > 0) detail::visit_look(looks[scope_state.look_count - 1], fields);
     if (model.procedure.drill) visit(drill_state, fields);
     if (model.float_count > 0) visit(loose_state, fields);
+    if (model.procedure.controls_screw) visit(screw_state, fields);
   }
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
   tissue.cuts().add_to(hash);

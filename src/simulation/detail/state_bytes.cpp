@@ -76,6 +76,7 @@ std::vector<std::byte> World::write_state() const {
     }
     if (model_->procedure.drill) visit(state.drill_state, fields);
     if (model_->float_count > 0) visit(state.loose_state, fields);
+    if (model_->procedure.controls_screw) visit(state.screw_state, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -111,6 +112,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   yielding::NetState disc;
   detail::DrillState drill;
   detail::LooseState loose;
+  detail::ScrewState screw;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -127,6 +129,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
       visit(loose, fields);
       is_sound =
           is_sound && detail::is_possible(loose, model_->float_count, model_->map->portals.size());
+    }
+    if (model_->procedure.controls_screw) {
+      visit(screw, fields);
+      is_sound = is_sound && detail::is_possible(screw);
     }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
@@ -146,6 +152,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->scope_state = scope;
   next->drill_state = drill;
   next->loose_state = loose;
+  next->screw_state = screw;
   if (model_->map != nullptr) next->disc = disc;
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
