@@ -175,12 +175,11 @@ export class ScopeDesk {
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
-    this.picture.setLesions(
-      this.plan.lesions,
-      exercise.bodies.map((one) => one.name),
-    );
+    const bodies = exercise.bodies.map((one) => one.name);
+    this.picture.setLesions(this.plan.lesions, bodies);
+    this.picture.setScrew(this.plan.screw, bodies);
     this.picture.setBeads([]);
-    this.findings.set(this.plan.findings);
+    this.findings.set(this.plan.findings, this.plan.screw);
     for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     this.controls.classList.toggle("grasps", this.grasps);

@@ -3,7 +3,7 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { BodyPose, LooseBody, Vec3 } from "../protocol";
+import type { BodyPose, ControlledScrew, LooseBody, Vec3 } from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { LooseBodies } from "./loose_bodies";
@@ -12,6 +12,8 @@ import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
 import { lesionUniforms, setLesions, type Lesion } from "./scope_lesions";
 import { rodGeometries, type RodLook } from "./scope_rod";
+import { ScopeScrew } from "./scope_screw";
+import { holeUniforms, setHole } from "./screw_hole";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 
 export interface ScopeSight {
@@ -48,12 +50,15 @@ export class ScopePicture {
   private wrong: readonly Lesion[] = [];
   private readonly loose: LooseBodies;
   private readonly beads: ScopeBeads;
+  private readonly hole = holeUniforms();
+  private readonly screw = new ScopeScrew(this.lens);
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly small = smallContext();
   /** When light was measured last: at the first picture it is right at once. */
   private exposedMs = -Infinity;
 
-  constructor(walls: readonly JointWall[]) {
+  constructor(private readonly all: readonly JointWall[]) {
+    const walls = this.all;
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(1);
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader does it
@@ -63,13 +68,16 @@ export class ScopePicture {
     this.walls = new Map(
       walls.map((wall) => [
         wall.joint,
-        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle, this.lesions)),
+        new THREE.Mesh(
+          wall.geometry,
+          wetMaterial(this.lens, false, wall.middle, this.lesions, this.hole),
+        ),
       ]),
     );
     this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
     this.beads = new ScopeBeads(this.lens);
-    this.scene.add(this.backdrop.mesh, this.loose.group, this.beads.group);
+    this.scene.add(this.backdrop.mesh, this.loose.group, this.beads.group, this.screw.group);
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
@@ -88,6 +96,12 @@ export class ScopePicture {
     this.beads.setBodies(bodies);
   }
 
+  /** What lies in a bone from the beginning; null: nothing. */
+  setScrew(screw: ControlledScrew | null, bodies: readonly string[]): void {
+    setHole(this.hole, screw);
+    this.screw.set(screw, bodies, this.all);
+  }
+
   /** Marks of an exercise. */
   setBeads(beads: readonly Bead[]): void {
     this.beads.set(beads);
@@ -97,6 +111,7 @@ export class ScopePicture {
   lay(joint: string, poses: readonly BodyPose[]): void {
     setLesions(this.lesions, this.wrong, joint);
     this.beads.lay(poses);
+    this.screw.lay(poses);
   }
 
   /**
@@ -126,6 +141,7 @@ export class ScopePicture {
     for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.loose.group.visible = this.beads.group.visible = skin === undefined;
+    this.screw.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
     this.loose.lay(joint, loose);
     if (rod !== undefined) {
@@ -161,6 +177,7 @@ export class ScopePicture {
     this.backdrop.dispose();
     this.loose.dispose();
     this.beads.dispose();
+    this.screw.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();

@@ -40,10 +40,9 @@ export class ScopeReplay {
     this.walls = walls;
     this.picture = new ScopePicture(walls);
     this.picture.setField(plan.field_deg);
-    this.picture.setLesions(
-      plan.lesions,
-      exercise.bodies.map((one) => one.name),
-    );
+    const bodies = exercise.bodies.map((one) => one.name);
+    this.picture.setLesions(plan.lesions, bodies);
+    this.picture.setScrew(plan.screw, bodies);
     for (const wall of walls) if (wall.joint === DISC_JOINT) wall.setDisc(plan.disc_mm);
     const scope = exercise.instruments.find((one) => one.id === plan.scope);
     this.jaws = new Set(exercise.instruments.filter((one) => one.has_jaws).map((one) => one.id));

@@ -5,6 +5,7 @@
 // long, as arthroscopy/optics.hpp has it), light that comes from beside the lens and falls off, and
 // what lines the joint told apart by colour, gloss and grain, all procedural.
 import * as THREE from "three";
+import { HOLE_GLSL, holeUniforms, type HoleUniforms } from "./screw_hole";
 import { LESIONS_GLSL, lesionUniforms, type LesionUniforms } from "./scope_lesions";
 
 export interface LensUniforms {
@@ -88,6 +89,7 @@ float noise(vec3 p) {
 }
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
 ${LESIONS_GLSL}
+${HOLE_GLSL}
 void main() {
   vec3 to = vAt - eye;
   float far = length(to);
@@ -157,6 +159,7 @@ void main() {
   rough = mix(rough, 0.16, isMetal);
   float wet = 1.0;
   paintLesions(albedo, rough, wet);
+  cutByScrew(smooth_n, albedo, rough);
 
   vec3 away = lamp - vAt;
   float d2 = dot(away, away);
@@ -205,11 +208,13 @@ export function wetMaterial(
   isMetal: boolean,
   middle = new THREE.Vector3(),
   lesions: LesionUniforms = lesionUniforms(),
+  hole: HoleUniforms = holeUniforms(),
 ): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     uniforms: {
       ...lens,
       ...lesions,
+      ...hole,
       isMetal: { value: isMetal ? 1 : 0 },
       middle: { value: middle },
       shines: { value: new THREE.Vector4() },
