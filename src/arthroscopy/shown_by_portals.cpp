@@ -13,7 +13,8 @@ constexpr double kTractionN = 69;  // the most that is used [S79]
 constexpr double kScopeMm = 1.05;  // radius of a 1.9 mm scope, and a little
 constexpr double kBehindMm = 0.6;  // of the wall: so far its grid is off
 constexpr double kStepMm = 0.5;
-constexpr double kShortMm = 0.8;  // before the place: it lies on the wall itself
+constexpr double kShortMm = 0.8;       // before the place: it lies on the wall itself
+constexpr double kLeastCosine = 0.57;  // off the shaft a 30 degree scope sees as far as this
 constexpr double kShaftMm = 12.0;
 constexpr double kNearMm = 2.5;
 constexpr double kFarMm = 12.0;
@@ -34,7 +35,8 @@ bool ShownByPortals::has_room(std::uint8_t joint, const Vec3& at, double room_mm
   const cases::JointSpace& space = map_.joints[joint];
   const OpenedSpace wall =
       opened_space_at(space.wall, inverses_[space.proximal], inverses_[space.distal], at);
-  return wall.is_near && wall.distance_mm <= kBehindMm && !is_in_bone(at, room_mm);
+  const double behind_mm = room_mm > 0 ? 0.0 : kBehindMm;  // a lens lies before the wall
+  return wall.is_near && wall.distance_mm <= behind_mm && !is_in_bone(at, room_mm);
 }
 
 bool ShownByPortals::is_in_bone(const Vec3& at, double room_mm) const {
@@ -80,6 +82,8 @@ bool ShownByPortals::shows(std::uint8_t joint, std::uint8_t body, const Vec3& at
               skin + inwards * (portal.capsule_mm + deep) + across * aside + map_.distal * up;
           const double far = distance(eye, place);
           if (far < kNearMm || far > kFarMm || !has_room(joint, eye, kScopeMm)) continue;
+          const double ahead = dot(normalized_or(eye - skin, inwards), place - eye);
+          if (ahead < kLeastCosine * far) continue;
           if (goes_in(eye, skin) && is_free(joint, eye, place)) return true;
         }
       }

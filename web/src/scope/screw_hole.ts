@@ -65,6 +65,7 @@ const FROM_MM = 4; // within the bone, along the screw
 const REACH_MM = 10;
 const CARTILAGE_MM = 0.7;
 const UNDER_TAIL_MM = 0.6;
+const MOST_SLOPED_MM = 1.5;
 
 /** Rings of the way in, from the joint's surface to the trailing end; undefined where that stands out of it. */
 export function wayIn(
@@ -96,12 +97,15 @@ export function wayIn(
     geometry.dispose();
     material.dispose();
   }
-  const known = tops.filter((z) => z !== undefined);
-  if (known.length < AROUND / 2) return undefined;
-  const mean = known.reduce((a, b) => a + b, 0) / known.length;
-  if (Math.min(...known) > 0) return undefined; // metal all round
-  const top = (angle: number): number =>
-    Math.min(UNDER_TAIL_MM, tops[Math.round((angle / (2 * Math.PI)) * AROUND) % AROUND] ?? mean);
+  const known = tops.filter((z) => z !== undefined).sort((a, b) => a - b);
+  const middle = known[Math.floor(known.length / 2)];
+  // Too few: no wall is there. Above the end: it is metal that is seen.
+  if (middle === undefined || known.length < AROUND / 2 || middle > 0) return undefined;
+  /** What passes the bone's edge meets the wall opposite: no rim of the hole. */
+  const top = (angle: number): number => {
+    const z = tops[Math.round((angle / (2 * Math.PI)) * AROUND) % AROUND] ?? middle;
+    return Math.min(UNDER_TAIL_MM, Math.abs(z - middle) > MOST_SLOPED_MM ? middle : z);
+  };
   const down = (share: number): ((angle: number) => readonly [number, number]) => {
     return (angle) => [radius, top(angle) + (UNDER_TAIL_MM - top(angle)) * share];
   };
@@ -109,7 +113,7 @@ export function wayIn(
   const geometry = band(shares.map(down), AROUND);
   return lined(geometry, (vertex) => {
     const share = shares[Math.floor(vertex / (AROUND + 1))] ?? 1;
-    const deep = share * (UNDER_TAIL_MM - mean);
+    const deep = share * (UNDER_TAIL_MM - middle);
     return deep < CARTILAGE_MM ? [1, 0, 0, 0] : [0, 0, 0, 1];
   });
 }
