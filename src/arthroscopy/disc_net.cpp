@@ -24,6 +24,7 @@ yielding::Net disc_net(const cases::ArthroscopicMap& map, const cases::JointLesi
   if (lesions == nullptr) return net;
   const PathologyTable& table = PathologyTable::generic();
   for (const cases::Lesion& lesion : lesions->lesions) {
+    if (lesion.look == cases::LesionLook::ScrewSite) continue;
     const Grade& how = table.scale_of(lesion.finding).grades[lesion.grade];
     if (how.id != kOffTheFovea) continue;
     net.come_off(lesion.from, lesion.to, kOffMm, kLeftShare, kRestsOffMm);

@@ -61,7 +61,7 @@ Finding finding_from(const Json& json, const std::vector<Scale>& scales) {
   Finding f;
   f.id = json.at("id");
   f.label = json.at("label");
-  f.chance = json.at("chance");
+  f.chance = json.value("chance", 0.0);
   const std::string scale = json.at("scale");
   const auto found = std::find_if(scales.begin(), scales.end(),
                                   [&](const Scale& each) { return each.id == scale; });
@@ -80,7 +80,25 @@ Finding finding_from(const Json& json, const std::vector<Scale>& scales) {
   return f;
 }
 
+void read_questions(const Json& json, PathologyTable& table) {
+  for (const Json& each : json.at("scales")) table.scales.push_back(scale_from(each));
+  for (const Json& each : json.at("findings")) {
+    table.findings.push_back(finding_from(each, table.scales));
+  }
+  if (table.findings.size() > cases::kMaxFindings) refuse("too many findings");
+}
+
 }  // namespace
+
+PathologyTable PathologyTable::parse_questions(std::string_view json_text) {
+  PathologyTable table;
+  try {
+    read_questions(Json::parse(json_text), table);
+  } catch (const Json::exception& error) {
+    throw InvalidInput(std::string("what is asked: ") + error.what());
+  }
+  return table;
+}
 
 PathologyTable PathologyTable::parse(std::string_view json_text) {
   PathologyTable table;
@@ -88,14 +106,10 @@ PathologyTable PathologyTable::parse(std::string_view json_text) {
     const Json json = Json::parse(json_text);
     table.full_traction_n = json.at("opened_by_n").at("value");
     table.healthy_share = json.at("healthy_share").at("value");
-    for (const Json& each : json.at("scales")) table.scales.push_back(scale_from(each));
-    for (const Json& each : json.at("findings")) {
-      table.findings.push_back(finding_from(each, table.scales));
-    }
+    read_questions(json, table);
   } catch (const Json::exception& error) {
     throw InvalidInput(std::string("pathology.json: ") + error.what());
   }
-  if (table.findings.size() > cases::kMaxFindings) refuse("too many findings");
   if (!(table.full_traction_n > 0)) refuse("opened_by_n: a pull is above 0");
   return table;
 }

@@ -59,6 +59,9 @@ struct PathologyTable {
     return scales[findings[finding].scale];
   }
   /// @throws InvalidInput naming the entry where the text is no such table.
+  /// Of any file that asks: findings and scales alone.
+  [[nodiscard]] static PathologyTable parse_questions(std::string_view json_text);
+  /// @throws InvalidInput likewise.
   [[nodiscard]] static PathologyTable parse(std::string_view json_text);
   /// The built-in table; parsed at the first call.
   [[nodiscard]] static const PathologyTable& generic();

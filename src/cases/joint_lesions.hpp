@@ -9,8 +9,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "cases/controlled_screw.hpp"
 #include "cases/tissue_piece.hpp"
 #include "geometry/vec3.hpp"
 
@@ -31,16 +33,18 @@ using Grades = std::array<std::uint8_t, kMaxFindings>;
 
 /// How it looks.
 enum class LesionLook : std::uint8_t {
-  Stain = 0,     ///< bleeding, a bulge
-  Tear = 1,      ///< a slit or hole with frayed edges
-  Worn = 2,      ///< a round hole with thinned edges
-  Soft = 3,      ///< dull and swollen cartilage
-  Fissured = 4,  ///< lines in cartilage
-  Frayed = 5,    ///< fronds of cartilage, bone between them
-  Bare = 6,      ///< bone without cartilage
-  Loose = 7,     ///< a ball that lies in the joint
+  Stain = 0,      ///< bleeding, a bulge
+  Tear = 1,       ///< a slit or hole with frayed edges
+  Worn = 2,       ///< a round hole with thinned edges
+  Soft = 3,       ///< dull and swollen cartilage
+  Fissured = 4,   ///< lines in cartilage
+  Frayed = 5,     ///< fronds of cartilage, bone between them
+  Bare = 6,       ///< bone without cartilage
+  Loose = 7,      ///< a ball that lies in the joint
+  ScrewSite = 8,  ///< where a screw may come out: a place to look at, nothing that shows by itself
 };
-inline constexpr std::size_t kLesionLooks = 8;
+inline constexpr std::size_t kLesionLooks =
+    8;  ///< of data/pathology.json: without sites of a screw
 
 /// On the wall of a joint: a band about the line between two places.
 struct Lesion {
@@ -65,6 +69,7 @@ struct JointLesions {
   std::vector<TissuePiece> pieces;  ///< for a shaver
   /// By body, by how much it stands off where the hand's motion has it, at full traction [mm].
   std::vector<Vec3> shifts;
+  std::optional<ControlledScrew> screw;  ///< of its control: `grades` are of what that asks
   double full_traction_n = 0;  ///< from which on it is that much; less below in proportion
 
   /// At this pull. Real-time.

@@ -149,6 +149,10 @@ Procedure read_procedure(std::string_view json,
   procedure.rules = detail::read_score_rules(fields);
   procedure.decline = detail::read_decline_rules(fields);
   procedure.examines = fields.boolean_or("examines", false);
+  procedure.controls_screw = fields.boolean_or("controls_screw", false);
+  if (procedure.examines && procedure.controls_screw) {
+    fields.refuse("controls_screw: an examination asks about other things");
+  }
   if (fields.has("drill")) {
     JsonFields drill = fields.object("drill");
     procedure.drill = detail::read_scope_drill(drill);

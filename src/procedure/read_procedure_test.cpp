@@ -173,6 +173,15 @@ TEST(ReadProcedure, ReadsWhetherFluidRunsAndRefusesWhatItDoesNotKnow) {
   EXPECT_NE(problem_of(file).find("tornique"), std::string::npos);
 }
 
+TEST(ReadProcedure, AScrewIsControlledOrAWristExamined) {
+  Json file = good();
+  EXPECT_FALSE(read_procedure(file.dump(), "lunate.json", kPredicates).controls_screw);
+  file["controls_screw"] = true;
+  EXPECT_TRUE(read_procedure(file.dump(), "lunate.json", kPredicates).controls_screw);
+  file["examines"] = true;
+  EXPECT_NE(problem_of(file).find("controls_screw"), std::string::npos);
+}
+
 TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   Json file = good();
   for (int i = 0; i < 31; ++i) {

@@ -18,6 +18,7 @@
 #include "instruments/instrument.hpp"
 #include "procedure/loose_removal.hpp"
 #include "procedure/scope_drill.hpp"
+#include "procedure/screw_control.hpp"
 #include "procedure/shaving.hpp"
 #include "procedure/tube_setting.hpp"
 
@@ -127,6 +128,7 @@ struct ScopeFacts {
   DrillFacts drill;                 ///< of exercises with a scope
   LooseFacts loose;                 ///< of what floats in the joints
   ShavingFacts shaving;             ///< of what a shaver takes away
+  ScrewFacts screw;                 ///< of a screw that is controlled
   /// By hand: the number of that portal in data/portals.json, the same in every case.
   std::array<std::uint8_t, kHands> portal_number{kNoBody, kNoBody};
   bool operator==(const ScopeFacts&) const = default;

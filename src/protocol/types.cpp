@@ -523,6 +523,32 @@ void write(FieldWriter& out, const Finding& in) {
   out.records("grades", in.grades);
 }
 
+void read(FieldReader& in, ControlledScrew& out) {
+  out.body = in.string("body", 32);
+  out.tail_mm = in.vec3("tail_mm", 10000.0, 0.0);
+  out.tip_mm = in.vec3("tip_mm", 10000.0, 0.0);
+  out.tail_radius_mm = in.number("tail_radius_mm", 0.0, 10.0);
+  out.tip_radius_mm = in.number("tip_radius_mm", 0.0, 10.0);
+  out.bore_radius_mm = in.number("bore_radius_mm", 0.0, 10.0);
+  out.thread_depth_mm = in.number("thread_depth_mm", 0.0, 5.0);
+  out.thread_pitch_mm = in.number("thread_pitch_mm", 0.0, 10.0);
+  out.length_mm = in.number("length_mm", 0.0, 100.0);
+  out.line_mm = in.number("line_mm", 0.0, 100.0);
+}
+
+void write(FieldWriter& out, const ControlledScrew& in) {
+  out.text("body", in.body, 32);
+  out.vec3("tail_mm", in.tail_mm);
+  out.vec3("tip_mm", in.tip_mm);
+  out.value("tail_radius_mm", in.tail_radius_mm);
+  out.value("tip_radius_mm", in.tip_radius_mm);
+  out.value("bore_radius_mm", in.bore_radius_mm);
+  out.value("thread_depth_mm", in.thread_depth_mm);
+  out.value("thread_pitch_mm", in.thread_pitch_mm);
+  out.value("length_mm", in.length_mm);
+  out.value("line_mm", in.line_mm);
+}
+
 void read(FieldReader& in, Arthroscopy& out) {
   out.scope = in.string("scope", 64);
   out.view_angle_deg = in.number("view_angle_deg", 0.0, 90.0);
@@ -535,6 +561,7 @@ void read(FieldReader& in, Arthroscopy& out) {
   in.records("findings", 0, 16, out.findings);
   if (in.has("drill")) in.record("drill", out.drill.emplace());
   in.records("pieces", 0, 160, out.pieces);
+  if (in.has("screw")) in.record("screw", out.screw.emplace());
 }
 
 void write(FieldWriter& out, const Arthroscopy& in) {
@@ -553,6 +580,11 @@ void write(FieldWriter& out, const Arthroscopy& in) {
     out.null("drill");
   }
   out.records("pieces", in.pieces);
+  if (in.screw) {
+    out.record("screw", *in.screw);
+  } else {
+    out.null("screw");
+  }
 }
 
 void read(FieldReader& in, Body& out) {

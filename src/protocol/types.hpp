@@ -661,6 +661,31 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
+/// A headless screw that lies in a bone before the exercise begins, as scanned: to be drawn, and
+/// what a report of the operation says of it. Generated.
+struct ControlledScrew {
+  /// that it goes with
+  std::string body;
+  /// middle of its trailing end
+  Vec3 tail_mm;
+  Vec3 tip_mm;
+  /// over the thread [mm] 0 to 10
+  double tail_radius_mm = 0.0;
+  /// [mm] 0 to 10
+  double tip_radius_mm = 0.0;
+  /// [mm] 0 to 10
+  double bore_radius_mm = 0.0;
+  /// [mm] 0 to 5
+  double thread_depth_mm = 0.0;
+  /// [mm] 0 to 10
+  double thread_pitch_mm = 0.0;
+  /// [mm] 0 to 100
+  double length_mm = 0.0;
+  /// what was measured between the cortices [mm] 0 to 100
+  double line_mm = 0.0;
+  bool operator==(const ControlledScrew&) const = default;
+};
+
 /// What an arthroscopy goes by; all of it generated, not seen in the CT.
 struct Arthroscopy {
   /// id of the first scope on the tray
@@ -683,6 +708,8 @@ struct Arthroscopy {
   std::optional<ScopeDrill> drill;
   /// for a shaver, to be drawn and not to be told; see `scope`
   std::vector<TissuePiece> pieces;
+  /// of a procedure that controls one
+  std::optional<ControlledScrew> screw;
   bool operator==(const Arthroscopy&) const = default;
 };
 

@@ -200,7 +200,7 @@ void Station::on_message(const protocol::SetFluid& set) {
 
 void Station::on_message(const protocol::Answer& answer) {
   if (!has_exercise()) return;
-  const Result<Command> asked = session::Session::take(answer);
+  const Result<Command> asked = exercise_->session().take(answer);
   if (!asked) return refuse(asked.error(), "Choose one of the findings that the page shows.");
   command(*asked);
 }

@@ -117,6 +117,8 @@ class Sentence {
         return "The loose body slipped from the jaws: close on its middle, draw back slowly";
       case EventKind::LooseOut:
         return "A loose body is out";
+      case EventKind::ScrewProbed:
+        return probed_of_screw();
       case EventKind::TissueBitten:
         return subject() + " closed on what lines the joint";
       case EventKind::ShaverHarmed:
@@ -137,6 +139,18 @@ class Sentence {
   }
 
  private:
+  [[nodiscard]] std::string probed_of_screw() const {
+    switch (static_cast<cases::ScrewSite>(event_.detail)) {
+      case cases::ScrewSite::Proximal:
+        return "Felt in sight: over the screw's trailing end";
+      case cases::ScrewSite::Scaphocapitate:
+        return "Felt in sight: the scaphocapitate side";
+      case cases::ScrewSite::Stt:
+        return "Felt in sight: the scaphotrapeziotrapezoid joint";
+    }
+    return {};
+  }
+
   [[nodiscard]] std::string struck() const {
     const std::string& what = bodies_.structure(static_cast<std::size_t>(event_.detail));
     const auto all = instruments::catalogue();
@@ -186,6 +200,7 @@ std::string_view felt(EventKind kind) {
   }
 }
 
+constexpr std::string_view kScrewProbed = "screw_probed";  // its number is apart from the others
 constexpr std::array<std::string_view, 43> kNames{"none",
                                                   "touched_bone",
                                                   "entered_bone",
@@ -219,8 +234,8 @@ constexpr std::array<std::string_view, 43> kNames{"none",
                                                   "loose_lost",
                                                   "loose_out",
                                                   "tissue_bitten",
-                                                  "none",
-                                                  "none",
+                                                  "shaver_harmed",
+                                                  "sound_tissue_shaved",
                                                   "none",
                                                   "none",
                                                   "none",
@@ -232,6 +247,7 @@ constexpr std::array<std::string_view, 43> kNames{"none",
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {
+  if (name == kScrewProbed) return EventKind::ScrewProbed;
   const auto it = std::find(kNames.begin(), kNames.end(), name);
   return it == kNames.end() ? EventKind::None : static_cast<EventKind>(it - kNames.begin());
 }
@@ -239,6 +255,7 @@ EventKind kind_of(std::string_view name) noexcept {
 }  // namespace
 
 std::string_view name_of(EventKind kind) noexcept {
+  if (kind == EventKind::ScrewProbed) return kScrewProbed;
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : kNames[0];
 }
@@ -264,6 +281,8 @@ std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told) {
     case EventKind::WrongBone:
     case EventKind::StructureStruck:
     case EventKind::TissueBitten:
+    case EventKind::ShaverHarmed:
+    case EventKind::SoundTissueShaved:
     case EventKind::ViewClouded:
     case EventKind::Seated:
     case EventKind::StepCompleted:

@@ -44,6 +44,14 @@ TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   EXPECT_EQ(count, 35U);
 }
 
+TEST(EventText, OfAScrewSaysWhereItWasFelt) {
+  Event event;
+  event.kind = EventKind::ScrewProbed;
+  event.detail = 1;
+  EXPECT_EQ(described(event).kind, "screw_probed");
+  EXPECT_NE(described(event).text.find("scaphocapitate"), std::string::npos);
+}
+
 TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
   Event event;
   event.kind = EventKind::WrongBone;

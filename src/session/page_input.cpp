@@ -15,6 +15,7 @@
 #include "instruments/instrument.hpp"
 #include "procedure/aid.hpp"
 #include "simulation/c_arm_angles.hpp"
+#include "simulation/questions.hpp"
 
 namespace carpus::session {
 
@@ -198,8 +199,10 @@ Command command_of(const protocol::SetFluid& message) noexcept {
   return command;
 }
 
-Result<Command> command_of(const protocol::Answer& message) {
-  const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+Result<Command> command_of(const protocol::Answer& message, const procedure::Procedure& procedure) {
+  static const arthroscopy::PathologyTable kNothing;
+  const arthroscopy::PathologyTable* asked = simulation::questions_of(procedure);
+  const arthroscopy::PathologyTable& table = asked != nullptr ? *asked : kNothing;
   for (std::size_t f = 0; f < table.findings.size(); ++f) {
     if (table.findings[f].id != message.finding) continue;
     Command command;

@@ -34,7 +34,8 @@ void hold(HeldInput& held, const protocol::Pedal& message) noexcept;
 [[nodiscard]] simulation::Command command_of(const protocol::TurnScope& message) noexcept;
 [[nodiscard]] simulation::Command command_of(const protocol::TurnMouth& message) noexcept;
 [[nodiscard]] simulation::Command command_of(const protocol::SetFluid& message) noexcept;
-[[nodiscard]] Result<simulation::Command> command_of(const protocol::Answer& message);
+[[nodiscard]] Result<simulation::Command> command_of(const protocol::Answer& message,
+                                                     const procedure::Procedure& procedure);
 /// @param wrist  as it is held now: angles may be counted from it.
 [[nodiscard]] simulation::Command command_of(const protocol::TakeShot& message,
                                              const simulation::WristPose& wrist) noexcept;

@@ -14,6 +14,7 @@
 #include "arthroscopy/pathology_table.hpp"
 #include "session/body_names.hpp"
 #include "simulation/lesions_of.hpp"
+#include "simulation/questions.hpp"
 
 namespace carpus::session {
 namespace {
@@ -35,6 +36,7 @@ void add_lesions(protocol::Arthroscopy& message,
                  const cases::ArthroscopicMap& map,
                  const BodyNames& names) {
   for (const cases::Lesion& lesion : wrong.lesions) {
+    if (lesion.look == cases::LesionLook::ScrewSite) continue;
     message.lesions.push_back({static_cast<protocol::LesionLook>(lesion.look),
                                map.joints[lesion.joint].id, names.name(lesion.body), lesion.from,
                                lesion.to, lesion.radius_mm});
@@ -54,9 +56,30 @@ void add_pieces(protocol::Arthroscopy& message,
   }
 }
 
-/// What is asked of an examination.
-void add_questions(protocol::Arthroscopy& message) {
-  const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+/// Its thread and bore are those of the catalogue's screw of that length.
+protocol::ControlledScrew screw_message(const cases::ControlledScrew& screw,
+                                        const BodyNames& names) {
+  protocol::ControlledScrew message;
+  message.body = names.name(screw.body);
+  message.tail_mm = screw.tail;
+  message.tip_mm = screw.tip;
+  message.tail_radius_mm = screw.tail_radius_mm;
+  message.tip_radius_mm = screw.tip_radius_mm;
+  message.length_mm = screw.length_mm;
+  message.line_mm = screw.line_mm;
+  for (const instruments::Instrument& each : instruments::catalogue()) {
+    const bool is_it = !each.family.empty() && each.length_mm == screw.length_mm &&
+                       each.tail_diameter_mm == 2 * screw.tail_radius_mm;
+    if (!is_it || each.rods.empty()) continue;
+    message.bore_radius_mm = each.rods.front().bore_radius_mm;
+    message.thread_depth_mm = each.rods.front().thread_depth_mm;
+    message.thread_pitch_mm = each.rods.front().thread_pitch_mm;
+  }
+  return message;
+}
+
+/// What is asked about the joints.
+void add_questions(protocol::Arthroscopy& message, const arthroscopy::PathologyTable& table) {
   for (std::size_t f = 0; f < table.findings.size(); ++f) {
     protocol::Finding finding{
         table.findings[f].id, table.findings[f].label, table.scale_of(f).name, {}};
@@ -201,7 +224,8 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
     add_lesions(message, *wrong, *data.arthroscopy, names);
     add_pieces(message, *wrong, *data.arthroscopy, names);
   }
-  if (procedure.examines) add_questions(message);
+  if (const auto* asked = simulation::questions_of(procedure)) add_questions(message, *asked);
+  if (wrong && wrong->screw) message.screw = screw_message(*wrong->screw, names);
   if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);
   message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong ? &*wrong : nullptr).rest();
   return message;

@@ -50,8 +50,8 @@ simulation::Command Session::take(const protocol::Tube& message) noexcept {
   return command_of(message);
 }
 
-Result<simulation::Command> Session::take(const protocol::Answer& message) {
-  return command_of(message);
+Result<simulation::Command> Session::take(const protocol::Answer& message) const {
+  return command_of(message, procedure_);
 }
 
 simulation::Command Session::take(const protocol::TurnScope& message) noexcept {

@@ -41,7 +41,7 @@ class Session {
   [[nodiscard]] static simulation::Command take(const protocol::TurnScope& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::TurnMouth& message) noexcept;
   [[nodiscard]] static simulation::Command take(const protocol::SetFluid& message) noexcept;
-  [[nodiscard]] static Result<simulation::Command> take(const protocol::Answer& message);
+  [[nodiscard]] Result<simulation::Command> take(const protocol::Answer& message) const;
   const HeldInput& take(const protocol::CArm& message) noexcept;
   const HeldInput& take(const protocol::Pedal& message) noexcept;
   [[nodiscard]] const HeldInput& held() const noexcept { return held_; }

@@ -5,6 +5,7 @@
 #include "arthroscopy/make_lesions.hpp"
 #include "arthroscopy/make_loose_bodies.hpp"
 #include "arthroscopy/make_pieces.hpp"
+#include "arthroscopy/make_screw.hpp"
 
 namespace carpus::simulation {
 
@@ -17,6 +18,7 @@ std::optional<cases::JointLesions> lesions_of(const cases::CaseData& data,
     const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
     return arthroscopy::make_lesions(data, map, table, arthroscopy::grades_by(seed, table), seed);
   }
+  if (procedure.controls_screw) return arthroscopy::make_screw(data, map, seed);
   if (const auto& removal = procedure.removal) {
     return arthroscopy::make_loose_bodies(
         data, map, {removal->bodies, removal->radius_mm, removal->places}, seed);

@@ -10,6 +10,7 @@
 #include "procedure/aid.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/joint_fluid.hpp"
+#include "simulation/questions.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::simulation {
@@ -194,8 +195,9 @@ Refusal why_not(const procedure::Procedure& procedure,
       if (command.index >= procedure::kAidCount) return Refusal::UnknownCommand;
       return now.mode == procedure::Mode::Assessed ? Refusal::NoAidsWhenAssessed : Refusal::None;
     case CommandKind::Answer: {
-      if (!procedure.examines) return Refusal::UnknownCommand;
-      const auto& table = arthroscopy::PathologyTable::generic();
+      const arthroscopy::PathologyTable* asked = questions_of(procedure);
+      if (asked == nullptr) return Refusal::UnknownCommand;
+      const arthroscopy::PathologyTable& table = *asked;
       const std::size_t finding = command.index / kGradesAFinding;
       const std::uint8_t grade = command.index % kGradesAFinding;
       const bool is_asked = finding < table.findings.size() &&

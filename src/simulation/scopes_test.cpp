@@ -239,5 +239,30 @@ TEST(Scopes, AnswersOfAnExaminationAreKeptAndCanBeTakenBack) {
   EXPECT_EQ(world.operation_record().scope->answers, cases::not_judged());
 }
 
+TEST(Scopes, AnswersAboutAScrewKeepWhatWasKnownWhenTheyWereGiven) {
+  static const procedure::Procedure kControl = [] {
+    procedure::Procedure made = probing(false);
+    made.controls_screw = true;
+    return made;
+  }();
+  World world(box_wrist(), kControl, 1);
+  Hand hand(world);
+  Command answer;
+  answer.kind = CommandKind::Answer;
+  answer.index = answer_index(0, 2);
+  hand.command(answer);
+  EXPECT_EQ(hand.now().scope.answers[0], 2);
+  EXPECT_EQ(hand.now().scope.facts.screw.answered_seen, 0) << "nothing had been in view";
+  answer.index = answer_index(3, 3);
+  EXPECT_NE(why_not(kControl, hand.now(), answer), Refusal::None) << "there are three decisions";
+  answer.index = answer_index(4, 0);
+  EXPECT_NE(why_not(kControl, hand.now(), answer), Refusal::None) << "four things are asked";
+  World other(box_wrist(), kControl, 1);
+  ASSERT_TRUE(other.read_state(world.write_state()));
+  Hand same(other);
+  const Input input = hand.inputs.back();
+  EXPECT_EQ(other.step(input).state_hash, world.step(input).state_hash);
+}
+
 }  // namespace
 }  // namespace carpus::simulation

@@ -182,6 +182,7 @@ enum class EventKind : std::uint8_t {
   PressureTooHigh = 40,    ///< of the fluid in the joint; value: mmHg
   TissueSwells = 41,       ///< of what went into it; value: ml
   ViewClouded = 42,        ///< blood or what lies on the lens hides the joint
+  ScrewProbed = 50,        ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
 };
 
 struct Event {

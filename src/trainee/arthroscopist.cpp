@@ -14,6 +14,7 @@
 #include "cases/joint_under_block.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
+#include "simulation/questions.hpp"
 
 namespace carpus::trainee {
 namespace {
@@ -74,7 +75,8 @@ ScriptedArthroscopist::ScriptedArthroscopist(const cases::CaseData& data,
       skill_(scope_skill_of(skill)),
       rng_(seed),
       tremor_(skill_.tremor_mm, Rng(seed + 1)),
-      opening_(procedure.opening(data)) {
+      opening_(procedure.opening(data)),
+      asked_(simulation::questions_of(procedure)) {
   const auto& optic = instruments::catalogue()[procedure.tray.front()].optic;
   lens_ = {optic->view_angle_deg, optic->field_deg};
   wrist_ = opening_.wrist;
@@ -139,6 +141,7 @@ bool ScriptedArthroscopist::goes_in(const Vec3& tip, std::uint8_t portal, double
   const HandPose held = through(portal, tip);
   for (double s = 0; s < 12.0; s += 1.0) {
     const Vec3 at = tip + held.shaft * s;
+    if (is_in_metal(at, radius_mm)) return false;
     for (const auto& [bone, from_patient] : bones_) {
       const Vec3 local = (from_patient * Point<frame::Patient>{at}).v;
       const fields::DistanceSample d = fields::sample_distance(bone->distance_field, local);
@@ -146,6 +149,12 @@ bool ScriptedArthroscopist::goes_in(const Vec3& tip, std::uint8_t portal, double
     }
   }
   return true;
+}
+
+bool ScriptedArthroscopist::is_in_metal(const Vec3& at, double radius_mm) const {
+  if (lesions_ == nullptr || !lesions_->screw) return false;
+  const Vec3 local = (poses_[lesions_->screw->body].inverse() * Point<frame::Patient>{at}).v;
+  return cases::in_screw(*lesions_->screw, local, radius_mm).depth_mm > 0;
 }
 
 bool ScriptedArthroscopist::is_free(std::uint8_t joint, const Vec3& from, const Vec3& to) const {
@@ -285,7 +294,7 @@ void ScriptedArthroscopist::enter(std::uint8_t hand, std::uint8_t portal) {
   in_[hand] = portal;
 }
 
-void ScriptedArthroscopist::look_at(const Stop& stop, std::size_t point) {
+void ScriptedArthroscopist::look_at(const Stop& stop, const Vec3& place) {
   for (int i = 0; i < skill_.wanderings; ++i) {
     look(stop.look, {planned_[kScope] + error(2.0), rng_.uniform(-180.0, 180.0), true});
     tasks_.back().dwell = ticks_of(0.4);
@@ -294,12 +303,11 @@ void ScriptedArthroscopist::look_at(const Stop& stop, std::size_t point) {
     go(kScope, through(stop.look, in_portal(stop.look, kBackMm)), skill_.reaction_s);
     go(kScope, through(stop.look, in_portal(stop.look, kInsideMm)), skill_.reaction_s);
   }
-  const View view = view_of(stop.look, place_of(point), planned_[kScope]);
+  const View view = view_of(stop.look, place, planned_[kScope]);
   if (view.is_found) look(stop.look, view);
 }
 
-void ScriptedArthroscopist::probe(const Stop& stop, std::size_t point) {
-  const Vec3 at = place_of(point);
+void ScriptedArthroscopist::probe(const Stop& stop, const Vec3& at) {
   const Vec3 down =
       normalized_or(space_at(map_.portals[stop.look].joint, at).outwards, map_.distal);
   go(kProbe, through(stop.work, at + down * skill_.presses_mm), skill_.dwell_s);
@@ -324,6 +332,8 @@ void ScriptedArthroscopist::plan() {
     plan_removal();
   } else if (procedure_.shaving) {
     plan_shaving();
+  } else if (procedure_.controls_screw) {
+    plan_screw_control();
   } else {
     plan_tour();
   }
@@ -355,8 +365,8 @@ void ScriptedArthroscopist::plan_tour() {
       enter(kProbe, stop.work);
     }
     for (const std::size_t point : stop.points) {
-      look_at(stop, point);
-      if (map_.points[point].is_probed && in_[kProbe] == stop.work) probe(stop, point);
+      look_at(stop, place_of(point));
+      if (map_.points[point].is_probed && in_[kProbe] == stop.work) probe(stop, place_of(point));
     }
     const auto joint_bit = static_cast<std::uint8_t>(1U << map_.portals[stop.look].joint);
     if ((looked_round & joint_bit) == 0) look_round(stop);
@@ -365,7 +375,7 @@ void ScriptedArthroscopist::plan_tour() {
 }
 
 void ScriptedArthroscopist::plan_finish() {
-  if (procedure_.examines) {
+  if (asked_ != nullptr) {
     Task report;
     report.to = {planned_[kScope], hands_[kScope].shaft};
     report.answers = true;
@@ -379,8 +389,11 @@ void ScriptedArthroscopist::plan_finish() {
 
 /// One finding a tick.
 void ScriptedArthroscopist::answer(const simulation::Snapshot& now, simulation::Input& input) {
-  if (answered_ >= arthroscopy::PathologyTable::generic().findings.size()) return;
-  const std::uint8_t grade = judged(answered_, now.scope.lesions_seen);
+  if (answered_ >= asked_->findings.size()) return;
+  const std::uint32_t seen = now.scope.lesions_seen;
+  const std::uint8_t grade =
+      procedure_.examines ? judged(answered_, seen) : judged_of_screw(answered_, seen);
+  said_[answered_] = grade;
   input.command.kind = CommandKind::Answer;
   input.command.index = simulation::answer_index(answered_, grade);
   ++answered_;
@@ -492,7 +505,7 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     input.command.index = procedure_.tray.back();
   } else if (task.answers) {
     answer(now, input);
-    if (answered_ < arthroscopy::PathologyTable::generic().findings.size()) return input;
+    if (answered_ < asked_->findings.size()) return input;
   } else if (task.finishes) {
     input.command.kind = CommandKind::Finish;
     is_finished_ = true;
@@ -500,6 +513,10 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     input.command.kind = CommandKind::TurnMouth;
     input.command.hand = task.hand;
     input.command.rotation_deg = wrapped(task.mouth_deg);
+  } else if (task.inflow_steps >= 0 && in_task_ == 1) {
+    input.command.kind = CommandKind::SetFluid;
+    input.command.index = simulation::fluid_index(procedure::FluidControl::Inflow,
+                                                  static_cast<std::uint8_t>(task.inflow_steps));
   } else if (task.turns && now.tick % kTurnEvery == 0) {
     const double left = wrapped(task.shaft_turn_deg - turn_deg_);
     const double most = kTurnDegPerTick * static_cast<double>(kTurnEvery);

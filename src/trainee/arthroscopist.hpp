@@ -9,12 +9,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/optics.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "cases/case_data.hpp"
 #include "cases/joint_lesions.hpp"
 #include "core/rng.hpp"
@@ -92,7 +94,8 @@ class ScriptedArthroscopist {
     double speed_mm_per_s = 0.0;  ///< 0: the usual
     bool turns_mouth = false;     ///< of a shaver, to `mouth_deg`
     double mouth_deg = 0.0;
-    int until_gone = -1;  ///< this piece of tissue; it goes on at once then
+    int inflow_steps = -1;  ///< to which the pump is set; -1: as it is
+    int until_gone = -1;    ///< this piece of tissue; it goes on at once then
   };
   struct View {
     Vec3 tip;
@@ -115,8 +118,8 @@ class ScriptedArthroscopist {
   [[nodiscard]] std::uint8_t work_portal(std::uint8_t look) const;
   void enter(std::uint8_t hand, std::uint8_t portal);
   void draw_out(std::uint8_t hand);
-  void look_at(const Stop& stop, std::size_t point);
-  void probe(const Stop& stop, std::size_t point);
+  void look_at(const Stop& stop, const Vec3& place);
+  void probe(const Stop& stop, const Vec3& place);
   void look_round(const Stop& stop);
 
   // drill_plan.cpp
@@ -151,10 +154,20 @@ class ScriptedArthroscopist {
   void plan_shaving();
   void seek_to_cut(const simulation::Snapshot& now);
   void plan_cut(std::size_t piece);
+  bool waits_until_clear(const simulation::Snapshot& now);
   [[nodiscard]] std::size_t next_to_cut(const simulation::Snapshot& now) const;
   [[nodiscard]] Vec3 piece_at(std::size_t piece) const;
   [[nodiscard]] Vec3 out_of_joint(std::size_t piece) const;
   [[nodiscard]] double mouth_turn_deg(const HandPose& held, const Vec3& towards) const;
+
+  // screw_plan.cpp
+  void plan_screw_control();
+  void control_in(std::uint8_t joint);
+  [[nodiscard]] std::optional<Vec3> felt_by(std::uint8_t work, const Vec3& at) const;
+  void look_from_elsewhere(const Stop& stop, const Vec3& at);
+  [[nodiscard]] Stop stop_for(std::uint8_t joint, const Vec3& at) const;
+  [[nodiscard]] std::uint8_t judged_of_screw(std::size_t asked, std::uint32_t lesions_seen);
+  [[nodiscard]] std::uint8_t decided() const;
 
   [[nodiscard]] Vec3 place_of(std::size_t point) const;
   [[nodiscard]] HandPose hole(std::uint8_t portal) const;
@@ -171,6 +184,7 @@ class ScriptedArthroscopist {
   [[nodiscard]] arthroscopy::OpenedSpace space_at(std::uint8_t joint, const Vec3& at) const;
   [[nodiscard]] bool has_room(std::uint8_t joint, const Vec3& tip, double room_mm) const;
   [[nodiscard]] bool goes_in(const Vec3& tip, std::uint8_t portal, double radius_mm) const;
+  [[nodiscard]] bool is_in_metal(const Vec3& at, double radius_mm) const;
   [[nodiscard]] bool is_free(std::uint8_t joint, const Vec3& from, const Vec3& to) const;
   void give_way(const simulation::Snapshot& now);
   void go(std::uint8_t hand, const HandPose& to, double dwell_s);
@@ -205,7 +219,9 @@ class ScriptedArthroscopist {
   Tick in_task_ = 0;
   Tick move_ticks_ = 1;
   const cases::JointLesions* lesions_ = nullptr;
+  const arthroscopy::PathologyTable* asked_ = nullptr;  ///< nullptr: nothing is
   std::size_t answered_ = 0;
+  cases::Grades said_ = cases::not_judged();
   double turn_deg_ = 0.0;
   double tilt_deg_ = 0.0;
   std::array<Vec3, simulation::kHands> planned_{};  ///< where the plan so far leaves each tip

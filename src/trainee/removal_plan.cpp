@@ -42,7 +42,7 @@ void ScriptedArthroscopist::plan_search() {
   const std::uint8_t joint = map_.portals[working_.look].joint;
   for (std::size_t i = 0; i < map_.points.size(); ++i) {
     if (map_.points[i].joint != joint) continue;
-    if (rng_.uniform(0.0, 1.0) < skill_.searches) look_at(working_, i);
+    if (rng_.uniform(0.0, 1.0) < skill_.searches) look_at(working_, place_of(i));
   }
 }
 

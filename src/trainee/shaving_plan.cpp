@@ -16,9 +16,12 @@ constexpr double kInsideMm = 2.0;
 constexpr double kSeenDeg = 28.0;   // off the line of sight it is still well seen
 constexpr double kLiftedMm = 0.25;  // by which the mouth stays off the wall
 constexpr double kTurnStepDeg = 4.0;
-constexpr double kCutS = 1.0;       // a piece takes less
-constexpr double kFarMm = 3.0;      // to a piece farther off the hand is lifted
-constexpr double kWatchedMm = 2.5;  // off what the scope was led to, it is led anew
+constexpr double kCutS = 1.0;        // a piece takes less
+constexpr double kFarMm = 3.0;       // to a piece farther off the hand is lifted
+constexpr double kWatchedMm = 2.5;   // off what the scope was led to, it is led anew
+constexpr double kHazyPerMm = 0.08;  // more, and a place 10 mm away is hardly seen
+constexpr double kClearsS = 3.0;
+constexpr int kClearingSteps = 10;  // of the pump: 50 mmHg
 constexpr int kMostLooks = 2;
 
 double cosine_of(double deg) { return arthroscopy::cos_sin_deg(deg)[0]; }
@@ -123,8 +126,21 @@ void ScriptedArthroscopist::plan_shaving() {
   go_on_seeking();
 }
 
+/// Blood hides what is cut: who sees that sets the pump higher, once, and waits.
+bool ScriptedArthroscopist::waits_until_clear(const simulation::Snapshot& now) {
+  const simulation::FluidView& fluid = now.scope.fluid;
+  const bool is_clouded = fluid.is_there && fluid.haze_per_mm > kHazyPerMm;
+  if (!is_clouded || rng_.uniform(0.0, 1.0) < skill_.hasty) return false;
+  go(kProbe, hands_[kProbe], kClearsS);
+  tasks_.back().jaws = Jaws::Open;
+  tasks_.back().inflow_steps = kClearingSteps;
+  go_on_seeking();
+  return true;
+}
+
 void ScriptedArthroscopist::seek_to_cut(const simulation::Snapshot& now) {
   if (lesions_ == nullptr) return;
+  if (waits_until_clear(now)) return;
   const std::size_t piece = next_to_cut(now);
   if (piece < lesions_->pieces.size()) return plan_cut(piece);
   // Nothing that was seen is left: another place may be where it was not looked.

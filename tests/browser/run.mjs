@@ -25,6 +25,7 @@ import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
 import { lookAtScan } from "./scan.mjs";
 import { arthroscopy, basics, examination, removal } from "./scope.mjs";
+import { screwControl } from "./screw.mjs";
 import { startStation } from "./station.mjs";
 import { playQuiz } from "./view_quiz.mjs";
 
@@ -653,6 +654,7 @@ try {
   await examination(browser, station);
   await basics(browser, station);
   await removal(browser, station);
+  await screwControl(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <string>
 
+#include "cases/controlled_screw.hpp"
 #include "core/error.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
 
@@ -114,6 +115,23 @@ bool has_looked_at_cut(const Situation& now) noexcept {
   constexpr int kPlaces = 5;
   return has_cut_ill(now) && std::popcount(now.scope.shaving.seen_since) >= kPlaces;
 }
+constexpr unsigned bit_of(cases::ScrewSite site) noexcept {
+  return 1U << static_cast<unsigned>(site);
+}
+constexpr unsigned kMidcarpalSites =
+    bit_of(cases::ScrewSite::Scaphocapitate) | bit_of(cases::ScrewSite::Stt);
+bool has_seen_screw_entry(const Situation& now) noexcept {
+  return (now.scope.screw.seen & bit_of(cases::ScrewSite::Proximal)) != 0;
+}
+bool has_probed_screw_entry(const Situation& now) noexcept {
+  return (now.scope.screw.probed & bit_of(cases::ScrewSite::Proximal)) != 0;
+}
+bool has_seen_screw_midcarpal(const Situation& now) noexcept {
+  return (now.scope.screw.seen & kMidcarpalSites) == kMidcarpalSites;
+}
+bool has_probed_screw_midcarpal(const Situation& now) noexcept {
+  return (now.scope.screw.probed & kMidcarpalSites) != 0;
+}
 bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
 
 }  // namespace
@@ -150,6 +168,10 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"has_seen_patch", has_seen_patch},
       NamedPredicate{"has_cut_ill", has_cut_ill},
       NamedPredicate{"has_looked_at_cut", has_looked_at_cut},
+      NamedPredicate{"has_seen_screw_entry", has_seen_screw_entry},
+      NamedPredicate{"has_probed_screw_entry", has_probed_screw_entry},
+      NamedPredicate{"has_seen_screw_midcarpal", has_seen_screw_midcarpal},
+      NamedPredicate{"has_probed_screw_midcarpal", has_probed_screw_midcarpal},
       NamedPredicate{"is_finishing", is_finishing}};
   return kPredicates;
 }

@@ -89,6 +89,9 @@ void write(FieldWriter& out, const FindingGrade& in);
 void read(FieldReader& in, Finding& out);
 void write(FieldWriter& out, const Finding& in);
 
+void read(FieldReader& in, ControlledScrew& out);
+void write(FieldWriter& out, const ControlledScrew& in);
+
 void read(FieldReader& in, Arthroscopy& out);
 void write(FieldWriter& out, const Arthroscopy& in);
 

@@ -51,6 +51,7 @@ void World::State::obey(const Model& model, const Command& command) noexcept {
       const std::uint8_t grade = command.index % kGradesAFinding;
       scope_state.answers[command.index / kGradesAFinding] =
           grade == kNoGrade ? cases::kNotJudged : grade;
+      note_screw_answer(model, command.index / kGradesAFinding);
       return;
     }
     case CommandKind::SetFluid:

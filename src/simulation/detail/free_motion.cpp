@@ -59,6 +59,10 @@ World::State::Resolved World::State::push_out(const Model& model,
       deepest_mm = wall.depth_mm;
       normal = wall.out;
     }
+    if (const Wall metal = metal_at(model, hand, tip, shaft); metal.depth_mm > deepest_mm) {
+      deepest_mm = metal.depth_mm;
+      normal = metal.out;
+    }
     if (!(deepest_mm > kToleranceMm)) {
       result.tip = tip;
       return result;

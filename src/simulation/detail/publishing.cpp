@@ -158,6 +158,7 @@ void World::State::update_hash(const Model& model) noexcept {
     if (model.float_count > 0) visit(loose_state, fields);
     if (!model.pieces().empty()) visit(shaving_state, fields);
     if (model.procedure.fluid) visit(fluid, fields);
+    if (model.procedure.controls_screw) visit(screw_state, fields);
   }
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
   tissue.cuts().add_to(hash);

@@ -11,6 +11,7 @@
 #include "arthroscopy/pathology_table.hpp"
 #include "arthroscopy/seen_share.hpp"
 #include "simulation/detail/world_state.hpp"
+#include "simulation/questions.hpp"
 
 namespace carpus::simulation {
 
@@ -246,9 +247,10 @@ void World::State::look_at_lesions(const Model& model,
 }
 
 std::uint8_t World::State::unanswered(const Model& model) const noexcept {
-  if (!model.procedure.examines || !model.lesions) return 0;
+  const arthroscopy::PathologyTable* asked = questions_of(model.procedure);
+  if (asked == nullptr || !model.lesions) return 0;
   std::uint8_t count = 0;
-  for (std::size_t f = 0; f < arthroscopy::PathologyTable::generic().findings.size(); ++f) {
+  for (std::size_t f = 0; f < asked->findings.size(); ++f) {
     if (scope_state.answers[f] == cases::kNotJudged) ++count;
   }
   return count;
@@ -342,6 +344,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
       }
     } else {
       note_probing(model, h, *item);
+      probe_screw(model, h, *item);
     }
   }
   if (!looks_in && state.points_in_view != 0) {  // what nobody looks at is not in view
@@ -367,6 +370,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.drill = drill_state.done;
   facts.loose = loose_facts(model);
   facts.shaving = shaving_state.done;
+  facts.screw = screw_facts(model);
   return facts;
 }
 

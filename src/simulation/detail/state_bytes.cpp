@@ -78,6 +78,7 @@ std::vector<std::byte> World::write_state() const {
     if (model_->float_count > 0) visit(state.loose_state, fields);
     if (!model_->pieces().empty()) visit(state.shaving_state, fields);
     if (model_->procedure.fluid) visit(state.fluid, fields);
+    if (model_->procedure.controls_screw) visit(state.screw_state, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -115,6 +116,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::LooseState loose;
   detail::ShavingState shaving;
   detail::JointFluid fluid;
+  detail::ScrewState screw;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -142,6 +144,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
           is_sound && detail::is_possible(fluid, detail::FluidTable::generic(),
                                           model_->map->joints.size(), model_->map->portals.size());
     }
+    if (model_->procedure.controls_screw) {
+      visit(screw, fields);
+      is_sound = is_sound && detail::is_possible(screw);
+    }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
                                    model_->catalogue.size(),
@@ -162,6 +168,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->loose_state = loose;
   next->shaving_state = shaving;
   next->fluid = fluid;
+  next->screw_state = screw;
   if (model_->map != nullptr) next->disc = disc;
   next->cut_disc_as_shaved(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());

@@ -26,6 +26,7 @@
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
+#include "simulation/detail/screw_watch.hpp"
 #include "simulation/detail/shaving.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
@@ -81,6 +82,7 @@ struct World::State {
   detail::ShavingState shaving_state;
   detail::JointFluid fluid;
   double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
+  detail::ScrewState screw_state;
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
@@ -397,6 +399,16 @@ struct World::State {
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;
   void publish_scope(const Model& model) noexcept;
   [[nodiscard]] procedure::ScopeRecord scope_record(const Model& model) const;
+
+  // screws.cpp
+  [[nodiscard]] Wall metal_at(const Model& model,
+                              std::uint8_t hand,
+                              const Vec3& tip,
+                              const Vec3& shaft) const noexcept;
+  [[nodiscard]] std::uint8_t sites_seen() const noexcept;
+  [[nodiscard]] procedure::ScrewFacts screw_facts(const Model& model) const noexcept;
+  void probe_screw(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void note_screw_answer(const Model& model, std::size_t asked) noexcept;
 
   // yielding_disc.cpp
   void yield_disc(const Model& model) noexcept;

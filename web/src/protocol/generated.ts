@@ -486,6 +486,29 @@ export interface Finding {
   readonly grades: readonly FindingGrade[];
 }
 
+/** A headless screw that lies in a bone before the exercise begins, as scanned: to be drawn, and what a report of the operation says of it. Generated. */
+export interface ControlledScrew {
+  /** that it goes with */
+  readonly body: string;
+  /** middle of its trailing end */
+  readonly tail_mm: Vec3;
+  readonly tip_mm: Vec3;
+  /** over the thread [mm] 0 to 10 */
+  readonly tail_radius_mm: number;
+  /** [mm] 0 to 10 */
+  readonly tip_radius_mm: number;
+  /** [mm] 0 to 10 */
+  readonly bore_radius_mm: number;
+  /** [mm] 0 to 5 */
+  readonly thread_depth_mm: number;
+  /** [mm] 0 to 10 */
+  readonly thread_pitch_mm: number;
+  /** [mm] 0 to 100 */
+  readonly length_mm: number;
+  /** what was measured between the cortices [mm] 0 to 100 */
+  readonly line_mm: number;
+}
+
 /** What an arthroscopy goes by; all of it generated, not seen in the CT. */
 export interface Arthroscopy {
   /** id of the first scope on the tray */
@@ -508,6 +531,8 @@ export interface Arthroscopy {
   readonly drill: ScopeDrill | null;
   /** for a shaver, to be drawn and not to be told; see `scope` */
   readonly pieces: readonly TissuePiece[];
+  /** of a procedure that controls one */
+  readonly screw: ControlledScrew | null;
 }
 
 /** A body that moves as one: a bone or a fragment. Its pose takes places as they were scanned (and as /api/scene.glb has them) to where they are now. */

@@ -256,6 +256,18 @@ export const SCHEMA: Schema = {
       scale: {"type": "string", "max_length": 64},
       grades: {"type": "array", "of": {"type": "finding_grade"}, "max_items": 15},
     } },
+    controlled_screw: { fields: {
+      body: {"type": "string", "max_length": 32},
+      tail_mm: {"type": "vec3", "limit": 10000},
+      tip_mm: {"type": "vec3", "limit": 10000},
+      tail_radius_mm: {"type": "number", "min": 0, "max": 10},
+      tip_radius_mm: {"type": "number", "min": 0, "max": 10},
+      bore_radius_mm: {"type": "number", "min": 0, "max": 10},
+      thread_depth_mm: {"type": "number", "min": 0, "max": 5},
+      thread_pitch_mm: {"type": "number", "min": 0, "max": 10},
+      length_mm: {"type": "number", "min": 0, "max": 100},
+      line_mm: {"type": "number", "min": 0, "max": 100},
+    } },
     arthroscopy: { fields: {
       scope: {"type": "string", "max_length": 64},
       view_angle_deg: {"type": "number", "min": 0, "max": 90},
@@ -268,6 +280,7 @@ export const SCHEMA: Schema = {
       findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
       drill: {"type": "scope_drill", "optional": true},
       pieces: {"type": "array", "of": {"type": "tissue_piece"}, "max_items": 160},
+      screw: {"type": "controlled_screw", "optional": true},
     } },
     body: { fields: {
       name: {"type": "string", "max_length": 32},

@@ -3,13 +3,17 @@
 //
 // The report of an examination: of each structure one grade, the healthy one to choose like any other; none
 // is chosen beforehand. Each choice is told at once, the newest counts.
-import { button, make } from "../dom";
+import { button, make, setText } from "../dom";
+import { reportOf, WHAT_IS_ASKED } from "./findings_words_model";
 import type { Plan } from "./scope_plan";
 import "./findings_dialog.css";
 
 export class FindingsDialog {
   readonly element: HTMLDialogElement;
   private readonly rows = make("div.findings-rows");
+  private readonly intro = make("p");
+  /** Of the operation before. */
+  private readonly report = make("p.findings-report");
   private findings: Plan["findings"] = [];
 
   constructor(private readonly onAnswer: (finding: string, grade: string) => void) {
@@ -17,11 +21,8 @@ export class FindingsDialog {
       "form",
       { method: "dialog" },
       make("h2", { id: "findings-title" }, "Findings"),
-      make(
-        "p",
-        {},
-        "Of each structure one grade, healthy ones too. You may come back to it; what stands here when you finish counts.",
-      ),
+      this.intro,
+      this.report,
       this.rows,
       make(
         "div.actions",
@@ -43,8 +44,11 @@ export class FindingsDialog {
     this.element = make("dialog.findings", { "aria-labelledby": "findings-title" }, form);
   }
 
-  set(findings: Plan["findings"]): void {
+  set(findings: Plan["findings"], screw: Plan["screw"]): void {
     this.findings = findings;
+    setText(this.intro, screw === null ? WHAT_IS_ASKED.structures : WHAT_IS_ASKED.screw);
+    setText(this.report, reportOf(screw));
+    this.report.hidden = screw === null;
     this.rows.replaceChildren(
       ...findings.map((finding) =>
         make(

@@ -186,13 +186,11 @@ export class ScopeDesk {
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
-    this.picture.setWrong(
-      this.plan.lesions,
-      this.plan.pieces,
-      exercise.bodies.map((one) => one.name),
-    );
+    const bodies = exercise.bodies.map((one) => one.name);
+    this.picture.setWrong(this.plan.lesions, this.plan.pieces, bodies);
+    this.picture.setScrew(this.plan.screw, bodies);
     this.picture.setBeads([]);
-    this.findings.set(this.plan.findings);
+    this.findings.set(this.plan.findings, this.plan.screw);
     for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     this.controls.classList.toggle("grasps", this.tools.kind === "grasper");

@@ -3,7 +3,7 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { BodyPose, JointFluid, ScopeMessage, Vec3 } from "../protocol";
+import type { BodyPose, ControlledScrew, JointFluid, ScopeMessage, Vec3 } from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { LooseBodies } from "./loose_bodies";
@@ -13,6 +13,8 @@ import type { Bead } from "./scope_drill_model";
 import { ScopeFluid } from "./scope_fluid";
 import { lesionUniforms, setLesions, type Lesion } from "./scope_lesions";
 import { rodGeometries } from "./scope_rod";
+import { ScopeScrew } from "./scope_screw";
+import { holeUniforms, setHole } from "./screw_hole";
 import { lensUniforms, wetMaterial } from "./scope_shader";
 import type { Rod } from "./scope_tools";
 import { TissuePieces, type TissuePiece } from "./tissue_pieces";
@@ -48,6 +50,8 @@ export class ScopePicture {
   private readonly pieces: TissuePieces;
   /** Whoever wants less motion sees tufts that keep still. */
   private readonly isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  private readonly hole = holeUniforms();
+  private readonly screw = new ScopeScrew(this.lens);
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly fluid = new ScopeFluid(this.lens);
   private high: Vec3 = [0, 0, 1];
@@ -55,7 +59,8 @@ export class ScopePicture {
   /** When light was measured last: at the first picture it is right at once. */
   private exposedMs = -Infinity;
 
-  constructor(walls: readonly JointWall[]) {
+  constructor(private readonly all: readonly JointWall[]) {
+    const walls = this.all;
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(1);
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader does it
@@ -65,7 +70,10 @@ export class ScopePicture {
     this.walls = new Map(
       walls.map((wall) => [
         wall.joint,
-        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, wall.middle, this.lesions)),
+        new THREE.Mesh(
+          wall.geometry,
+          wetMaterial(this.lens, false, wall.middle, this.lesions, this.hole),
+        ),
       ]),
     );
     this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));
@@ -77,6 +85,7 @@ export class ScopePicture {
       this.loose.group,
       this.pieces.group,
       this.beads.group,
+      this.screw.group,
       this.fluid.mesh,
     );
     for (const mesh of [...this.walls.values(), this.rod]) {
@@ -102,6 +111,12 @@ export class ScopePicture {
     this.beads.setBodies(bodies);
   }
 
+  /** What lies in a bone from the beginning; null: nothing. */
+  setScrew(screw: ControlledScrew | null, bodies: readonly string[]): void {
+    setHole(this.hole, screw);
+    this.screw.set(screw, bodies, this.all);
+  }
+
   /** Marks of an exercise. */
   setBeads(beads: readonly Bead[]): void {
     this.beads.set(beads);
@@ -118,6 +133,7 @@ export class ScopePicture {
     setLesions(this.lesions, this.wrong, joint);
     this.beads.lay(poses);
     this.pieces.lay(poses);
+    this.screw.lay(poses);
   }
 
   /**
@@ -148,6 +164,7 @@ export class ScopePicture {
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.loose.group.visible = this.beads.group.visible = skin === undefined;
     this.pieces.group.visible = skin === undefined;
+    this.screw.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
     this.loose.lay(joint, scope.loose);
     this.pieces.show(
@@ -194,6 +211,7 @@ export class ScopePicture {
     this.beads.dispose();
     this.pieces.dispose();
     this.fluid.dispose();
+    this.screw.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();

@@ -41,11 +41,9 @@ export class ScopeReplay {
     this.picture = new ScopePicture(walls);
     this.picture.setField(plan.field_deg);
     this.tools.begin(exercise);
-    this.picture.setWrong(
-      plan.lesions,
-      plan.pieces,
-      exercise.bodies.map((one) => one.name),
-    );
+    const bodies = exercise.bodies.map((one) => one.name);
+    this.picture.setWrong(plan.lesions, plan.pieces, bodies);
+    this.picture.setScrew(plan.screw, bodies);
     for (const wall of walls) if (wall.joint === DISC_JOINT) wall.setDisc(plan.disc_mm);
     const scope = exercise.instruments.find((one) => one.id === plan.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;

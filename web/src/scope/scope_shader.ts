@@ -6,6 +6,7 @@
 // what lines the joint told apart by colour, gloss and grain, all procedural.
 import * as THREE from "three";
 import { FLUID_GLSL } from "./fluid_shader";
+import { HOLE_GLSL, holeUniforms, type HoleUniforms } from "./screw_hole";
 import { LESIONS_GLSL, lesionUniforms, type LesionUniforms } from "./scope_lesions";
 
 /** How bright the lamp is: a disc 12 mm away is still well exposed. */
@@ -106,6 +107,7 @@ float noise(vec3 p) {
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
 ${LESIONS_GLSL}
 ${FLUID_GLSL}
+${HOLE_GLSL}
 void main() {
   vec3 to = vAt - eye;
   float far = length(to);
@@ -186,6 +188,7 @@ void main() {
   // Without fluid a thin film is left: duller, its glints fewer.
   wet *= 1.0 - 0.62 * water.w;
   rough += 0.10 * water.w * (1.0 - isMetal);
+  cutByScrew(smooth_n, albedo, rough);
 
   vec3 away = lamp - vAt;
   float d2 = dot(away, away);
@@ -238,11 +241,13 @@ export function wetMaterial(
   isMetal: boolean,
   middle = new THREE.Vector3(),
   lesions: LesionUniforms = lesionUniforms(),
+  hole: HoleUniforms = holeUniforms(),
 ): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     uniforms: {
       ...lens,
       ...lesions,
+      ...hole,
       isMetal: { value: isMetal ? 1 : 0 },
       middle: { value: middle },
       shines: { value: new THREE.Vector4() },
