@@ -508,6 +508,7 @@ export class ScopeDesk {
       }
       case "switch_hand": {
         this.keys.clear();
+        if (this.isPlaced) this.sendHand(); // a pedal that was down is let go with the hand
         this.moved = this.moved === 0 ? 1 : 0;
         this.takeTools();
         this.room.showHand(this.moved);
@@ -562,6 +563,7 @@ export class ScopeDesk {
       "blur",
       () => {
         this.keys.clear();
+        this.changed = true;
       },
       { signal },
     );
