@@ -180,7 +180,7 @@ std::string_view felt(EventKind kind) {
   }
 }
 
-constexpr std::array<std::string_view, 33> kNames{"none",
+constexpr std::array<std::string_view, 35> kNames{"none",
                                                   "touched_bone",
                                                   "entered_bone",
                                                   "left_far_side",
@@ -212,7 +212,9 @@ constexpr std::array<std::string_view, 33> kNames{"none",
                                                   "loose_caught",
                                                   "loose_lost",
                                                   "loose_out",
-                                                  "tissue_bitten"};
+                                                  "tissue_bitten",
+                                                  "shaver_harmed",
+                                                  "sound_tissue_shaved"};
 
 /// None where it is the name of no kind.
 EventKind kind_of(std::string_view name) noexcept {

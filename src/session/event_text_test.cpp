@@ -24,7 +24,7 @@ protocol::LoggedEvent described(Event event) {
 
 TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
   std::set<std::string> kinds;
-  constexpr int kLast = static_cast<int>(EventKind::TissueBitten);
+  constexpr int kLast = static_cast<int>(EventKind::SoundTissueShaved);
   for (int i = 1; i <= kLast; ++i) {
     Event event;
     event.kind = static_cast<EventKind>(i);
@@ -46,6 +46,23 @@ TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
   event.detail = simulation::test::body_of(BoneId::Radius);
   EXPECT_EQ(described(event).text, instruments::catalogue()[event.instrument].name +
                                        " entered the radius, which is not to be entered");
+}
+
+TEST(EventText, AShaverThatHarmsIsToldAgainstWhat) {
+  Event event;
+  event.kind = EventKind::ShaverHarmed;
+  event.instrument = *instruments::instrument_of("shaver_2_0");
+  const auto text = [&](std::uint8_t detail) {
+    event.detail = detail;
+    return described(event).text;
+  };
+  EXPECT_NE(text(0).find("what lines the joint"), std::string::npos) << text(0);
+  EXPECT_NE(text(1).find("cartilage"), std::string::npos) << text(1);
+  EXPECT_NE(text(2).find("the scope"), std::string::npos) << text(2);
+  EXPECT_EQ(text(0).find("Shaver"), 0U) << text(0);
+  event.kind = EventKind::SoundTissueShaved;
+  EXPECT_NE(text(1).find("rim"), std::string::npos) << text(1);
+  EXPECT_EQ(text(0).find("rim"), std::string::npos) << text(0);
 }
 
 TEST(EventText, AnAssessedOperationIsToldWhatAHandFeelsAlone) {
