@@ -18,6 +18,12 @@
 #include "simulation/lesions_of.hpp"
 #include "simulation/world.hpp"
 
+namespace carpus::test {
+// Defined once in this program, where allocation_guard_test.cpp includes it.
+void start_counting_allocations() noexcept;
+int stop_counting_allocations() noexcept;
+}  // namespace carpus::test
+
 namespace carpus::simulation {
 namespace {
 
@@ -263,6 +269,95 @@ TEST(Shavers, AKeyframeThatNoTickLeftIsRefused) {
     World other(box_wrist(), inflamed(), 1);
     EXPECT_EQ(other.read_state(bytes).has_value(), deg == -90.0) << deg;
   }
+}
+
+TEST(Shavers, NoTickAllocatesWhileOneCuts) {
+  World first(wrist_with_disc(), torn(), 1);
+  Hand hand(first);
+  turn_mouth(hand, kDown);
+  enter(hand);
+  lay_mouth(hand, kMiddle + Vec3{0, 0, -kHalfHigh}, 0.0);
+  run(hand, 1000);
+  ASSERT_GT(facts(hand).ill_removed + facts(hand).sound_removed, 0);
+  World world(wrist_with_disc(), torn(), 1);
+  carpus::test::start_counting_allocations();
+  for (const Input& each : hand.inputs) world.step(each);
+  EXPECT_EQ(carpus::test::stop_counting_allocations(), 0);
+  EXPECT_EQ(world.now().state_hash, first.now().state_hash);
+}
+
+/// With a second portal, from the side, by which a scope goes in.
+const cases::CaseData& wrist_with_two_portals() {
+  static const cases::CaseData data = [] {
+    cases::CaseData made = box_wrist();
+    cases::ArthroscopicMap map = *made.arthroscopy;
+    cases::Portal beside = map.portals.front();
+    beside.id = "6R";
+    beside.skin = kMiddle + Vec3{0, kHalf + 6, 0};
+    beside.inwards = {0, -1, 0};
+    map.portals.push_back(beside);
+    made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+    return made;
+  }();
+  return data;
+}
+
+/// The other hand brings a scope in and lays its tip there, looking to the floor.
+void bring_in_scope(World& world, Input& input, const Vec3& to) {
+  input.command = test::take("arthroscope_1_9_30", 1);
+  input.hands[1].shaft_in_patient = {0, 1, 0};
+  input.hands[1].tip_in_patient = kMiddle + Vec3{0, 40, 0};
+  world.step(input);
+  input.command = {};
+  input.command.kind = CommandKind::TurnScope;
+  input.command.rotation_deg = 180;
+  world.step(input);
+  input.command = {};
+  for (const Vec3& next : {kMiddle + Vec3{0, kHalf - 1, 0}, to}) {
+    Vec3& tip = input.hands[1].tip_in_patient;
+    const Vec3 from = tip;
+    constexpr int kTicks = 1500;
+    for (int i = 1; i <= kTicks; ++i) {
+      tip = from + (next - from) * (static_cast<double>(i) / kTicks);
+      world.step(input);
+    }
+  }
+}
+
+TEST(Shavers, AScopeSeesTuftsAndMouthAndIsRunAgainstWhereItIsInTheWay) {
+  procedure::Procedure seen = inflamed();
+  seen.tray.push_back(*instruments::instrument_of("arthroscope_1_9_30"));
+  World world(wrist_with_two_portals(), seen, 1);
+  Hand hand(world);
+  turn_mouth(hand, kDown);
+  enter(hand);
+  lay_mouth(hand, first_tuft());
+  EXPECT_EQ(facts(hand).patches_seen, 0);
+  Input input = hand.inputs.back();
+  const Vec3 mouth_at = first_tuft() + Vec3{0, 0, 0.2};
+  bring_in_scope(world, input, mouth_at + Vec3{0, 6, 3});
+  const procedure::ShavingFacts& done = world.now().scope.facts.shaving;
+  ASSERT_TRUE(world.now().scope.facts.is_in_joint[1]);
+  for (int i = 0; i < 1500; ++i) world.step(input);
+  EXPECT_EQ(done.patches_seen, 1) << "for a second";
+  input.hands[0].driver = Driver::Forward;
+  for (int i = 0; i < 100; ++i) world.step(input);
+  EXPECT_EQ(done.running_ticks, 100U);
+  EXPECT_EQ(done.unseen_ticks, 0U);
+  EXPECT_EQ(done.scope_ticks, 0U);
+  input.hands[0].driver = Driver::Off;
+  for (int i = 0; i < 1000; ++i) {
+    input.hands[1].tip_in_patient += Vec3{0, -0.0054, -0.0022};
+    world.step(input);
+  }
+  input.hands[0].driver = Driver::Forward;
+  bool is_told = false;
+  for (int i = 0; i < 300; ++i) {
+    world.step(input);
+    is_told = is_told || test::has_event(world.now(), EventKind::ShaverHarmed);
+  }
+  EXPECT_EQ(done.scope_ticks, 300U);
+  EXPECT_TRUE(is_told);
 }
 
 /// How deep a probe comes that is led below the disc at this place.
