@@ -182,6 +182,73 @@ TEST(ReadProcedure, AScrewIsControlledOrAWristExamined) {
   EXPECT_NE(problem_of(file).find("controls_screw"), std::string::npos);
 }
 
+Json with_synovium() {
+  Json file = good();
+  file["shaving"] = Json::parse(R"({
+    "synovium": {"patches": [2, 3], "tufts": [10, 16], "places": [11, 12, 16]}, "mark": "[E]"})");
+  return file;
+}
+
+Json with_torn_disc() {
+  Json file = good();
+  file["shaving"] = Json::parse(R"({
+    "disc": {"tears": ["1A", "2C"], "frayed_mm": 0.8, "rim_mm": 2}, "mark": "[E]"})");
+  return file;
+}
+
+TEST(ReadProcedure, ReadsWhatIsToBeShavedAway) {
+  EXPECT_FALSE(read_procedure(good().dump(), "lunate.json", kPredicates).shaving.has_value());
+  const auto inflamed = read_procedure(with_synovium().dump(), "lunate.json", kPredicates).shaving;
+  ASSERT_TRUE(inflamed && inflamed->synovium);
+  EXPECT_FALSE(inflamed->disc);
+  EXPECT_EQ(inflamed->synovium->patches, (std::array<std::uint8_t, 2>{2, 3}));
+  EXPECT_EQ(inflamed->synovium->tufts, (std::array<std::uint8_t, 2>{10, 16}));
+  EXPECT_EQ(inflamed->synovium->places, (std::vector<std::uint8_t>{11, 12, 16}));
+  const auto torn = read_procedure(with_torn_disc().dump(), "lunate.json", kPredicates).shaving;
+  ASSERT_TRUE(torn && torn->disc);
+  EXPECT_FALSE(torn->synovium);
+  EXPECT_EQ(torn->disc->tears, (std::vector<std::string>{"1A", "2C"}));
+  EXPECT_DOUBLE_EQ(torn->disc->frayed_mm, 0.8);
+  EXPECT_DOUBLE_EQ(torn->disc->rim_mm, 2);
+}
+
+TEST(ReadProcedure, EitherSynoviumOrTheDiscIsShaved) {
+  Json both = with_synovium();
+  both["shaving"]["disc"] = with_torn_disc()["shaving"]["disc"];
+  EXPECT_NE(problem_of(both).find("either synovium or disc"), std::string::npos);
+  Json neither = with_synovium();
+  neither["shaving"].erase("synovium");
+  EXPECT_NE(problem_of(neither).find("either synovium or disc"), std::string::npos);
+  Json unsaid = with_synovium();
+  unsaid["shaving"].erase("mark");
+  EXPECT_NE(problem_of(unsaid).find("mark"), std::string::npos) << "says where it is from";
+}
+
+TEST(ReadProcedure, ShavingOutOfItsRangeIsRefusedByItsField) {
+  const auto problem = [](Json file, const char* what, const char* field, const Json& value) {
+    file["shaving"][what][field] = value;
+    return problem_of(file);
+  };
+  const auto synovium = [&](const char* field, const Json& value) {
+    return problem(with_synovium(), "synovium", field, value);
+  };
+  EXPECT_NE(synovium("patches", {3, 2}).find("least to most"), std::string::npos);
+  EXPECT_NE(synovium("patches", {1, 5}).find("patches"), std::string::npos);
+  EXPECT_NE(synovium("patches", {1.5, 2}).find("patches"), std::string::npos) << "no half ones";
+  EXPECT_NE(synovium("tufts", {0, 4}).find("tufts"), std::string::npos);
+  EXPECT_NE(synovium("tufts", {1, 31}).find("tufts"), std::string::npos);
+  EXPECT_NE(synovium("places", {11, 12}).find("fewer than patches"), std::string::npos);
+  EXPECT_NE(synovium("places", {11, 12, 40}).find("40 is no place"), std::string::npos);
+  EXPECT_NE(synovium("tuft", 1).find("tuft"), std::string::npos) << "misspelt";
+  const auto disc = [&](const char* field, const Json& value) {
+    return problem(with_torn_disc(), "disc", field, value);
+  };
+  EXPECT_NE(disc("tears", Json::array()).find("at least one"), std::string::npos);
+  EXPECT_NE(disc("frayed_mm", 0).find("frayed_mm"), std::string::npos);
+  EXPECT_NE(disc("rim_mm", 9).find("rim_mm"), std::string::npos);
+  EXPECT_NE(disc("rim", 1).find("rim"), std::string::npos) << "misspelt";
+}
+
 TEST(ReadProcedure, AStepMoreThanThereAreBitsIsRefused) {
   Json file = good();
   for (int i = 0; i < 31; ++i) {

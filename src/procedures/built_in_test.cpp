@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include "cases/make_hand_motion.hpp"
 #include "cases/synthetic_case_test_support.hpp"
@@ -18,7 +19,7 @@
 namespace carpus::procedures {
 namespace {
 
-/// Two portals dorsal of the radius into a joint without walls, and places to go to.
+/// Two portals dorsal of the radius into a joint without walls, places to go to and a disc.
 cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
   cases::ArthroscopicMap map;
   for (std::size_t b = 0; b < data.bones.size(); ++b) {
@@ -29,12 +30,13 @@ cases::ArthroscopicMap portals_of(const cases::CaseData& data) {
     map.joints.push_back({"radiocarpal", "radiocarpal joint", {}, body, body});
     map.portals.push_back({"3-4", "3-4 portal", "", 0, true, 0, skin, -dorsal, 12, 1, body, {}});
     map.portals.push_back({"4-5", "4-5 portal", "", 1, true, 0, skin, -dorsal, 12, 1, body, {}});
-    for (const int number : {2, 7, 8, 11, 16}) {
+    for (const int number : {2, 7, 8, 11, 12, 15, 16, 17}) {
       cases::TourPoint place;
       place.number = number;
       place.body = body;
       map.points.push_back(place);
     }
+    map.disc_sheet = data.bones[b].surface;  // any surface will do
   }
   return map;
 }
@@ -55,11 +57,13 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 7U);
+  ASSERT_EQ(built_in().all().size(), 9U);
   EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);
+  EXPECT_NE(built_in().find("arthroscopic_disc_debridement"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_loose_body_removal"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_screw_control"), nullptr);
+  EXPECT_NE(built_in().find("arthroscopic_synovectomy"), nullptr);
   EXPECT_NE(built_in().find("diagnostic_arthroscopy"), nullptr);
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
   EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);
@@ -105,6 +109,30 @@ TEST(BuiltIn, LooseBodiesNeedPlacesToLieBy) {
   data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
   const auto* removal = built_in().find("arthroscopic_loose_body_removal");
   EXPECT_THROW((void)removal->opening(data), InvalidInput);
+}
+
+TEST(BuiltIn, WhatIsShavedMustBeThere) {
+  const auto problem_of = [](const char* id, auto change) -> std::string {
+    cases::CaseData data = wrist();
+    cases::ArthroscopicMap map = *data.arthroscopy;
+    change(map);
+    data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+    try {
+      (void)built_in().find(id)->opening(data);
+    } catch (const InvalidInput& problem) {
+      return problem.what();
+    }
+    return "";
+  };
+  const auto without_disc = [](cases::ArthroscopicMap& map) { map.disc_sheet = {}; };
+  const auto without_places = [](cases::ArthroscopicMap& map) { map.points.resize(4); };
+  EXPECT_EQ(problem_of("arthroscopic_disc_debridement", without_disc),
+            "debridement of the disc: this wrist has no disc; choose another case");
+  EXPECT_EQ(problem_of("arthroscopic_synovectomy", without_disc), "") << "is not about the disc";
+  EXPECT_NE(problem_of("arthroscopic_synovectomy", without_places)
+                .find("too few of the places at which synovium may be inflamed"),
+            std::string::npos);
+  EXPECT_EQ(problem_of("arthroscopic_disc_debridement", without_places), "");
 }
 
 TEST(BuiltIn, FixationsBeginWithAWireInTheHand) {

@@ -41,7 +41,7 @@ TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
     kinds.insert(told.kind);
   }
   EXPECT_EQ(kinds.size(), count);
-  EXPECT_EQ(count, 35U);
+  EXPECT_EQ(count, 37U);
 }
 
 TEST(EventText, OfAScrewSaysWhereItWasFelt) {
@@ -59,6 +59,23 @@ TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
   event.detail = simulation::test::body_of(BoneId::Radius);
   EXPECT_EQ(described(event).text, instruments::catalogue()[event.instrument].name +
                                        " entered the radius, which is not to be entered");
+}
+
+TEST(EventText, AShaverThatHarmsIsToldAgainstWhat) {
+  Event event;
+  event.kind = EventKind::ShaverHarmed;
+  event.instrument = *instruments::instrument_of("shaver_2_0");
+  const auto text = [&](std::uint8_t detail) {
+    event.detail = detail;
+    return described(event).text;
+  };
+  EXPECT_NE(text(0).find("what lines the joint"), std::string::npos) << text(0);
+  EXPECT_NE(text(1).find("cartilage"), std::string::npos) << text(1);
+  EXPECT_NE(text(2).find("the scope"), std::string::npos) << text(2);
+  EXPECT_EQ(text(0).find("Shaver"), 0U) << text(0);
+  event.kind = EventKind::SoundTissueShaved;
+  EXPECT_NE(text(1).find("rim"), std::string::npos) << text(1);
+  EXPECT_EQ(text(0).find("rim"), std::string::npos) << text(0);
 }
 
 TEST(EventText, AnAssessedOperationIsToldWhatAHandFeelsAlone) {

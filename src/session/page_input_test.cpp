@@ -51,6 +51,16 @@ TEST(PageInput, TheTubeTakesTheNearestVoltage) {
   EXPECT_EQ(command_of(message).index, procedure::kUsualTube);
 }
 
+TEST(PageInput, AMouthIsTurnedInTheHandThatIsNamed) {
+  protocol::TurnMouth message;
+  message.hand = 1;
+  message.mouth_deg = -72.5;
+  const simulation::Command command = command_of(message);
+  EXPECT_EQ(command.kind, simulation::CommandKind::TurnMouth);
+  EXPECT_EQ(command.hand, 1);
+  EXPECT_DOUBLE_EQ(command.rotation_deg, -72.5);
+}
+
 TEST(PageInput, AnAidIsNamed) {
   protocol::Act message;
   message.id = protocol::ActionId::UseAid;

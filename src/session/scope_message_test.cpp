@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "instruments/instrument.hpp"
+#include "simulation/lesions_of.hpp"
 
 namespace carpus::session {
 namespace {
@@ -120,6 +121,47 @@ TEST(ScopeMessage, TellsOfFluidWhatPumpAndPictureShow) {
   EXPECT_DOUBLE_EQ(message->fluid->pressure_mmhg, 26);
   EXPECT_DOUBLE_EQ(message->fluid->haze_per_mm, 0.123);
   EXPECT_TRUE(message->fluid->outflow_open);
+}
+
+TEST(ScopeMessage, TellsWhatIsLeftToShaveAndHowTheMouthIsHeld) {
+  simulation::Snapshot now = holding(procedure::Mode::Assessed);
+  now.scope.piece_count = 3;
+  now.scope.pieces_left = {100, 42, 0};
+  now.scope.mouth_deg = {0.0, -89.6};
+  now.scope.are_running = {false, true};
+  const auto message = scope_message(with_places(), arthroscopy(), now);
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->pieces_left, (std::vector<std::int64_t>{100, 42, 0}));
+  EXPECT_EQ(message->mouth_deg, (std::vector<std::int64_t>{0, -90}));
+  EXPECT_EQ(message->running, (std::vector<std::int64_t>{0, 1}));
+  now.scope.piece_count = 0;
+  const auto without = scope_message(with_places(), arthroscopy(), now);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->pieces_left.empty() && without->mouth_deg.empty());
+  EXPECT_TRUE(without->running.empty()) << "nothing is to be shaved";
+}
+
+TEST(ScopeMessage, TuftsAreToldWhereTheyStand) {
+  const cases::CaseData data = with_places();
+  procedure::Procedure shaving = arthroscopy();
+  shaving.shaving.emplace();
+  shaving.shaving->synovium = {{1, 1}, {3, 3}, {16}};
+  const auto plan = arthroscopy_of(data, shaving, 1);
+  ASSERT_TRUE(plan);
+  const auto made = simulation::lesions_of(data, shaving, 1);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(plan->pieces.size(), 3U);
+  for (std::size_t i = 0; i < plan->pieces.size(); ++i) {
+    const protocol::TissuePiece& piece = plan->pieces[i];
+    EXPECT_EQ(piece.kind, protocol::TissueKind::Synovium);
+    EXPECT_EQ(piece.joint, "radiocarpal");
+    EXPECT_EQ(piece.body, "radius");
+    EXPECT_EQ(piece.at_mm, made->pieces[i].at);
+    EXPECT_EQ(piece.inwards, made->pieces[i].inwards);
+    EXPECT_EQ(piece.height_mm, made->pieces[i].height_mm);
+    EXPECT_FALSE(piece.is_loose) << "of the disc alone";
+  }
+  EXPECT_TRUE(arthroscopy_of(data, arthroscopy(), 1)->pieces.empty());
 }
 
 TEST(ScopeMessage, TheLineOfAnExerciseIsToldPointByPoint) {

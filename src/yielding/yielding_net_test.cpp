@@ -10,6 +10,8 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "core/rng.hpp"
 
@@ -161,6 +163,142 @@ TEST(YieldingNet, WhatHasComeOffStandsOffWhereItRests) {
   const auto state = std::make_unique<NetState>();
   state->reset(torn);
   EXPECT_EQ(state->energy_n_mm(torn), 0) << "it is as long as it lies";
+}
+
+/// The particle that is nearest to the middle, and the nearest to it.
+std::array<std::size_t, 2> neighbours_of_the_middle(const Net& net) {
+  const std::size_t middle = nearest(net, {0, 0, 0});
+  std::size_t next = net.size();
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    const auto far = [&](std::size_t k) { return distance(net.rest()[k], net.rest()[middle]); };
+    if (i != middle && (next == net.size() || far(i) < far(next))) next = i;
+  }
+  return {middle, next};
+}
+
+TEST(YieldingNet, WhatIsCutOutBearsNothing) {
+  const Net net = sheet();
+  const auto state = std::make_unique<NetState>();
+  state->reset(net);
+  const Vec3 middle{0, 0, 0};
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    if (distance(net.rest()[i], middle) < 2.5) state->cut(net, i);
+  }
+  state->cut(net, net.size());  // there is none: nothing happens
+  Tip tip;
+  tip.is_there = true;
+  tip.radius_mm = 1;
+  tip.at = {0, 0, -0.5};
+  for (int tick = 0; tick < 100; ++tick) state->step(net, std::span<const Tip>(&tip, 1));
+  EXPECT_EQ(state->force_on(0), (Vec3{})) << "a tip goes through the hole";
+  for (std::size_t i = 0; i < net.size(); ++i) EXPECT_EQ(state->at(i), net.rest()[i]) << i;
+  tip.hooked = nearest(net, middle);
+  tip.at = {0, 0, 2};
+  ASSERT_TRUE(state->is_cut(tip.hooked));
+  state->step(net, std::span<const Tip>(&tip, 1));
+  EXPECT_EQ(state->force_on(0), (Vec3{})) << "a hook finds nothing to hold";
+}
+
+TEST(YieldingNet, WhatIsLeftBesideACutIsSlacker) {
+  const Net net = sheet();
+  const auto [middle, next] = neighbours_of_the_middle(net);
+  const auto lift_of_next = [&, next = next](NetState& state) {
+    double lift = 0;
+    for (int tick = 0; tick < 3000; ++tick) {
+      Tip tip;
+      tip.is_there = true;
+      tip.hooked = next;
+      tip.at = net.rest()[next] + Vec3{0, 0, lift};
+      state.step(net, std::span<const Tip>(&tip, 1));
+      lift += 0.01 * (0.5 + state.force_on(0).z);
+    }
+    return state.at(next).z;
+  };
+  const auto whole = std::make_unique<NetState>();
+  whole->reset(net);
+  const auto cut = std::make_unique<NetState>();
+  cut->reset(net);
+  cut->cut(net, middle);
+  EXPECT_GT(lift_of_next(*cut), 1.05 * lift_of_next(*whole));
+}
+
+TEST(YieldingNet, CuttingAddsNoEnergyAndWhatIsLeftComesToRest) {
+  const Net net = sheet();
+  const auto state = std::make_unique<NetState>();
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Rng rng(seed);
+    *state = {};
+    state->reset(net);
+    for (int tick = 0; tick < 100; ++tick) {
+      Tip tip;
+      tip.is_there = true;
+      tip.radius_mm = 1;
+      tip.at = {rng.uniform(-4, 4), rng.uniform(-4, 4), rng.uniform(-2, 1)};
+      state->step(net, std::span<const Tip>(&tip, 1));
+    }
+    double energy = state->energy_n_mm(net);
+    EXPECT_GT(energy, 0);
+    int ticks = 0;
+    while (!state->is_still() && ticks < 4000) {
+      if (ticks % 20 == 0 && ticks < 200) {
+        state->cut(net, rng.below(net.size()));
+        ASSERT_LE(state->energy_n_mm(net), energy) << "seed " << seed << ", tick " << ticks;
+        energy = state->energy_n_mm(net);
+      }
+      state->step(net, {});
+      const double now = state->energy_n_mm(net);
+      ASSERT_LE(now, energy) << "seed " << seed << ", tick " << ticks;
+      energy = now;
+      ++ticks;
+    }
+    EXPECT_LT(ticks, 2500) << "seed " << seed;
+  }
+}
+
+TEST(YieldingNet, ReadBackAndCutAgainItGoesOnToTheSameBits) {
+  const Net net = sheet();
+  const auto state = std::make_unique<NetState>();
+  state->reset(net);
+  Tip tip;
+  tip.is_there = true;
+  tip.radius_mm = 1;
+  tip.at = {1.5, 0.5, 0.2};
+  const auto push = [&](NetState& pushed, int ticks) {
+    for (int i = 0; i < ticks; ++i) pushed.step(net, std::span<const Tip>(&tip, 1));
+  };
+  push(*state, 20);
+  const std::array<std::size_t, 2> taken = neighbours_of_the_middle(net);
+  for (const std::size_t i : taken) {
+    state->cut(net, i);
+    push(*state, 15);
+  }
+  std::vector<double> written;
+  NetState::visit(*state, net.size(), [&](const auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Vec3>) {
+      written.insert(written.end(), {field.x, field.y, field.z});
+    } else {
+      written.push_back(field ? 1.0 : 0.0);
+    }
+  });
+  const auto again = std::make_unique<NetState>();
+  again->reset(net);
+  std::size_t from = 0;
+  NetState::visit(*again, net.size(), [&](auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Vec3>) {
+      field = {written[from], written[from + 1], written[from + 2]};
+      from += 3;
+    } else {
+      field = written[from++] != 0.0;
+    }
+  });
+  for (const std::size_t i : taken) again->cut(net, i);
+  push(*state, 50);
+  push(*again, 50);
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    const Vec3 a = state->at(i);
+    const Vec3 b = again->at(i);
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << i;
+  }
 }
 
 TEST(YieldingNet, ASheetWithoutFacetsHasNoParticlesAndStaysStill) {

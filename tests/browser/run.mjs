@@ -24,7 +24,7 @@ import { followFromElsewhere, printedLink, traineesLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
 import { lookAtScan } from "./scan.mjs";
-import { arthroscopy, basics, examination, removal } from "./scope.mjs";
+import { arthroscopy, basics, examination, removal, shaving } from "./scope.mjs";
 import { screwControl } from "./screw.mjs";
 import { startStation } from "./station.mjs";
 import { playQuiz } from "./view_quiz.mjs";
@@ -655,6 +655,7 @@ try {
   await basics(browser, station);
   await removal(browser, station);
   await screwControl(browser, station);
+  await shaving(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);

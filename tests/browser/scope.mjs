@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score; the first exercises; a grasper; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// a touch, the score; the first exercises; a grasper; a shaver; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
@@ -335,6 +335,52 @@ export async function removal(browser, station) {
     await page.waitForURL(/#\/attempts\/\d+/);
     await page.getByText("Loose bodies brought out").first().waitFor();
     await page.getByText(`0 of ${lesions.length}.`).first().waitFor();
+  });
+  await page.context().close();
+}
+
+/** A shaver runs while its pedal is held and no longer, its mouth turns, and what stands in the joint is drawn. */
+export async function shaving(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  const told = () => page.evaluate(() => window.carpus.scope());
+  const button = (name) => page.locator(".scope-controls button", { hasText: name });
+  await check(page, "a shaver runs by its pedal, and its mouth turns", async () => {
+    await operator.start(station.url, TRAINEE, "arthroscopic_synovectomy");
+    const { pieces } = (await operator.exercise()).arthroscopy;
+    expect(pieces.length >= 20, `${pieces.length} tufts`);
+    expect(pieces.every((one) => one.kind === "synovium"), "not all of them are synovium");
+    expect(await button("Pedal").isVisible(), "no pedal");
+    expect(!(await button("Jaws").isVisible()), "jaws, and nothing has any");
+    await bringInScope(page, operator);
+    await page.waitForFunction(
+      () => Number(document.querySelector(".scope").dataset.calls) === 3,
+    ); // the wall, what lies about it, all tufts at once
+    const { shaft_deg: scopeDeg } = await told();
+    await page.keyboard.press("h");
+    await operator.until((s) => Operator.held(s, 1) !== undefined, "the shaver");
+    await holdUntil(page, "a", "shaver in the joint by 4-5", "the shaver");
+    const status = () => page.locator(".scope-status").innerText();
+    expect(!(await status()).includes("running"), "it runs by itself");
+    await holdUntil(page, "g", "by 4-5, running", "the pedal");
+    const stopped = page.locator(".scope-status", { hasText: "by 4-5 \u00b7" });
+    await stopped.waitFor({ timeout: 3000 });
+    expect((await told()).running.every((runs) => runs === 0), "it runs on");
+    const from = (await told()).mouth_deg[1];
+    await hold(page, ",", 400);
+    await page.waitForFunction(
+      (deg) => Math.abs(window.carpus.scope().mouth_deg[1] - deg) >= 10,
+      from,
+    );
+    const { shaft_deg: after } = await told();
+    expect(after === scopeDeg, "the scope was turned with it");
+    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "shaving.png") });
+    await page.keyboard.press("f");
+    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.waitForURL(/#\/attempts\/\d+/);
+    await page.getByText("Inflamed synovium removed").first().waitFor();
+    await page.getByText(`of ${pieces.length} pieces.`).first().waitFor();
   });
   await page.context().close();
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedure/detail/read_shaving.hpp"
 
+#include <cmath>
+
 #include "cases/tissue_piece.hpp"
 #include "procedure/detail/read_tour_places.hpp"
 
@@ -17,6 +19,9 @@ std::array<std::uint8_t, 2> least_and_most(JsonFields& fields,
                                            double most) {
   const std::vector<double> both = fields.numbers(field, 2, 1, most);
   if (both[0] > both[1]) fields.refuse(field + " is given from least to most");
+  for (const double count : both) {
+    if (count != std::floor(count)) fields.refuse(field + " counts whole ones");
+  }
   return {static_cast<std::uint8_t>(both[0]), static_cast<std::uint8_t>(both[1])};
 }
 

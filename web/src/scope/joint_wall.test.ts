@@ -55,6 +55,53 @@ describe("the wall of a joint", () => {
     expect(at(made, 0)).toEqual([0, 0, 0]);
   });
 
+  it("is moved outwards where the disc was cut away, and marked as gone there", () => {
+    const made = wall();
+    made.setDisc([
+      [0, 0, -0.7],
+      [1, 0, -0.7],
+    ]);
+    const gone = (v: number): number => made.geometry.getAttribute("gone").getX(v);
+    expect([0, 1, 2, 3].map(gone)).toEqual([0, 0, 0, 0]);
+    made.cutDisc([{ place: 0, outwards: [0, 0, -1] }]);
+    made.pose([REST, REST]);
+    expect(at(made, 0)[2]).toBeLessThan(-0.8);
+    expect(at(made, 1)[2]).toBeGreaterThan(at(made, 0)[2] ?? 0);
+    expect(gone(0)).toBeGreaterThan(0.6);
+    expect(gone(1)).toBeLessThan(0.4);
+    expect(at(made, 2)).toEqual([30, 0, 0]);
+    made.cutDisc([
+      { place: 0, outwards: [0, 0, -1] },
+      { place: 1, outwards: [0, 0, -1] },
+    ]);
+    made.pose([REST, REST]);
+    expect(at(made, 0)[2]).toBeCloseTo(-1.7, 5);
+    expect(at(made, 1)[2]).toBeCloseTo(-1.7, 5);
+    expect(gone(1)).toBeCloseTo(1, 5);
+    expect(gone(3)).toBe(0);
+  });
+
+  it("is whole again in the next exercise, and where cutting was undone", () => {
+    const made = wall();
+    made.setDisc([[0, 0, -0.7]]);
+    for (const mend of [
+      () => {
+        made.cutDisc([]);
+      },
+      () => {
+        made.setDisc([[0, 0, -0.7]]);
+      },
+    ]) {
+      made.cutDisc([{ place: 0, outwards: [0, 0, -1] }]);
+      made.pose([REST, REST]);
+      expect(at(made, 0)[2]).toBeCloseTo(-1.7, 5);
+      mend();
+      made.pose([REST, REST]);
+      expect(at(made, 0)).toEqual([0, 0, 0]);
+      expect(made.geometry.getAttribute("gone").getX(0)).toBe(0);
+    }
+  });
+
   it("turns what has yielded with the forearm", () => {
     const made = wall();
     made.setDisc([[0, 0, 0]]);

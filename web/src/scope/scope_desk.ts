@@ -519,6 +519,7 @@ export class ScopeDesk {
       }
       case "switch_hand": {
         this.keys.clear();
+        if (this.isPlaced) this.sendHand(); // a pedal that was down is let go with the hand
         this.moved = this.moved === 0 ? 1 : 0;
         this.takeTools();
         this.room.showHand(this.moved);
@@ -589,6 +590,7 @@ export class ScopeDesk {
       "blur",
       () => {
         this.keys.clear();
+        this.changed = true;
       },
       { signal },
     );
