@@ -16,6 +16,7 @@ procedure::OperationRecord perfect() {
   record.scope.emplace();
   record.scope->looking_ticks = 200'000;
   record.scope->entries = 1;
+  record.scope->fluid.watched_ticks = 150'000;
   procedure::ShavingFacts& done = record.scope->facts.shaving;
   done.ill = done.ill_removed = 20;
   done.sound = 80;
