@@ -171,6 +171,7 @@ export class ScopePicture {
       joint,
       scope.pieces_left,
       rod?.mouth !== undefined && scope.running.includes(1) ? mouthAt(rod) : undefined,
+      sight.eyeMm,
       this.isStill ? 0 : performance.now() / 1000,
     );
     if (rod !== undefined) {

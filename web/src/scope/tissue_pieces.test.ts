@@ -10,6 +10,8 @@ import {
   type TissuePiece,
 } from "./tissue_pieces";
 
+/** The lens. */
+const FAR = [50, 0, 0] as const;
 const JOINT = "radiocarpal";
 const tuft = (x: number): TissuePiece => ({
   kind: "synovium",
@@ -67,31 +69,31 @@ describe("what a shaver takes away", () => {
   it("becomes fewer and lower as less is left of it, in one draw call", () => {
     const all = made([tuft(0), tuft(1), tuft(2)]);
     expect(all.group.children.length).toBe(1);
-    all.show(JOINT, [], undefined, 0);
+    all.show(JOINT, [], undefined, FAR, 0);
     expect(mesh(all).count).toBe(3);
     const whole = standing(all, 1).size.z;
-    all.show(JOINT, [100, 40, 100], undefined, 0);
+    all.show(JOINT, [100, 40, 100], undefined, FAR, 0);
     expect(mesh(all).count).toBe(3);
     expect(standing(all, 1).size.z).toBeLessThan(whole);
-    all.show(JOINT, [0, 40, 100], undefined, 0);
+    all.show(JOINT, [0, 40, 100], undefined, FAR, 0);
     expect(mesh(all).count).toBe(2);
     expect(standing(all, 0).at.x).toBeCloseTo(1, 6);
-    all.show(JOINT, [0, 0, 0], undefined, 0);
+    all.show(JOINT, [0, 0, 0], undefined, FAR, 0);
     expect(mesh(all).count).toBe(0);
     expect(mesh(all).visible).toBe(false);
   });
 
   it("counts what is loose of the disc by its place in it", () => {
     const all = made([place(false), place(true), place(false), place(true)]);
-    all.show(JOINT, [100, 100, 100, 100], undefined, 0);
+    all.show(JOINT, [100, 100, 100, 100], undefined, FAR, 0);
     expect(mesh(all).count).toBe(2);
-    all.show(JOINT, [0, 100, 0, 0], undefined, 0);
+    all.show(JOINT, [0, 100, 0, 0], undefined, FAR, 0);
     expect(mesh(all).count).toBe(1);
   });
 
   it("is not seen from another joint", () => {
     const all = made([tuft(0)]);
-    all.show("midcarpal", [100], undefined, 0);
+    all.show("midcarpal", [100], undefined, FAR, 0);
     expect(mesh(all).count).toBe(0);
   });
 
@@ -102,7 +104,7 @@ describe("what a shaver takes away", () => {
       { quaternion: [1, 0, 0, 0], translation_mm: [50, 50, 50] },
       { quaternion: [half, 0, 0, half], translation_mm: [0, 0, 7] },
     ]);
-    all.show(JOINT, [100], undefined, 0);
+    all.show(JOINT, [100], undefined, FAR, 0);
     const { at } = standing(all, 0);
     expect(at.x).toBeCloseTo(0, 5);
     expect(at.y).toBeCloseTo(3, 5);
@@ -112,7 +114,7 @@ describe("what a shaver takes away", () => {
   it("leans into a mouth that draws it in, and not into one that is far off", () => {
     const all = made([tuft(0)]);
     const towards = (x: number | undefined): number => {
-      all.show(JOINT, [100], x === undefined ? undefined : { atMm: [x, 0, 0.5] }, 0);
+      all.show(JOINT, [100], x === undefined ? undefined : { atMm: [x, 0, 0.5] }, FAR, 0);
       return pointing(all, 0).x;
     };
     const still = towards(undefined);

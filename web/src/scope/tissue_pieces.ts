@@ -18,6 +18,8 @@ const SWAY_RAD = 0.1;
 /** So near to a running mouth they lean into it [mm]. */
 const DRAWN_MM = 2.5;
 const DRAWN_RAD = 0.9;
+/** The scope pushes aside what stands so near before its lens: all of it, and none [mm]. */
+const ASIDE_MM = [0.8, 2.6] as const;
 
 export interface Suction {
   readonly atMm: Vec3;
@@ -73,18 +75,21 @@ export class TissuePieces {
 
   /**
    * @param left  of each in percent, as the host says
+   * @param eyeMm  where the lens is
    * @param seconds  by which they sway; the same where nothing is to move
    */
   show(
     joint: string,
     left: readonly number[],
     suction: Suction | undefined,
+    eyeMm: Vec3,
     seconds: number,
   ): void {
     const { mesh } = this;
     if (mesh === undefined) return;
     const matrix = new THREE.Matrix4();
     const drawn = new THREE.Vector3();
+    const eye = new THREE.Vector3(...eyeMm);
     let place = 0;
     this.pieces.forEach((piece, i) => {
       const stand = this.stands[i];
@@ -98,8 +103,10 @@ export class TissuePieces {
         if (near > 0) lean.lerp(drawn.normalize().multiplyScalar(DRAWN_RAD), near);
       }
       up.add(lean).normalize();
+      const [all, none] = ASIDE_MM;
+      const upright = THREE.MathUtils.smoothstep(eye.distanceTo(stand.at), all, none);
       const isFlap = piece.kind === "disc";
-      const high = (isFlap ? FLAP_MM : piece.height_mm) * (0.35 + 0.65 * share);
+      const high = (isFlap ? FLAP_MM : piece.height_mm) * (0.35 + 0.65 * share) * upright;
       const wide = piece.radius_mm * (isFlap ? 1.3 : 1.15) * (0.5 + 0.5 * share);
       mesh.setMatrixAt(place, standing(matrix, stand.at, up, i, wide, high));
       ++place;
@@ -147,8 +154,8 @@ function standing(
 
 /** Along a finger: how high, and how thick; club-shaped, as villi are. Its root goes on into the wall. */
 const FINGER: readonly (readonly [number, number])[] = [
-  [-0.5, 1.7],
-  [0, 1.3],
+  [-0.4, 1.25],
+  [0, 1.1],
   [0.3, 0.95],
   [0.55, 0.85],
   [0.75, 0.98],
@@ -163,7 +170,7 @@ const FLAP: readonly (readonly [number, number])[] = [
   [0.85, 0.5],
   [1, 0],
 ];
-const SIDES = 5;
+const SIDES = 6;
 
 interface Finger {
   /** Where it stands about the foot, and which way it leans. */
