@@ -20,6 +20,7 @@ const DRAWN_MM = 2.5;
 const DRAWN_RAD = 0.9;
 /** The scope pushes aside what stands so near before its lens: all of it, and none [mm]. */
 const ASIDE_MM = [0.8, 2.6] as const;
+const NOT_SHOWN = 0.05;
 
 export interface Suction {
   readonly atMm: Vec3;
@@ -105,9 +106,10 @@ export class TissuePieces {
       up.add(lean).normalize();
       const [all, none] = ASIDE_MM;
       const upright = THREE.MathUtils.smoothstep(eye.distanceTo(stand.at), all, none);
+      if (upright < NOT_SHOWN) return;
       const isFlap = piece.kind === "disc";
       const high = (isFlap ? FLAP_MM : piece.height_mm) * (0.35 + 0.65 * share) * upright;
-      const wide = piece.radius_mm * (isFlap ? 1.3 : 1.15) * (0.5 + 0.5 * share);
+      const wide = piece.radius_mm * (isFlap ? 1.3 : 1.15) * (0.5 + 0.5 * share) * upright;
       mesh.setMatrixAt(place, standing(matrix, stand.at, up, i, wide, high));
       ++place;
     });
