@@ -6,43 +6,29 @@
 // really is, where the scope looks and what was seen, it says.
 import { make } from "../dom";
 import type {
-  BodyPose,
   DiscMessage,
   ExerciseMessage,
   HandMessage,
   ScopeMessage,
   SnapshotMessage,
-  Vec3,
 } from "../protocol";
-import { add, dot, length, rotated, scaled, subtract } from "../tool_placement";
+import { add, dot, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
-import { fluidAct, FluidControls } from "./fluid_controls";
+import { FluidControls } from "./fluid_controls";
 import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
 import { makeScopeControls } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
-import {
-  advanced,
-  heldBack,
-  leanAt,
-  leaned,
-  OUTSIDE,
-  wayRound,
-  wishOf,
-  wrappedDeg,
-  type Lean,
-  type PortalNow,
-  type Wish,
-} from "./scope_hand_model";
-import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
+import { wrappedDeg } from "./scope_hand_model";
+import { ScopeHands, type HandIndex } from "./scope_hands";
+import type { ScopeAct, ScopeMotion } from "./scope_keys";
+import { listenForScope, type ScopeAsked } from "./scope_listening";
 import { ScopePicture } from "./scope_picture";
 import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
-import { ScopeTools } from "./scope_tools";
+import { ScopeTools, type ToolKind } from "./scope_tools";
 import "./scope.css";
-
-type HandIndex = 0 | 1;
 
 export interface ScopeRoom {
   /** Where the picture goes: over the theatre. */
@@ -62,22 +48,10 @@ export interface ScopeRoom {
 }
 
 const LEAN_RAD_PER_S = (28 * Math.PI) / 180;
-const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
-const IN_JOINT_MM_PER_S = 6;
-const OUTSIDE_MM_PER_S = 25;
-const WHEEL_MM = 0.6;
 const TURN_DEG_PER_S = 75;
-const TURN_DEG_PER_PX = 0.6;
 const REPEAT_MS = 200;
 /** Within it the host answers what was asked of the fluid. */
 const ANSWERED_MS = 5000;
-/** So near to a place of its way round the wrist it goes on to the next [mm]. */
-const ROUNDED_MM = 5;
-
-interface Held {
-  readonly portal: number;
-  readonly lean: Lean;
-}
 
 export class ScopeDesk {
   readonly element = make("section.scope", { "aria-label": "Arthroscope" });
@@ -94,18 +68,11 @@ export class ScopeDesk {
   private exercise: ExerciseMessage | undefined;
   private scope: ScopeMessage | undefined;
   private snapshot: SnapshotMessage | undefined;
-  private poses: readonly BodyPose[] = [];
   /** Joints whose wall lies as the bones do now: only one that is looked at is laid. */
   private readonly posed = new Set<string>();
-  private readonly hands: [Held, Held] = [
-    { portal: 0, lean: OUTSIDE },
-    { portal: 1, lean: OUTSIDE },
-  ];
-  /** What is left of a hand's way round the wrist to its next portal. */
-  private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
+  private readonly hands = new ScopeHands();
   private readonly tools = new ScopeTools();
   private inflow = { mmhg: 0, askedMs: -Infinity };
-  private moved: HandIndex = 0;
   private shaftDeg = 0;
   private cameraDeg = 0;
   private isPlaced = false;
@@ -150,7 +117,7 @@ export class ScopeDesk {
     );
     this.controls.hidden = true;
     this.element.hidden = true;
-    this.listen(signal);
+    listenForScope(this.element, this.asked(), signal);
   }
 
   /** Whether the exercise is led from here. */
@@ -169,11 +136,8 @@ export class ScopeDesk {
     this.isPlaced = false;
     this.scope = undefined;
     this.snapshot = undefined;
-    this.hands[0] = { portal: 0, lean: OUTSIDE };
-    this.hands[1] = { portal: 1, lean: OUTSIDE };
-    this.rounds[0] = this.rounds[1] = [];
+    this.hands.begin(exercise);
     this.tools.begin(exercise);
-    this.moved = 0;
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
     const isOn = this.plan !== undefined && this.walls.length > 0;
@@ -200,10 +164,14 @@ export class ScopeDesk {
     this.showPoints();
   }
 
+  private get moved(): HandIndex {
+    return this.hands.moved;
+  }
+
   /** The joint that the scope's portal leads into. */
   private get joint(): string {
     const hand = this.scope?.hand === 1 ? 1 : 0;
-    return this.plan?.portals[this.hands[hand].portal]?.joint ?? "";
+    return this.hands.portalOf(hand)?.joint ?? "";
   }
 
   private showPoints(): void {
@@ -214,10 +182,10 @@ export class ScopeDesk {
     if (this.plan === undefined) return;
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) {
-      this.poses = snapshot.bodies;
+      this.hands.poses = snapshot.bodies;
       this.posed.clear(); // the scope's joint is laid when it is drawn
     }
-    this.holdBack();
+    if (this.isPlaced) this.hands.holdBack(snapshot.items);
   }
 
   seeScope(message: ScopeMessage): void {
@@ -252,7 +220,7 @@ export class ScopeDesk {
     this.lastMs = nowMs;
     if (this.plan === undefined || !this.room.operates()) return;
     this.place();
-    this.goRound();
+    if (this.hands.goRound(this.snapshot?.items ?? [])) this.changed = true;
     for (const motion of this.keys.values()) this.move(motion, seconds);
     if (this.turned) {
       this.turned = false;
@@ -264,22 +232,9 @@ export class ScopeDesk {
     this.sendHand();
   }
 
-  private goRound(): void {
-    const [next, ...rest] = this.rounds[this.moved];
-    if (next === undefined) return;
-    const item = this.snapshot?.items.find((one) => one.hand === this.moved);
-    // An empty hand passes through nothing.
-    const isThere = item === undefined || length(subtract(item.tip_mm, next.tipMm)) < ROUNDED_MM;
-    if (!isThere) return;
-    this.rounds[this.moved] = item === undefined ? [] : rest;
-    this.changed = true;
-  }
-
   private sendHand(): void {
-    const held = this.hands[this.moved];
-    const portal = this.portalNow(held.portal);
-    if (portal === undefined) return;
-    const wish = this.rounds[this.moved][0] ?? wishOf(held.lean, portal);
+    const { wish } = this.hands;
+    if (wish === undefined) return;
     this.room.send({
       hand: this.moved,
       tip_mm: wish.tipMm,
@@ -299,15 +254,15 @@ export class ScopeDesk {
     // The lens lies in the middle of the rounded tip.
     const eyeMm = add(item.tip_mm, scaled(item.shaft, this.radiusMm));
     const hand: HandIndex = scope.hand === 1 ? 1 : 0;
-    const portal = this.portalNow(this.hands[hand].portal);
+    const portal = this.hands.portalNowOf(hand);
     const isOutside =
       portal !== undefined &&
       scope.in_joint[hand] !== 1 &&
       dot(subtract(eyeMm, portal.skinMm), portal.inwards) < 0;
     const { joint } = this;
     if (!this.posed.has(joint)) {
-      this.walls.find((wall) => wall.joint === joint)?.pose(this.poses);
-      picture.lay(joint, this.poses);
+      this.walls.find((wall) => wall.joint === joint)?.pose(this.hands.poses);
+      picture.lay(joint, this.hands.poses);
       this.posed.add(joint);
     }
     const box = picture.canvas.getBoundingClientRect();
@@ -332,7 +287,7 @@ export class ScopeDesk {
   showReadings(): void {
     const { scope, snapshot, plan } = this;
     if (plan === undefined) return;
-    const wanted = plan.portals[this.hands[0].portal]?.name ?? "";
+    const wanted = this.hands.portalOf(0)?.name ?? "";
     this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, tool: this.tools.kind });
     this.showDrill(plan, scope);
     this.fluid.show(scope?.fluid ?? null);
@@ -366,32 +321,10 @@ export class ScopeDesk {
     return this.tools.driver(this.moved, pedalIsDown);
   }
 
-  private portalNow(index: number): PortalNow | undefined {
-    const { plan, exercise } = this;
-    const portal = plan?.portals[index];
-    if (plan === undefined || portal === undefined) return undefined;
-    const body = exercise?.bodies.findIndex((one) => one.name === portal.body) ?? -1;
-    const pose = this.poses[body];
-    return {
-      skinMm: moved(portal.skin_mm, pose, true),
-      inwards: moved(portal.inwards, pose, false),
-      up: moved(plan.distal, pose, false),
-      capsuleMm: portal.capsule_mm,
-    };
-  }
-
   /** The hand begins where the host has the scope. */
   private place(): void {
-    if (this.isPlaced || this.snapshot === undefined || this.poses.length === 0) return;
-    this.snapshot.items.forEach((item) => {
-      if (item.hand !== 0 && item.hand !== 1) return;
-      const portal = this.portalNow(this.hands[item.hand].portal);
-      if (portal === undefined) return;
-      this.hands[item.hand] = {
-        ...this.hands[item.hand],
-        lean: leanAt(item.tip_mm, portal),
-      };
-    });
+    if (this.isPlaced || this.snapshot === undefined || this.hands.poses.length === 0) return;
+    this.hands.place(this.snapshot.items);
     if (this.scope !== undefined) {
       this.shaftDeg = this.scope.shaft_deg;
       this.cameraDeg = this.scope.camera_deg;
@@ -400,19 +333,7 @@ export class ScopeDesk {
     this.isPlaced = true;
   }
 
-  private holdBack(): void {
-    if (!this.isPlaced || this.snapshot === undefined) return;
-    const item = this.snapshot.items.find((one) => one.hand === this.moved);
-    const held = this.hands[this.moved];
-    const portal = this.portalNow(held.portal);
-    if (item === undefined || portal === undefined || held.lean.depthMm < 5) return;
-    this.hands[this.moved] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal) };
-  }
-
   private move(motion: ScopeMotion, seconds: number): void {
-    const held = this.hands[this.moved];
-    const portal = this.portalNow(held.portal);
-    if (portal === undefined) return;
     switch (motion.kind) {
       case "lean": {
         // The hand goes the other way than the tip.
@@ -420,12 +341,9 @@ export class ScopeDesk {
         this.lean(motion.yaw * by, motion.pitch * by);
         return;
       }
-      case "advance": {
-        const isIn = held.lean.depthMm > portal.capsuleMm - 3;
-        const speed = isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S;
-        this.advance(motion.by * speed * seconds);
+      case "advance":
+        if (this.hands.advanceFor(motion.by * seconds)) this.changed = true;
         return;
-      }
       case "turn_shaft":
         this.turnHeld(motion.by * TURN_DEG_PER_S * seconds);
         return;
@@ -447,18 +365,7 @@ export class ScopeDesk {
   }
 
   private lean(yaw: number, pitch: number): void {
-    this.rounds[this.moved] = []; // a hand that is led goes by itself no longer
-    const held = this.hands[this.moved];
-    this.hands[this.moved] = { ...held, lean: leaned(held.lean, yaw, pitch) };
-    this.changed = true;
-  }
-
-  private advance(mm: number): void {
-    this.rounds[this.moved] = [];
-    const held = this.hands[this.moved];
-    const portal = this.portalNow(held.portal);
-    if (portal === undefined) return;
-    this.hands[this.moved] = { ...held, lean: advanced(held.lean, mm, portal) };
+    this.hands.lean(yaw, pitch);
     this.changed = true;
   }
 
@@ -494,33 +401,23 @@ export class ScopeDesk {
         this.turnBy(0, -this.cameraDeg);
         return;
       case "next_portal": {
-        const held = this.hands[this.moved];
         // The host's word counts: it may have drawn the tip farther out than the page wished, or less.
         const isIn = (this.scope?.portals[this.moved] ?? "") !== "";
         if (isIn) {
           this.room.say("Draw it out of this portal first.");
           return;
         }
-        const taken = this.hands[this.moved === 0 ? 1 : 0].portal;
-        let next = (held.portal + 1) % plan.portals.length;
-        if (next === taken) next = (next + 1) % plan.portals.length;
-        const from = this.portalNow(held.portal);
-        const to = this.portalNow(next);
-        const last = this.rounds[this.moved];
-        // On its way round to the last portal it goes on from there.
-        if (from !== undefined && to !== undefined) {
-          this.rounds[this.moved] = [...last, ...wayRound(from, to)];
-        }
-        this.hands[this.moved] = { portal: next, lean: OUTSIDE };
+        this.hands.goToNextPortal();
         this.changed = true;
         this.showPoints();
-        this.room.say(`${plan.portals[next]?.name ?? ""}: ${plan.portals[next]?.landmarks ?? ""}.`);
+        const next = this.hands.portalOf(this.moved);
+        this.room.say(`${next?.name ?? ""}: ${next?.landmarks ?? ""}.`);
         return;
       }
       case "switch_hand": {
         this.keys.clear();
         if (this.isPlaced) this.sendHand(); // a pedal that was down is let go with the hand
-        this.moved = this.moved === 0 ? 1 : 0;
+        this.hands.moved = this.moved === 0 ? 1 : 0;
         this.takeTools();
         this.room.showHand(this.moved);
         this.changed = true;
@@ -530,12 +427,53 @@ export class ScopeDesk {
           // The hand is there before it takes anything: it comes in from behind, through no bone.
           this.sendHand();
           this.room.take(probe, 1);
-          const portal = plan.portals[this.hands[1].portal];
+          const portal = this.hands.portalOf(1);
           const name = this.exercise?.instruments.find((one) => one.id === probe)?.name ?? "";
           this.room.say(`${name} at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.`);
         }
       }
     }
+  }
+
+  /** Of keys and mouse. */
+  private asked(): ScopeAsked {
+    const takesKeys = (): boolean => this.plan !== undefined && this.room.operates();
+    const tool = (): ToolKind => this.tools.kind;
+    const hasFluid = (): boolean => (this.scope?.fluid ?? null) !== null;
+    return {
+      takesKeys,
+      get tool() {
+        return tool();
+      },
+      get hasFluid() {
+        return hasFluid();
+      },
+      press: (holder, motion) => {
+        this.press(holder, motion);
+      },
+      letGo: (holder) => {
+        this.letGo(holder);
+      },
+      letGoOfAll: () => {
+        this.keys.clear();
+        this.changed = true;
+      },
+      act: (act) => {
+        this.act(act);
+      },
+      actOnFluid: (act) => {
+        this.actOnFluid(act);
+      },
+      lean: (yawRad, pitchRad) => {
+        this.lean(yawRad, pitchRad);
+      },
+      turn: (deg) => {
+        this.turnHeld(deg);
+      },
+      advance: (mm) => {
+        if (this.hands.advance(mm)) this.changed = true;
+      },
+    };
   }
 
   private press(holder: string, motion: ScopeMotion): void {
@@ -561,111 +499,4 @@ export class ScopeDesk {
     }
     this.room.setFluid(setting);
   }
-
-  private listen(signal: AbortSignal): void {
-    window.addEventListener(
-      "keydown",
-      (event) => {
-        if (!this.takesKeys(event)) return;
-        const motion = this.motionOf(event.code, event.shiftKey);
-        const act = this.actOf(event.code);
-        const tap = (this.scope?.fluid ?? null) === null ? undefined : fluidAct(event.code);
-        if (motion === undefined && act === undefined && tap === undefined) return;
-        event.preventDefault();
-        event.stopImmediatePropagation();
-        if (motion !== undefined) this.press(event.code, motion);
-        else if (act !== undefined && !event.repeat) this.act(act);
-        else if (tap !== undefined && !event.repeat) this.actOnFluid(tap);
-      },
-      { signal, capture: true },
-    );
-    window.addEventListener(
-      "keyup",
-      (event) => {
-        this.letGo(event.code);
-      },
-      { signal, capture: true },
-    );
-    window.addEventListener(
-      "blur",
-      () => {
-        this.keys.clear();
-        this.changed = true;
-      },
-      { signal },
-    );
-    this.listenToMouse(signal);
-  }
-
-  /** One key: jaws go by one press, a pedal is held down. */
-  private actOf(code: string): ScopeAct | undefined {
-    const act = scopeAct(code);
-    return act === "jaws" && this.tools.kind !== "grasper" ? undefined : act;
-  }
-
-  private motionOf(code: string, shift: boolean): ScopeMotion | undefined {
-    const isPedal = scopeAct(code) === "jaws" && this.tools.kind === "shaver";
-    return isPedal ? { kind: "run" } : scopeMotion(code, shift);
-  }
-
-  private takesKeys(event: KeyboardEvent): boolean {
-    if (this.plan === undefined || !this.room.operates()) return false;
-    if (event.altKey || event.metaKey || event.ctrlKey) return false;
-    if (document.querySelector("dialog[open]") !== null) return false;
-    return !(event.target instanceof HTMLInputElement);
-  }
-
-  private listenToMouse(signal: AbortSignal): void {
-    let drag: number | undefined;
-    this.element.addEventListener(
-      "pointerdown",
-      (event) => {
-        if (!(event.target instanceof HTMLCanvasElement)) return;
-        drag = event.button;
-        event.target.setPointerCapture(event.pointerId);
-      },
-      { signal },
-    );
-    this.element.addEventListener(
-      "pointermove",
-      (event) => {
-        if (drag === undefined || event.buttons === 0) return;
-        if (drag === 2 || event.shiftKey) this.turnHeld(-event.movementX * TURN_DEG_PER_PX);
-        else this.lean(event.movementX * LEAN_RAD_PER_PX, -event.movementY * LEAN_RAD_PER_PX);
-      },
-      { signal },
-    );
-    this.element.addEventListener(
-      "pointerup",
-      () => {
-        drag = undefined;
-      },
-      { signal },
-    );
-    this.element.addEventListener(
-      "contextmenu",
-      (event) => {
-        event.preventDefault();
-      },
-      { signal },
-    );
-    this.element.addEventListener(
-      "wheel",
-      (event) => {
-        event.preventDefault();
-        this.advance(-Math.sign(event.deltaY) * WHEEL_MM);
-      },
-      { signal, passive: false },
-    );
-  }
-}
-
-/** Where a place or a direction as scanned is now. */
-function moved(v: Vec3, pose: BodyPose | undefined, isPoint: boolean): Vec3 {
-  if (pose === undefined) return v;
-  const [w, x, y, z] = pose.quaternion;
-  const sine = Math.hypot(x, y, z);
-  const turned =
-    sine < 1e-9 ? v : rotated(v, [x / sine, y / sine, z / sine], 2 * Math.atan2(sine, w));
-  return isPoint ? add(turned, pose.translation_mm) : turned;
 }

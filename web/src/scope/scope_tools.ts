@@ -5,6 +5,7 @@
 import type { ExerciseMessage, HandMessage, Item, ScopeMessage, Vec3 } from "../protocol";
 import { cross, dot, normalized, rotated, scaled, subtract } from "../tool_placement";
 import { wrappedDeg } from "./scope_hand_model";
+import type { HandIndex } from "./scope_hands";
 import { rodLook, type RodLook } from "./scope_rod";
 
 export type ToolKind = "probe" | "grasper" | "shaver";
@@ -17,8 +18,6 @@ export interface Rod {
   /** Unit: where a shaver's mouth looks. */
   readonly mouth: Vec3 | undefined;
 }
-
-type HandIndex = 0 | 1;
 
 export class ScopeTools {
   private readonly areClosed: [boolean, boolean] = [false, false];

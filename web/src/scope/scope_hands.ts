@@ -1,0 +1,173 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where two hands are wanted: each before or in a portal, leant about its hole, or on its way round the wrist
+// to the next one. Mouse and keys move one of them.
+import type { BodyPose, ExerciseMessage, Item, Vec3 } from "../protocol";
+import { add, length, rotated, subtract } from "../tool_placement";
+import {
+  advanced,
+  heldBack,
+  leanAt,
+  leaned,
+  OUTSIDE,
+  wayRound,
+  wishOf,
+  type Lean,
+  type PortalNow,
+  type Wish,
+} from "./scope_hand_model";
+import type { Plan } from "./scope_plan";
+
+export type HandIndex = 0 | 1;
+
+const IN_JOINT_MM_PER_S = 6;
+const OUTSIDE_MM_PER_S = 25;
+/** So near to a place of its way round the wrist it goes on to the next [mm]. */
+const ROUNDED_MM = 5;
+/** Farther out nothing holds a hand back [mm]. */
+const HELD_BACK_MM = 5;
+
+interface Held {
+  readonly portal: number;
+  readonly lean: Lean;
+}
+
+export class ScopeHands {
+  /** The hand that is led. */
+  moved: HandIndex = 0;
+  /** The host's, in the exercise's order of bodies. */
+  poses: readonly BodyPose[] = [];
+  private exercise: ExerciseMessage | undefined;
+  private readonly held: [Held, Held] = [
+    { portal: 0, lean: OUTSIDE },
+    { portal: 1, lean: OUTSIDE },
+  ];
+  /** What is left of a hand's way round the wrist to its next portal. */
+  private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
+
+  begin(exercise: ExerciseMessage): void {
+    this.exercise = exercise;
+    this.held[0] = { portal: 0, lean: OUTSIDE };
+    this.held[1] = { portal: 1, lean: OUTSIDE };
+    this.rounds[0] = this.rounds[1] = [];
+    this.moved = 0;
+  }
+
+  private get plan(): Plan | undefined {
+    return this.exercise?.arthroscopy ?? undefined;
+  }
+
+  /** Of the plan's portals the one that a hand is before or in. */
+  portalOf(hand: HandIndex): Plan["portals"][number] | undefined {
+    return this.plan?.portals[this.held[hand].portal];
+  }
+
+  /** The same, where it is now. */
+  portalNowOf(hand: HandIndex): PortalNow | undefined {
+    return this.portalNow(this.held[hand].portal);
+  }
+
+  private portalNow(index: number): PortalNow | undefined {
+    const { plan, exercise } = this;
+    const portal = plan?.portals[index];
+    if (plan === undefined || portal === undefined) return undefined;
+    const body = exercise?.bodies.findIndex((one) => one.name === portal.body) ?? -1;
+    const pose = this.poses[body];
+    return {
+      skinMm: moved(portal.skin_mm, pose, true),
+      inwards: moved(portal.inwards, pose, false),
+      up: moved(plan.distal, pose, false),
+      capsuleMm: portal.capsule_mm,
+    };
+  }
+
+  /** Each begins where the host has what it holds. */
+  place(items: readonly Item[]): void {
+    for (const { hand, tip_mm: tipMm } of items) {
+      if (hand !== 0 && hand !== 1) continue;
+      const portal = this.portalNowOf(hand);
+      if (portal === undefined) continue;
+      this.held[hand] = { ...this.held[hand], lean: leanAt(tipMm, portal) };
+    }
+  }
+
+  /** What the led hand holds came no deeper: the wish goes back to it. */
+  holdBack(items: readonly Item[]): void {
+    const item = items.find((one) => one.hand === this.moved);
+    const held = this.held[this.moved];
+    const portal = this.portalNowOf(this.moved);
+    if (item === undefined || portal === undefined || held.lean.depthMm < HELD_BACK_MM) return;
+    this.held[this.moved] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal) };
+  }
+
+  /** @returns  whether the led hand is to go on to another place of its way round */
+  goRound(items: readonly Item[]): boolean {
+    const [next, ...rest] = this.rounds[this.moved];
+    if (next === undefined) return false;
+    const item = items.find((one) => one.hand === this.moved);
+    // An empty hand passes through nothing.
+    const isThere = item === undefined || length(subtract(item.tip_mm, next.tipMm)) < ROUNDED_MM;
+    if (!isThere) return false;
+    this.rounds[this.moved] = item === undefined ? [] : rest;
+    return true;
+  }
+
+  /** Of the led hand. */
+  get wish(): Wish | undefined {
+    const portal = this.portalNowOf(this.moved);
+    if (portal === undefined) return undefined;
+    return this.rounds[this.moved][0] ?? wishOf(this.held[this.moved].lean, portal);
+  }
+
+  lean(yawRad: number, pitchRad: number): void {
+    this.rounds[this.moved] = []; // a hand that is led goes by itself no longer
+    const held = this.held[this.moved];
+    this.held[this.moved] = { ...held, lean: leaned(held.lean, yawRad, pitchRad) };
+  }
+
+  /** @returns  whether there is a portal to go in by */
+  advance(mm: number): boolean {
+    this.rounds[this.moved] = [];
+    const held = this.held[this.moved];
+    const portal = this.portalNowOf(this.moved);
+    if (portal === undefined) return false;
+    this.held[this.moved] = { ...held, lean: advanced(held.lean, mm, portal) };
+    return true;
+  }
+
+  /** For so long at a hand's speed: slower in the joint. */
+  advanceFor(seconds: number): boolean {
+    const portal = this.portalNowOf(this.moved);
+    if (portal === undefined) return false;
+    const isIn = this.held[this.moved].lean.depthMm > portal.capsuleMm - 3;
+    return this.advance(seconds * (isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S));
+  }
+
+  /** The led hand goes to before the next portal that the other one leaves free. */
+  goToNextPortal(): void {
+    const count = this.plan?.portals.length ?? 0;
+    if (count === 0) return;
+    const { portal } = this.held[this.moved];
+    const taken = this.held[this.moved === 0 ? 1 : 0].portal;
+    let next = (portal + 1) % count;
+    if (next === taken) next = (next + 1) % count;
+    const from = this.portalNow(portal);
+    const to = this.portalNow(next);
+    // On its way round to the last portal it goes on from there.
+    if (from !== undefined && to !== undefined) {
+      this.rounds[this.moved] = [...this.rounds[this.moved], ...wayRound(from, to)];
+    }
+    this.held[this.moved] = { portal: next, lean: OUTSIDE };
+  }
+}
+
+/** Where a place or a direction as scanned is now. */
+function moved(v: Vec3, pose: BodyPose | undefined, isPoint: boolean): Vec3 {
+  if (pose === undefined) return v;
+  const [w, x, y, z] = pose.quaternion;
+  const sine = Math.hypot(x, y, z);
+  const turned =
+    sine < 1e-9 ? v : rotated(v, [x / sine, y / sine, z / sine], 2 * Math.atan2(sine, w));
+  return isPoint ? add(turned, pose.translation_mm) : turned;
+}

@@ -1,0 +1,127 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Keys and mouse of an arthroscopy, as what they ask for.
+import { fluidAct } from "./fluid_controls";
+import type { FluidAct } from "./fluid_model";
+import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
+import type { ToolKind } from "./scope_tools";
+
+const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
+const WHEEL_MM = 0.6;
+const TURN_DEG_PER_PX = 0.6;
+
+export interface ScopeAsked {
+  takesKeys(): boolean;
+  /** Which of them there are hangs on what works beside the scope, and on whether there is fluid. */
+  readonly tool: ToolKind;
+  readonly hasFluid: boolean;
+  press(holder: string, motion: ScopeMotion): void;
+  letGo(holder: string): void;
+  letGoOfAll(): void;
+  act(act: ScopeAct): void;
+  actOnFluid(act: FluidAct): void;
+  lean(yawRad: number, pitchRad: number): void;
+  turn(deg: number): void;
+  advance(mm: number): void;
+}
+
+/** @param picture  takes the mouse on its canvas */
+export function listenForScope(picture: HTMLElement, asked: ScopeAsked, signal: AbortSignal): void {
+  listenToKeys(asked, signal);
+  listenToMouse(picture, asked, signal);
+}
+
+/** One key: jaws go by one press, a pedal is held down. */
+function actOf(code: string, tool: ToolKind): ScopeAct | undefined {
+  const act = scopeAct(code);
+  return act === "jaws" && tool !== "grasper" ? undefined : act;
+}
+
+function motionOf(code: string, shift: boolean, tool: ToolKind): ScopeMotion | undefined {
+  const isPedal = scopeAct(code) === "jaws" && tool === "shaver";
+  return isPedal ? { kind: "run" } : scopeMotion(code, shift);
+}
+
+function isForPage(event: KeyboardEvent): boolean {
+  if (event.altKey || event.metaKey || event.ctrlKey) return true;
+  if (document.querySelector("dialog[open]") !== null) return true;
+  return event.target instanceof HTMLInputElement;
+}
+
+function listenToKeys(asked: ScopeAsked, signal: AbortSignal): void {
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      if (!asked.takesKeys() || isForPage(event)) return;
+      const motion = motionOf(event.code, event.shiftKey, asked.tool);
+      const act = actOf(event.code, asked.tool);
+      const tap = asked.hasFluid ? fluidAct(event.code) : undefined;
+      if (motion === undefined && act === undefined && tap === undefined) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      if (motion !== undefined) asked.press(event.code, motion);
+      else if (act !== undefined && !event.repeat) asked.act(act);
+      else if (tap !== undefined && !event.repeat) asked.actOnFluid(tap);
+    },
+    { signal, capture: true },
+  );
+  window.addEventListener(
+    "keyup",
+    (event) => {
+      asked.letGo(event.code);
+    },
+    { signal, capture: true },
+  );
+  window.addEventListener(
+    "blur",
+    () => {
+      asked.letGoOfAll();
+    },
+    { signal },
+  );
+}
+
+function listenToMouse(picture: HTMLElement, asked: ScopeAsked, signal: AbortSignal): void {
+  let drag: number | undefined;
+  picture.addEventListener(
+    "pointerdown",
+    (event) => {
+      if (!(event.target instanceof HTMLCanvasElement)) return;
+      drag = event.button;
+      event.target.setPointerCapture(event.pointerId);
+    },
+    { signal },
+  );
+  picture.addEventListener(
+    "pointermove",
+    (event) => {
+      if (drag === undefined || event.buttons === 0) return;
+      if (drag === 2 || event.shiftKey) asked.turn(-event.movementX * TURN_DEG_PER_PX);
+      else asked.lean(event.movementX * LEAN_RAD_PER_PX, -event.movementY * LEAN_RAD_PER_PX);
+    },
+    { signal },
+  );
+  picture.addEventListener(
+    "pointerup",
+    () => {
+      drag = undefined;
+    },
+    { signal },
+  );
+  picture.addEventListener(
+    "contextmenu",
+    (event) => {
+      event.preventDefault();
+    },
+    { signal },
+  );
+  picture.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      asked.advance(-Math.sign(event.deltaY) * WHEEL_MM);
+    },
+    { signal, passive: false },
+  );
+}
