@@ -220,7 +220,8 @@ Refusal why_not(const procedure::Procedure& procedure,
       return has_mouth ? Refusal::None : Refusal::NothingInHand;
     }
     case CommandKind::SetFluid: {
-      if (!procedure.fluid || now.scope.hand >= kHands) return Refusal::UnknownCommand;
+      if (!procedure.fluid) return Refusal::UnknownCommand;
+      if (now.scope.hand >= kHands) return Refusal::NothingInHand;
       const auto control = static_cast<procedure::FluidControl>(command.index / kFluidValues);
       return detail::can_set(arthroscopy::FluidTable::generic(), control,
                              command.index % kFluidValues)

@@ -19,7 +19,8 @@ namespace carpus::procedures::arthroscopy {
 
 /// `ill_removed_share`, `sound_removed_share`, `rim_removed`, `ran_unseen_share`,
 /// `ran_on_cartilage_s`, `ran_on_lining_s`, `ran_against_scope_s`, `ran_in_the_way_s`,
-/// `looked_again`. A shaver that took nothing away had no fault either: no measure but the first.
+/// `looked_again`. Where less than half of what was ill came off, no measure but the
+/// first: who does not work has no faults.
 [[nodiscard]] std::vector<procedure::Measure> shaving_measures(const procedure::ShavingFacts& done);
 
 /// Graded by the procedure's rules: these and conduct_measures.

@@ -36,6 +36,11 @@ bool World::State::is_clear_to(const Model& model, double far_mm) const noexcept
   return !model.procedure.fluid || detail::is_clear(fluid, FluidTable::generic(), far_mm);
 }
 
+/// Not clouded. The table is not touched where there is no fluid: a tick reads no text.
+bool World::State::is_clear_enough(const Model& model) const noexcept {
+  return !model.procedure.fluid || is_clear_to(model, FluidTable::generic().view.clouded_at_mm);
+}
+
 /// Portals as they are gone through: fresh ones bleed, and what goes in takes air along.
 void World::State::note_portals() noexcept {
   const FluidTable& table = FluidTable::generic();
@@ -109,7 +114,7 @@ void World::State::publish_fluid(const Model& model) noexcept {
   view.haze_per_mm = is_wet ? table.view.haze_per_mm * fluid.blood : 0.0;
   view.bubbles = is_wet ? std::min(1.0, fluid.air_ml / table.air.shown_ml) : 0.0;
   view.fog_depth = is_wet ? 0.0 : table.view.fog_depth * fluid.chill;
-  view.smear_depth = table.view.smear_depth * fluid.smear;
+  view.smear_depth = table.view.smear_depth * detail::covered(fluid);
 }
 
 }  // namespace carpus::simulation

@@ -154,11 +154,15 @@ void go_to_joint(JointFluid& state, const FluidTable& table, std::uint8_t joint)
   state.air_ml = std::min(state.air_ml, table.air.exchange_ml);  // what the scope took along
 }
 
+double covered(const JointFluid& state) noexcept {
+  return state.is_dry ? state.smear + (1.0 - state.smear) * state.blood : state.smear;
+}
+
 double optical_depth(const JointFluid& state, const FluidTable& table, double mm) noexcept {
   const arthroscopy::FluidView& view = table.view;
   const double before =
       is_immersed(state) ? view.haze_per_mm * state.blood * mm : view.fog_depth * state.chill;
-  return before + view.smear_depth * state.smear;
+  return before + view.smear_depth * covered(state);
 }
 
 FluidMoved flow(JointFluid& state,

@@ -127,6 +127,9 @@ void go_to_joint(JointFluid& state, const FluidTable& table, std::uint8_t joint)
   return !state.is_dry || state.flush_ticks > 0;
 }
 
+/// Of the lens, by blood that smears it; dry, blood that nothing washes away pools before it too.
+[[nodiscard]] double covered(const JointFluid& state) noexcept;
+
 /// Of all between the camera and a place so far before the lens: light is left by e to the minus of
 /// it.
 [[nodiscard]] double optical_depth(const JointFluid& state,

@@ -339,7 +339,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
       if (!is_level(model, *sight)) ++state.tilted_ticks;
       look_at_points(model, joint, *sight);
       look_at_lesions(model, joint, *sight);
-      if (is_clear_to(model, detail::FluidTable::generic().view.clouded_at_mm)) {
+      if (is_clear_enough(model)) {
         note_scope_look(joint, *sight);
       }
     } else {

@@ -162,10 +162,14 @@ void World::State::note_shaver_harm(const Model& model,
   procedure::ShavingFacts& done = shaving_state.done;
   const arthroscopy::OpenedSpace wall = joint_space_at(model, joint, mouth.at);
   const bool is_on_wall = wall.is_near && wall.distance_mm > -kOnWallMm &&
+                          wall.distance_mm < kOnWallMm &&
                           dot(wall.outwards, mouth.towards) > kTurnedThereCosine;
-  if (!is_on_wall) return;
   const Touched bone = surface_at(mouth.at);
-  const bool is_cartilage = bone.body != kNoBody && bone.distance_mm < kCartilageMm;
+  // In the hole that was cut there is nothing but the bone beneath.
+  const bool is_in_hole = is_in_cut_disc(model, joint, mouth.at, 0.0);
+  const double near_mm = is_in_hole ? kOnWallMm : kCartilageMm;
+  const bool is_cartilage = bone.body != kNoBody && bone.distance_mm < near_mm;
+  if (is_in_hole ? !is_cartilage : !is_on_wall) return;
   std::uint32_t& ticks = is_cartilage ? done.cartilage_ticks : done.lining_ticks;
   ++ticks;
   if (begins_to_harm(ticks)) {
@@ -180,7 +184,8 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
     return;
   }
   ++done.running_ticks;
-  const bool has_fluid = model.procedure.fluid.has_value();
+  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const bool has_fluid = model.procedure.fluid.has_value() && joint == fluid.joint;
   if (has_fluid) draw_fluid(detail::FluidTable::generic().joint.shaver_ml_per_s);
   const instruments::Instrument& kind = kind_of(model, item);
   const double radius_mm = kind.shape.greatest_radius_mm();
@@ -201,7 +206,6 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
       emit(EventKind::ShaverHarmed, now.held[hand], 2, 0.0);
     }
   }
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
   const std::size_t piece = piece_in_mouth(model, joint, mouth, kind.mouth->reach_mm);
   if (piece >= model.pieces().size()) return note_shaver_harm(model, hand, joint, mouth);
   if (!detail::cut_piece(shaving_state, model.pieces(), piece)) return;
@@ -225,8 +229,8 @@ void World::State::run_shavers(const Model& model) noexcept {
   }
   if (done.ticks_since_cut < detail::kSeenTicks) return;
   for (std::size_t i = 0; i < model.map->points.size(); ++i) {
-    const std::uint32_t seen = scope_state.in_view_ticks[i];
-    if (seen < detail::kSeenTicks || seen > done.ticks_since_cut) continue;
+    // Both have lasted a second: it was seen since.
+    if (scope_state.in_view_ticks[i] < detail::kSeenTicks) continue;
     done.seen_since |= 1U << model.map->points[i].number;
   }
 }

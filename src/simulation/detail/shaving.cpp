@@ -73,7 +73,11 @@ bool is_possible(const ShavingState& state, std::span<const TissuePiece> pieces)
   const procedure::ShavingFacts& done = state.done;
   return done.ill == counted.ill && done.sound == counted.sound &&
          done.ill_removed == counted.ill_removed && done.sound_removed == counted.sound_removed &&
-         done.rim_removed == counted.rim_removed && done.patches <= cases::kMaxPatches;
+         done.rim_removed == counted.rim_removed &&
+         done.patches == untouched(pieces).done.patches && done.patches_seen >> done.patches == 0 &&
+         done.unseen_ticks <= done.running_ticks &&
+         (done.ticks_since_cut == 0 || counted.ill_removed + counted.sound_removed > 0) &&
+         (done.seen_since == 0 || done.ticks_since_cut > 0);
 }
 
 MouthPlace mouth_place(const instruments::Mouth& mouth,

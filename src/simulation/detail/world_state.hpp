@@ -394,6 +394,7 @@ struct World::State {
   void bleed_into_joint(const Model& model, double ml_per_s) noexcept;
   void draw_fluid(double ml_per_s) noexcept;
   [[nodiscard]] bool is_clear_to(const Model& model, double far_mm) const noexcept;
+  [[nodiscard]] bool is_clear_enough(const Model& model) const noexcept;
   void publish_fluid(const Model& model) noexcept;
 
   [[nodiscard]] procedure::ScopeFacts scope_facts(const Model& model) const noexcept;

@@ -56,9 +56,12 @@ void World::State::yield_disc(const Model& model) noexcept {
     const double high = dot(off, out[h]);
     const double aside2 = squared_length(off) - high * high;
     tip.is_there = aside2 < kOverMm * kOverMm && high < tip.radius_mm + kAboveMm && high > -kDeepMm;
+    const instruments::Instrument& kind = kind_of(model, *item);
+    const bool has_hook = !kind.optic && !kind.mouth;
     is_by_edge[h] =
-        !kind_of(model, *item).optic && model.disc_edge < model.disc.size() &&
+        has_hook && model.disc_edge < model.disc.size() && !disc.is_cut(model.disc_edge) &&
         distance(tip.at, model.disc.rest()[model.disc_edge]) < kHookReachMm + tip.radius_mm;
+    if (hooked < model.disc.size() && disc.is_cut(hooked)) hooked = detail::kNothingHooked;
     if (hooked < model.disc.size()) {
       tip.is_there = true;
       tip.hooked = hooked;

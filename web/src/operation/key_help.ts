@@ -75,6 +75,20 @@ export const HELP: readonly HelpGroup[] = [
     ],
   },
   {
+    title: "At a scope",
+    lines: [
+      { keys: "{KeyA} / {KeyD}, wheel", text: "go in / draw back" },
+      { keys: "Arrows, drag", text: "lean what is held about its hole" },
+      {
+        keys: "{Comma} / {Period}",
+        text: "turn the shaft, or the mouth of a shaver; with Shift: the camera head",
+      },
+      { keys: "{KeyG}", text: "close the jaws, or open them; hold: a shaver's pedal" },
+      { keys: "{KeyV}", text: "the next portal" },
+      { keys: "7 / 8 / 9", text: "panorama / level / findings" },
+    ],
+  },
+  {
     title: "Fluid, at a scope",
     lines: [
       { keys: "Page up / down", text: "pressure of the inflow by 5 mmHg, more / less" },

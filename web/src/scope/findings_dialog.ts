@@ -37,9 +37,11 @@ export class FindingsDialog {
         ),
       ),
     );
-    form.addEventListener("change", (event) => {
+    // Not a change alone: who looks again and finds the same says so by the same answer.
+    form.addEventListener("click", (event) => {
       const input = event.target;
-      if (input instanceof HTMLInputElement) this.onAnswer(input.name, input.value);
+      if (input instanceof HTMLInputElement && input.type === "radio")
+        this.onAnswer(input.name, input.value);
     });
     this.element = make("dialog.findings", { "aria-labelledby": "findings-title" }, form);
   }

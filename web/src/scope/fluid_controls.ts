@@ -31,7 +31,7 @@ export class FluidControls {
   /** Among the scope's controls. */
   readonly taps = make("span.scope-taps", { role: "group", "aria-label": "Fluid" });
   /** Beside the picture. */
-  readonly reading = make("p.scope-fluid", { role: "status" });
+  readonly reading = make("p.scope-fluid");
   private readonly buttons = new Map<FluidAct, HTMLButtonElement>();
 
   constructor(act: (act: FluidAct) => void) {

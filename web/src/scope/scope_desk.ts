@@ -50,6 +50,8 @@ export interface ScopeRoom {
 const LEAN_RAD_PER_S = (28 * Math.PI) / 180;
 const TURN_DEG_PER_S = 75;
 const REPEAT_MS = 200;
+/** A pedal that is held is told again before the host takes it for let go. */
+const PEDAL_REPEAT_MS = 40;
 /** Within it the host answers what was asked of the fluid. */
 const ANSWERED_MS = 5000;
 
@@ -138,6 +140,7 @@ export class ScopeDesk {
     this.snapshot = undefined;
     this.hands.begin(exercise);
     this.tools.begin(exercise);
+    this.inflow = { mmhg: 0, askedMs: -Infinity };
     this.shaftDeg = this.cameraDeg = 0;
     this.keys.clear();
     const isOn = this.plan !== undefined && this.walls.length > 0;
@@ -226,7 +229,9 @@ export class ScopeDesk {
       this.turned = false;
       this.room.turn(this.shaftDeg, this.cameraDeg);
     }
-    if (!this.isPlaced || (!this.changed && nowMs - this.lastSentMs < REPEAT_MS)) return;
+    const runs = this.tools.kind === "shaver" && this.driverNow() === "forward";
+    const repeatMs = runs ? PEDAL_REPEAT_MS : REPEAT_MS;
+    if (!this.isPlaced || (!this.changed && nowMs - this.lastSentMs < repeatMs)) return;
     this.changed = false;
     this.lastSentMs = nowMs;
     this.sendHand();
@@ -276,7 +281,7 @@ export class ScopeDesk {
       },
       other === undefined
         ? undefined
-        : this.tools.rod(other, scope, portal?.up ?? plan.distal, performance.now()),
+        : this.tools.rod(other, scope, portal?.up ?? plan.distal, picture.nowMs),
       scope,
       Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
       isOutside ? portal : undefined,

@@ -94,6 +94,11 @@ export class ScopePicture {
     }
   }
 
+  /** By which what runs or sways is drawn; stands for whoever wants less motion. */
+  get nowMs(): number {
+    return this.isStill ? 0 : performance.now();
+  }
+
   /** @param fieldDeg  across the picture */
   setField(fieldDeg: number): void {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
@@ -172,7 +177,7 @@ export class ScopePicture {
       scope.pieces_left,
       rod?.mouth !== undefined && scope.running.includes(1) ? mouthAt(rod) : undefined,
       sight.eyeMm,
-      this.isStill ? 0 : performance.now() / 1000,
+      this.nowMs / 1000,
     );
     if (rod !== undefined) {
       this.rod.geometry = this.rods[rod.look];

@@ -73,7 +73,7 @@ export class ScopeTools {
     return this.kind === "shaver" && pedalIsDown ? "forward" : "off";
   }
 
-  /** @param level  up in a level picture. @param nowMs  a running blade turns by it */
+  /** @param level  up in a level picture. @param nowMs  a running blade turns by it; the same where nothing is to move */
   rod(item: Item, scope: ScopeMessage, level: Vec3, nowMs: number): Rod {
     const hand = item.hand === 1 ? 1 : 0;
     const runs = scope.running[hand] === 1;
