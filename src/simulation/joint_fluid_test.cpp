@@ -203,12 +203,15 @@ TEST(JointFluid, DryAColdLensIsMistUntilItIsWarmOrRinsed) {
   EXPECT_TRUE(is_clear(rinsed, table(), 5));
 }
 
-TEST(JointFluid, DryBloodClingsToTheLensAndNotToTheView) {
+TEST(JointFluid, DryBloodPoolsBeforeTheLensAndClingsToIt) {
   JointFluid fluid = fluid_at_first(table());
   set(fluid, table(), FluidControl::Dry, 1);
   run(fluid, scope_in(), 60);
-  fluid.blood = 0.5;
-  EXPECT_TRUE(is_clear(fluid, table(), 10)) << "nothing is before the lens";
+  EXPECT_TRUE(is_clear(fluid, table(), 10));
+  fluid.blood = 0.9;
+  EXPECT_FALSE(is_clear(fluid, table(), 10)) << "nothing washes it away";
+  fluid.blood = 0.1;
+  EXPECT_TRUE(is_clear(fluid, table(), 10));
   FluidAround touching = scope_in();
   touching.lens_touches = true;
   run(fluid, touching, 20);
