@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/state_hash.hpp"
@@ -260,12 +261,15 @@ TEST(Shavers, AKeyframeThatNoTickLeftIsRefused) {
   ASSERT_NE(at, bytes.end());
   for (const double deg : {-90.0, 999.0}) {
     std::memcpy(&*at, &deg, sizeof deg);
-    bytes.resize(bytes.size() - 8);
+    constexpr std::size_t kChecksum = 8;
+    ASSERT_GT(bytes.size(), kChecksum);
+    const std::size_t body = bytes.size() - kChecksum;
     StateHash hash;
-    hash.add_bytes(bytes);
+    hash.add_bytes(std::span(bytes).first(body));
     detail::Writer sum;
-    sum.put(hash.value(), 8);
-    bytes.insert(bytes.end(), sum.bytes().begin(), sum.bytes().end());
+    sum.put(hash.value(), kChecksum);
+    std::copy(sum.bytes().begin(), sum.bytes().end(),
+              bytes.begin() + static_cast<std::ptrdiff_t>(body));
     World other(box_wrist(), inflamed(), 1);
     EXPECT_EQ(other.read_state(bytes).has_value(), deg == -90.0) << deg;
   }
