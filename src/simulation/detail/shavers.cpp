@@ -22,10 +22,10 @@ constexpr double kTurnedThereCosine = 0.2;
 constexpr double kCartilageMm = 1.2;  // bone so near behind it: cartilage lies between [B11]
 constexpr double kScopeMm = 0.6;      // the scope's surface so near is run against [E]
 constexpr double kScopeShaftMm = 40.0;
-constexpr double kHarmTicks = 250.0;  // of running against what stays it is told [E]
-constexpr double kStandsMm = 0.5;     // a tuft's middle over its place, to be looked at
-constexpr double kHidesNotMm = 1.5;   // what is looked at is not hidden by what is so near to it
-constexpr double kThroughMm = 0.8;    // aside of a place that was cut there is a hole
+constexpr std::uint32_t kHarmTicks = 250;  // of running against what stays it is told [E]
+constexpr double kStandsMm = 0.5;          // a tuft's middle over its place, to be looked at
+constexpr double kHidesNotMm = 1.5;  // what is looked at is not hidden by what is so near to it
+constexpr double kThroughMm = 0.8;   // aside of a place that was cut there is a hole
 constexpr double kDeepMm = 5.0;
 
 /// Told once, when it begins to harm.
