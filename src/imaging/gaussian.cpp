@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "core/units.hpp"
 #include "imaging/detail/derivative_engine.hpp"
+#include "imaging/detail/largest_eigenvalue.hpp"
 
 namespace carpus::imaging {
 
@@ -47,13 +47,10 @@ Grid<float> sheets_of(const BlockView<T>& image, double sigma_mm) {
   Grid<float> result(image.geometry());
   constexpr std::array<DerivativeOrder, 6> kOrders{
       {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}}};
-  const double scale = sigma_mm * sigma_mm;
+  const auto scale = static_cast<float>(sigma_mm * sigma_mm);
   const auto positive_eigenvalue = [scale](Rows rows, float* out, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const double value = largest_eigenvalue(rows[0][i], rows[1][i], rows[2][i], rows[3][i],
-                                              rows[4][i], rows[5][i]);
-      out[i] = value > 0 ? static_cast<float>(scale * value) : 0.0F;
-    }
+    detail::largest_eigenvalues(rows, out, count);
+    for (std::size_t i = 0; i < count; ++i) out[i] = out[i] > 0 ? scale * out[i] : 0.0F;
   };
   detail::filter_derivatives(image, sigma_mm, kOrders, positive_eigenvalue, result.values());
   return result;
@@ -78,23 +75,6 @@ Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_
 }
 Grid<float> dark_sheet_measure(const BlockView<std::int16_t>& image, double sigma_mm) {
   return sheets_of(image, sigma_mm);
-}
-
-double largest_eigenvalue(double xx,
-                          double yy,
-                          double zz,
-                          double xy,
-                          double xz,
-                          double yz) noexcept {
-  const double mean = (xx + yy + zz) / 3;
-  const double a = xx - mean;
-  const double b = yy - mean;
-  const double c = zz - mean;
-  const double p = std::sqrt((a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) / 6);
-  if (!(p > 0)) return mean;
-  const double det = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
-  const double r = std::clamp(det / (2 * p * p * p), -1.0, 1.0);
-  return mean + 2 * p * std::cos(std::acos(r) / 3);
 }
 
 }  // namespace carpus::imaging

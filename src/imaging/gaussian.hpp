@@ -26,13 +26,4 @@ namespace carpus::imaging {
 [[nodiscard]] Grid<float> dark_sheet_measure(const GridView<const float>& image, double sigma_mm);
 [[nodiscard]] Grid<float> dark_sheet_measure(const BlockView<std::int16_t>& image, double sigma_mm);
 
-/// Largest eigenvalue of the symmetric matrix ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), by the
-/// trigonometric closed form [smith1961eigenvalues].
-[[nodiscard]] double largest_eigenvalue(double xx,
-                                        double yy,
-                                        double zz,
-                                        double xy,
-                                        double xz,
-                                        double yz) noexcept;
-
 }  // namespace carpus::imaging

@@ -144,19 +144,5 @@ TEST(DarkSheet, AnswersToADarkSheetAndNotToABrightOne) {
   EXPECT_NEAR(bright[on_sheet], 0.0, 0.5);
 }
 
-TEST(LargestEigenvalue, SolvesTheCharacteristicEquationAndBoundsTheQuadraticForm) {
-  Rng rng(4);
-  for (int trial = 0; trial < 2000; ++trial) {
-    const double xx = rng.uniform(-5, 5), yy = rng.uniform(-5, 5), zz = rng.uniform(-5, 5);
-    const double xy = rng.uniform(-5, 5), xz = rng.uniform(-5, 5), yz = rng.uniform(-5, 5);
-    const double e = largest_eigenvalue(xx, yy, zz, xy, xz, yz);
-    const Mat3 m{{Vec3{xx - e, xy, xz}, Vec3{xy, yy - e, yz}, Vec3{xz, yz, zz - e}}};
-    ASSERT_NEAR(m.determinant(), 0.0, 1e-9 * 1000);
-    const Vec3 u = normalized_or({rng.normal(), rng.normal(), rng.normal()}, {1, 0, 0});
-    ASSERT_LE(dot(u, m * u), 1e-9);
-  }
-  EXPECT_EQ(largest_eigenvalue(2, 2, 2, 0, 0, 0), 2.0);
-}
-
 }  // namespace
 }  // namespace carpus::imaging

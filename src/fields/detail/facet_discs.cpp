@@ -6,22 +6,32 @@
 #include <cmath>
 #include <utility>
 
+#include "core/widest_vectors.hpp"
 #include "fields/triangle_tree.hpp"
 #include "geometry/aabb.hpp"
 
 namespace carpus::fields {
 namespace {
 
-/// Of the greatest coordinate: a few times what single precision may be off by in a distance. A
-/// coordinate is off by 2^-24 of it, a direction to what is d away by that over d; |e - u| below,
-/// a square root, by up to sqrt(2^-23 / d), and d exceeds the ball's radius, by which it is
+/// Of the greatest coordinate M: four times what single precision may be off by in the distance
+/// from a disc. Coordinates from its centre are off by 2^-23 M, the height by 6 * 2^-24 M; what is
+/// off the axis, squared, by 8 * 2^-24 of the squared distance r from the centre, of which the
+/// share that is beyond the rim counts: at most 2^-22 r far away, 2^-20 of the radius near the rim.
+constexpr double kSlackShare = 1.0 / (1 << 18);
+/// The same for what is left out by direction: one to what is d away is off by 2^-24 M / d; |e - u|
+/// below, a square root, by up to sqrt(2^-23 / d), and d exceeds the ball's radius, by which it is
 /// multiplied.
-constexpr double kSlackShare = 1.0 / 2048;
+constexpr double kTurnedSlackShare = 1.0 / 2048;
 
 /// Sine of a triangle's angle below which its normal is rounding: it may point along a side, and
 /// the disc across it holds little of the triangle. A few thousand times what a product is off by,
 /// so that what is left of that is far below the slack.
 constexpr double kFlattest = 1e-11;
+
+/// Discs asked at a time; lists are filled up to a whole number of them.
+constexpr std::size_t kTogether = 8;
+/// Where the discs lie that fill up, in x [mm]: farther than any, its square still a float.
+constexpr float kNowhere = 1e15F;
 
 struct Disc {
   Vec3 centre;
@@ -83,7 +93,9 @@ NearestFacet nearest_on(const TriangleMesh& mesh, std::uint32_t facet, const Vec
 FacetDiscs::FacetDiscs(const TriangleMesh& mesh, double farthest_mm) : mesh_(&mesh) {
   const Aabb box = bounds_of(mesh.vertices);
   origin_ = box.centre();
-  slack_mm_ = kSlackShare * (0.5 * length(box.extent()) + farthest_mm);
+  const double greatest = 0.5 * length(box.extent()) + farthest_mm;
+  slack_mm_ = kSlackShare * greatest;
+  turned_slack_mm_ = kTurnedSlackShare * greatest;
   resize(mesh.facets.size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Triangle& t = mesh.facets[i];
@@ -101,35 +113,40 @@ FacetDiscs::FacetDiscs(const TriangleMesh& mesh, double farthest_mm) : mesh_(&me
 }
 
 void FacetDiscs::resize(std::size_t count) {
+  const std::size_t filled_up = (count + kTogether - 1) / kTogether * kTogether;
   for (auto* values : {&x_, &y_, &z_, &normal_x_, &normal_y_, &normal_z_, &radius_, &lower_}) {
-    values->resize(count);
+    values->resize(filled_up);
   }
+  std::fill(x_.begin() + static_cast<std::ptrdiff_t>(count), x_.end(), kNowhere);
   facet_.resize(count);
 }
 
 /// With h the height of p over the disc's plane and g its distance from the axis, the nearest
 /// point of the disc is sqrt(h^2 + max(0, g - radius)^2) away.
 template <typename Judge>
-void FacetDiscs::measure_from(const Vec3& p, Judge judge) noexcept {
+[[gnu::always_inline]] inline void FacetDiscs::measure_from(const Vec3& p, Judge judge) noexcept {
   const Vec3 q = p - origin_;
   const auto px = static_cast<float>(q.x);
   const auto py = static_cast<float>(q.y);
   const auto pz = static_cast<float>(q.z);
-  const std::size_t count = size();
+  const std::size_t count = lower_.size();
+  for (std::size_t first = 0; first < count; first += kTogether) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = px - x_[i];
-    const float y = py - y_[i];
-    const float z = pz - z_[i];
-    const float height = x * normal_x_[i] + y * normal_y_[i] + z * normal_z_[i];
-    const float off_axis = std::sqrt(at_least_0(x * x + y * y + z * z - height * height));
-    const float beyond = at_least_0(off_axis - radius_[i]);
-    const float squared = height * height + beyond * beyond;
-    lower_[i] = judge(
-        {x, y, z, normal_x_[i], normal_y_[i], normal_z_[i], height, off_axis, beyond, squared});
+    for (std::size_t i = first; i < first + kTogether; ++i) {
+      const float x = px - x_[i];
+      const float y = py - y_[i];
+      const float z = pz - z_[i];
+      const float height = x * normal_x_[i] + y * normal_y_[i] + z * normal_z_[i];
+      const float off_axis = std::sqrt(at_least_0(x * x + y * y + z * z - height * height));
+      const float beyond = at_least_0(off_axis - radius_[i]);
+      const float squared = height * height + beyond * beyond;
+      lower_[i] = judge(
+          {x, y, z, normal_x_[i], normal_y_[i], normal_z_[i], height, off_axis, beyond, squared});
+    }
   }
 }
 
+CARPUS_WIDEST_VECTORS
 NearestFacet FacetDiscs::nearest(const Vec3& p, double limit_mm, std::uint32_t hint) {
   measure_from(p, [](const Seen& seen) { return seen.squared; });
   NearestFacet best{limit_mm * limit_mm, NearestFacet::kNone, {}};
@@ -157,6 +174,7 @@ NearestFacet FacetDiscs::nearest(const Vec3& p, double limit_mm, std::uint32_t h
 /// vector from n to c, if D > r. A disc at E from c, its nearest point in direction e, lies behind
 /// the plane there, and so at least E + e w from c + w. It is nowhere the nearest where
 /// E - D - r |e - u| - r^2 / (2 (D - r)) > 0.
+CARPUS_WIDEST_VECTORS
 std::uint32_t FacetDiscs::keep_nearest_in(const FacetBall& ball,
                                           double limit_mm,
                                           FacetDiscs& kept) {
@@ -166,7 +184,7 @@ std::uint32_t FacetDiscs::keep_nearest_in(const FacetBall& ball,
   const auto radius = bends ? static_cast<float>(ball.radius) : 0.0F;
   const auto not_beyond =
       bends ? static_cast<float>(away + ball.radius * ball.radius / (2 * (away - ball.radius)) +
-                                 slack_mm_)
+                                 turned_slack_mm_)
             : std::numeric_limits<float>::infinity();
   const auto farthest_squared = static_cast<float>(farthest * farthest);
   const Vec3 towards = bends ? (ball.centre - ball.near.point) / away : Vec3{};

@@ -64,7 +64,8 @@ class FacetDiscs {
 
   const TriangleMesh* mesh_;
   Vec3 origin_;                                        ///< of the numbers below
-  double slack_mm_;                                    ///< of what they say
+  double slack_mm_;                                    ///< of the distances that they say
+  double turned_slack_mm_;                             ///< of what they say by directions
   std::vector<float> x_, y_, z_;                       ///< centres [mm]
   std::vector<float> normal_x_, normal_y_, normal_z_;  ///< unit; zero without area: then a ball
   std::vector<float> radius_;

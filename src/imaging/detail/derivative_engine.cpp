@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/widest_vectors.hpp"
 
 namespace carpus::imaging::detail {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kKernelReach = 4.0;
 /// Slices that one task takes at least: each begins with those that its kernels reach before them.
 constexpr std::size_t kSlices = 32;
 /// Values summed together; a fixed count lets the compiler use vector registers.
-constexpr std::size_t kBlock = 16;
+constexpr std::size_t kBlock = 32;
 
 using Kernel = std::vector<float>;
 
@@ -36,12 +37,12 @@ int mirrored(int i, int n) {
 }
 
 /// out[x] = sum over t of kernel[t] * rows[t][x].
+CARPUS_WIDEST_VECTORS
 void weighted_sum(std::span<const float* const> rows,
                   const Kernel& kernel,
                   float* out,
                   std::size_t count) {
-  std::size_t x = 0;
-  for (; x + kBlock <= count; x += kBlock) {
+  const auto sum_block = [&](std::size_t x) {
     std::array<float, kBlock> sum{};
     for (std::size_t t = 0; t < kernel.size(); ++t) {
       const float weight = kernel[t];
@@ -49,8 +50,13 @@ void weighted_sum(std::span<const float* const> rows,
       for (std::size_t i = 0; i < kBlock; ++i) sum[i] += weight * row[i];
     }
     for (std::size_t i = 0; i < kBlock; ++i) out[x + i] = sum[i];
+  };
+  if (count >= kBlock) {
+    for (std::size_t x = 0; x + kBlock <= count; x += kBlock) sum_block(x);
+    sum_block(count - kBlock);  // the rest, and some of it again
+    return;
   }
-  for (; x < count; ++x) {
+  for (std::size_t x = 0; x < count; ++x) {
     float sum = 0;
     for (std::size_t t = 0; t < kernel.size(); ++t) sum += kernel[t] * rows[t][x];
     out[x] = sum;
