@@ -261,15 +261,18 @@ void operate(const cases::CaseData& data,
 }
 
 /// Operations of the scripted arthroscopist, of which the ticks count in which the scope looks into
-/// a joint, and those in which the disc yields besides.
+/// a joint, those in which the disc yields besides, and those in which a shaver runs.
 void look_round(const cases::CaseData& data,
                 const procedure::Procedure& procedure,
                 std::size_t ticks,
                 TickBench& bench) {
   SceneTimes looking{"scope_in_joint", {}};
   SceneTimes yielding{"disc_yields", {}};
+  SceneTimes shaving{"shaving", {}};
+  const bool shaves = procedure.shaving.has_value();
   const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
-  for (std::uint64_t seed = 1; seed <= kMostOperations && (wants(looking) || wants(yielding));
+  for (std::uint64_t seed = 1; seed <= kMostOperations &&
+                               (wants(looking) || wants(yielding) || (shaves && wants(shaving)));
        ++seed) {
     World world(data, procedure, seed);
     trainee::ScriptedArthroscopist hand(data, procedure, trainee::Skill::Expert, seed);
@@ -278,7 +281,9 @@ void look_round(const cases::CaseData& data,
       const Input input = hand.next(world.now());
       const float us = timed_step(world, input);
       const Snapshot& now = world.now();
-      if (!now.is_disc_still && wants(yielding)) {
+      if (now.scope.are_running[0] || now.scope.are_running[1]) {
+        if (wants(shaving)) shaving.microseconds.push_back(us);
+      } else if (!now.is_disc_still && wants(yielding)) {
         yielding.microseconds.push_back(us);
       } else if (now.scope.facts.is_in_joint[0] && wants(looking)) {
         looking.microseconds.push_back(us);
@@ -286,7 +291,7 @@ void look_round(const cases::CaseData& data,
     }
     bench.unresolved_contacts += world.faults().unresolved_contacts;
   }
-  for (SceneTimes* times : {&looking, &yielding}) {
+  for (SceneTimes* times : {&looking, &yielding, &shaving}) {
     if (!times->microseconds.empty()) bench.scenes.push_back(std::move(*times));
   }
 }
