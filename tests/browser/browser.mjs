@@ -13,10 +13,16 @@ const { chromium } = createRequire(join(root, "web/package.json"))(
 /** A machine without graphics may take its time: no wait fails a check before this [ms]. */
 export const PATIENCE_MS = 180_000;
 const VIEWPORT = { width: 1120, height: 680 };
+/** The page is laid out as ever; a processor that draws in place of graphics has a quarter of the pixels to fill. */
+const PIXELS_PER_CSS = 0.5;
 
 /** A page with storage of its own that nobody has seen yet, closed with its browser at the latest. */
 export async function newcomersPage(browser, more = {}) {
-  const context = await browser.newContext({ viewport: VIEWPORT, ...more });
+  const context = await browser.newContext({
+    viewport: VIEWPORT,
+    deviceScaleFactor: PIXELS_PER_CSS,
+    ...more,
+  });
   context.setDefaultTimeout(PATIENCE_MS);
   return context.newPage();
 }

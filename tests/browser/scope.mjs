@@ -181,7 +181,7 @@ export async function examination(browser, station) {
       "the scope, midcarpal",
     );
     await hold(page, "a", 200);
-    for (let turn = 0; turn < 6; ++turn) {
+    for (let turn = 0; turn < 12; ++turn) {
       const seen = await page.locator(".scope-points .is-seen").count();
       if (seen >= 1 && pictures === undefined) break;
       await hold(page, ",", 600);
