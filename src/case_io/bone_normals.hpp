@@ -1,8 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a bone's surface is shaded: by the CT's own slope, which knows what the facets have smoothed
-// away.
+// How a surface that was found in a CT is shaded, a bone's or the skin: by the CT's own slope,
+// which knows what the facets have smoothed away.
 #pragma once
 
 #include <cstdint>

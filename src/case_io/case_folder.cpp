@@ -144,7 +144,9 @@ void write_shapes(const cases::CaseData& data, const fs::path& folder, const Pro
     write_bone(folder, bone, data.ct.view());
     progress("saving", ++done / steps);
   }
-  if (!data.skin.facets.empty()) write_ply(folder / "skin.ply", data.skin);
+  if (!data.skin.facets.empty()) {
+    write_ply(folder / "skin.ply", data.skin, bone_normals(data.skin, {}, data.ct.view()));
+  }
   if (!data.hand_motion.is_empty()) {
     write_text(folder / kHandMotionFile, hand_motion_text(data.hand_motion));
   }

@@ -293,22 +293,65 @@ TEST_F(ReadVolume, RefusesUnevenSpacingAndDoubledSlices) {
   EXPECT_THAT(error_of<InvalidInput>(folder() / "s"), HasSubstr("same slice twice"));
 }
 
-TEST_F(ReadVolume, RefusesATiltedGantry) {
-  Mat3 sheared = Mat3::identity();
-  Grid<std::int16_t> ct = test_ct(sheared);
-  for (int k = 0; k < 12; ++k) {  // each slice written alone, shifted by its number
-    GridGeometry g = ct.geometry();
+/// Slices of `count`, each as far beside the one before as `aside` says, written one by one; a
+/// value is 10 x - 7 y + 3 z of its place.
+void write_slanted(const fs::path& folder, int count, const std::function<Vec3(int)>& aside) {
+  fs::create_directories(folder / "all");
+  for (int k = 0; k < count; ++k) {
+    GridGeometry g = test_ct(Mat3::identity()).geometry();
     g.size[2] = 1;
-    g.origin.y += 0.1 * k;
-    g.origin.z += 0.625 * k;
+    g.origin += aside(k) + Vec3{0, 0, 0.625 * k};
     Grid<std::int16_t> slice(g);
-    DicomDescription text;
-    write_dicom_series(folder() / "one", slice.view(), text);
-    fs::create_directories(folder() / "all");
-    fs::rename(folder() / "one" / "IM_0001.dcm",
-               folder() / "all" / ("t" + std::to_string(100 + k) + ".dcm"));
+    // A series is named by its values: they come after, into the file's last bytes, where 0 HU are
+    // stored as 1024.
+    write_dicom_series(folder / "one", slice.view(), DicomDescription{});
+    const fs::path file = folder / "all" / ("t" + std::to_string(100 + k) + ".dcm");
+    fs::rename(folder / "one" / "IM_0001.dcm", file);
+    for (std::size_t i = 0; i < g.voxel_count(); ++i) {
+      const VoxelIndex v = g.index_of(i);
+      const Vec3 p = g.patient_from_voxel({static_cast<double>(v.x), static_cast<double>(v.y), 0});
+      slice[i] = static_cast<std::int16_t>(1024 + std::lround(10 * p.x - 7 * p.y + 3 * p.z));
+    }
+    const std::size_t bytes = slice.values().size_bytes();
+    std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+    out.seekp(-static_cast<std::streamoff>(bytes + bytes % 2), std::ios::end);
+    out.write(reinterpret_cast<const char*>(slice.values().data()),
+              static_cast<std::streamsize>(bytes));
   }
-  EXPECT_THAT(error_of<InvalidInput>(folder() / "all"), HasSubstr("tilted gantry"));
+}
+
+TEST_F(ReadVolume, SetsTheSlicesOfATiltedGantryUpright) {
+  for (const double tilt_mm : {0.1, -0.25}) {
+    SCOPED_TRACE(tilt_mm);
+    write_slanted(folder(), 12, [&](int k) { return Vec3{-0.04 * k, tilt_mm * k, 0}; });
+    const Grid<std::int16_t> ct = read_ct(folder() / "all");
+    const GridGeometry& g = ct.geometry();
+    EXPECT_EQ(g.size[0], 21 + 2);
+    EXPECT_EQ(g.size[1], 17 + static_cast<int>(std::ceil(std::abs(tilt_mm) * 11 / 0.35)));
+    const Vec3 first = test_ct(Mat3::identity()).geometry().origin;
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < g.voxel_count(); ++i) {
+      const VoxelIndex v = g.index_of(i);
+      const Vec3 p = g.patient_from_voxel(
+          {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
+      const Vec3 in_slice = p - first - Vec3{-0.04 * v.z, tilt_mm * v.z, 0.625 * v.z};
+      const bool is_inside =
+          in_slice.x > 0 && in_slice.x < 20 * 0.3 && in_slice.y > 0 && in_slice.y < 16 * 0.35;
+      if (!is_inside) continue;
+      ++inside;
+      EXPECT_NEAR(ct[i], 10 * p.x - 7 * p.y + 3 * p.z, 1.01);
+    }
+    EXPECT_GT(inside, 12U * 19 * 15);
+    fs::remove_all(folder() / "all");
+  }
+}
+
+TEST_F(ReadVolume, RefusesSlicesShiftedUnevenlyOrTooFar) {
+  write_slanted(folder(), 12, [](int k) { return Vec3{0, k > 5 ? 0.4 : 0.0, 0}; });
+  EXPECT_THAT(error_of<InvalidInput>(folder() / "all"), HasSubstr("less evenly"));
+  fs::remove_all(folder() / "all");
+  write_slanted(folder(), 12, [](int k) { return Vec3{0, 0.5 * k, 0}; });
+  EXPECT_THAT(error_of<InvalidInput>(folder() / "all"), HasSubstr("shifted sideways"));
 }
 
 TEST_F(ReadVolume, ListsTwoSeriesAndTakesTheOneChosen) {

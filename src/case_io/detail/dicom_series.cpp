@@ -9,6 +9,7 @@
 // 4. Equal steps and equal pixels are proved before any pixel is read: a missing slice would bend
 //    every bone.
 // 5. A child process decodes the pixels and applies slope and intercept.
+// 6. Slices of a tilted gantry, which begin evenly beside each other, are set upright.
 #include "case_io/detail/dicom_series.hpp"
 
 #include <algorithm>
@@ -25,7 +26,9 @@
 #include "case_io/detail/regular_file.hpp"
 #include "case_io/detail/shared_array.hpp"
 #include "case_io/detail/unpacking.hpp"
+#include "case_io/detail/upright_slices.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace carpus::case_io {
 namespace fs = std::filesystem;
@@ -44,6 +47,8 @@ constexpr double kSameDirectionTolerance = 1e-4;
 constexpr double kSameSpacingMm = 1e-6;
 /// Sideways drift from slice to slice per mm of step: tan of half a degree of gantry tilt.
 constexpr double kTiltTolerance = 0.009;
+/// Sideways, of a step: gantries tilt by up to 30 degrees.
+constexpr double kMostTilt = 0.6;
 /// A deflated data set of more is refused: a slice takes 2 MB, and nothing says beforehand what
 /// comes out.
 constexpr std::uint64_t kMostUnpackedBytes = std::uint64_t{256} << 20U;
@@ -230,8 +235,18 @@ void check_alike(const std::vector<Plane>& planes) {
   }
 }
 
-/// Proves equal steps along the normal and returns the step [mm]; planes are sorted.
-double check_steps(const std::vector<Plane>& planes, const Vec3& normal, ReadingNotes& notes) {
+/// From one slice to the next.
+struct SliceStep {
+  double along = 0;  ///< the normal [mm]
+  Vec3 aside;        ///< across it, of a tilted gantry [mm]; else 0
+};
+
+/// Proves equal steps; planes are sorted.
+SliceStep check_steps(const std::vector<Plane>& planes, const Vec3& normal, ReadingNotes& notes) {
+  const Vec3 whole = planes.back().at().position - planes.front().at().position;
+  const auto count = static_cast<double>(planes.size() - 1);
+  const Vec3 aside = (whole - normal * dot(whole, normal)) / count;
+  bool is_tilted = false;
   std::vector<double> steps;
   for (std::size_t i = 1; i < planes.size(); ++i) {
     const Vec3 move = planes[i].at().position - planes[i - 1].at().position;
@@ -245,12 +260,16 @@ double check_steps(const std::vector<Plane>& planes, const Vec3& normal, Reading
                                   : ": lie at the same place; two scans share a series: separate "
                                     "them into two folders"));
     }
-    if (!(length(move - normal * step) <= kTiltTolerance * step + kStepToleranceMm)) {
+    const double tolerance = kTiltTolerance * step + kStepToleranceMm;
+    const Vec3 across = move - normal * step;
+    if (!(length(across - aside) <= tolerance && length(across) <= kMostTilt * step)) {
       throw InvalidInput(
           planes[i].path() +
-          ": the slices are shifted sideways (tilted gantry); resample the series to "
-          "a rectangular grid, for example in 3D Slicer, and open the result");
+          ": the slices are shifted sideways, farther or less evenly than by a tilted gantry; "
+          "resample the series to a rectangular grid, for example in 3D Slicer, and open the "
+          "result");
     }
+    is_tilted = is_tilted || length(across) > tolerance;
     steps.push_back(step);
   }
   std::vector<double> sorted = steps;
@@ -273,8 +292,13 @@ double check_steps(const std::vector<Plane>& planes, const Vec3& normal, Reading
     notes.conventions.push_back("slices " + mm(sorted.front()) + " to " + mm(sorted.back()) +
                                 " apart were taken as even");
   }
-  const Vec3 whole = planes.back().at().position - planes.front().at().position;
-  return dot(whole, normal) / static_cast<double>(planes.size() - 1);
+  const double along = dot(whole, normal) / count;
+  if (!is_tilted) return {along, {}};
+  notes.conventions.push_back(
+      "slices begin " + mm(length(aside)) + " beside each other (gantry tilted by " +
+      image_formats::printable(std::round(degrees_from_radians(std::atan2(length(aside), along)))) +
+      " degrees): they were set upright, values between pixels interpolated");
+  return {along, aside};
 }
 
 GridGeometry geometry_of(const std::vector<Plane>& planes, const Vec3& normal, double step) {
@@ -306,16 +330,15 @@ bool are_alike(const Plane& a, const Plane& b) {
 /// unseen.
 void refuse_strays(const std::vector<DicomSlice>& strays,
                    const std::vector<Plane>& planes,
-                   const Vec3& normal,
-                   double step) {
+                   const Vec3& move) {
   const Plane& first = planes.front();
   const Plane& last = planes.back();
   for (const DicomSlice& slice : strays) {
     for (std::size_t i = 0; i < slice.header.frames.size(); ++i) {
       const Plane p{&slice, i};
       if (!are_alike(p, first)) continue;
-      const double before = distance(p.at().position + normal * step, first.at().position);
-      const double behind = distance(p.at().position - normal * step, last.at().position);
+      const double before = distance(p.at().position + move, first.at().position);
+      const double behind = distance(p.at().position - move, last.at().position);
       if (p.at().has_place && !(std::min(before, behind) < kStepToleranceMm)) continue;
       throw InvalidInput(p.path() + ": is like the slices of the series of " + first.name() +
                          " but names another SeriesInstanceUID; one of the two is damaged, or move "
@@ -486,10 +509,15 @@ Grid<std::int16_t> read_series(DicomSeries series, const Progress& progress, Rea
   };
   const bool was_sorted = std::is_sorted(planes.begin(), planes.end(), is_lower);
   std::stable_sort(planes.begin(), planes.end(), is_lower);
-  const double step = check_steps(planes, normal, notes);
-  refuse_strays(series.strays, planes, normal, step);
+  const SliceStep step = check_steps(planes, normal, notes);
+  refuse_strays(series.strays, planes, normal * step.along + step.aside);
   note_conventions(planes, was_sorted, notes);
-  return decode(series, planes, geometry_of(planes, normal, step), progress, notes.count);
+  const GridGeometry geometry = geometry_of(planes, normal, step.along);
+  Grid<std::int16_t> ct = decode(series, planes, geometry, progress, notes.count);
+  if (squared_length(step.aside) <= 0) return ct;
+  const DicomFrame& first = planes.front().at();
+  return set_upright(ct, {dot(step.aside, first.row) / geometry.spacing.x,
+                          dot(step.aside, first.column) / geometry.spacing.y});
 }
 
 }  // namespace carpus::case_io
