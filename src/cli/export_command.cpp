@@ -145,7 +145,12 @@ void run(const Arguments& a) {
   const std::string ending = ending_of(a.out);
   const cases::CaseData data = case_io::read_case(a.case_folder);
   const Bones bones = chosen_bones(data, a);
-  if (ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".off") {
+  const bool is_one_a_bone =
+      ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".off";
+  if (!is_one_a_bone && a.out.string().find("{}") != std::string::npos) {
+    throw UsageError("--out: " + ending + " holds all bones in one file; give a name without {}");
+  }
+  if (is_one_a_bone) {
     write_one_a_bone(a, data, bones);
   } else if (ending == ".glb") {
     refuse_existing(a.out, a.force);

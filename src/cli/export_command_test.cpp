@@ -87,6 +87,7 @@ TEST_F(Export, OfChosenBonesAloneLeavesTheOthersOut) {
 TEST_F(Export, SaysWhatItCannotDo) {
   EXPECT_THROW(run("bones.stp"), UsageError);
   EXPECT_THROW(run("bones.stl"), UsageError);
+  EXPECT_THROW(run("bones_{}.glb"), UsageError);
   EXPECT_THROW(run("bones.glb", {"--bones", "femur"}), UsageError);
   run("bones.glb");
   EXPECT_THROW(run("bones.glb"), IoError);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "case_io/atomic_folder.hpp"
+#include "case_io/bone_normals.hpp"
 #include "case_io/glb.hpp"
 #include "case_io/read_volume.hpp"
 #include "case_io/write_volume.hpp"
@@ -42,7 +43,9 @@ bool holds(const Grid<std::uint8_t>& labels, std::uint8_t label) {
   return std::find(labels.values().begin(), labels.values().end(), label) != labels.values().end();
 }
 
-void write(const Arguments& a, const reconstruct::Mended& mended) {
+void write(const Arguments& a,
+           const reconstruct::Mended& mended,
+           const GridView<const std::int16_t>& ct) {
   case_io::AtomicFolder folder(a.out,
                                a.force ? case_io::Overwrite::Replace : case_io::Overwrite::Refuse);
   const bool is_broken = holds(mended.labels, kScaphoidDistalLabel);
@@ -51,7 +54,9 @@ void write(const Arguments& a, const reconstruct::Mended& mended) {
   for (const reconstruct::MendedBone& bone : mended.bones) {
     const std::string name = name_of_label(bone.label, is_broken);
     bones.push_back({{"name", name}, {"label", bone.label}, {"volume_mm3", bone.volume_mm3}});
-    if (!bone.surface.facets.empty()) meshes.push_back({name, &bone.surface, {}});
+    if (bone.surface.facets.empty()) continue;
+    meshes.push_back({name, &bone.surface, {}});
+    meshes.back().normals = case_io::bone_normals(bone.surface, {}, ct);
   }
   if (!meshes.empty()) {
     records::write_file_atomically(folder.staging() / "bones.glb", case_io::make_glb(meshes));
@@ -83,7 +88,7 @@ void run(const Arguments& a) {
   stage(a.grows ? "watershed" : "surfaces", 0.3);
   const reconstruct::Mended mended = reconstruct::mend_bones(ct.view(), earlier, painted, options);
   stage("write", 0.9);
-  write(a, mended);
+  write(a, mended, ct.view());
   clock.end();
   show_progress("done", 1);
   const bool is_broken = holds(mended.labels, kScaphoidDistalLabel);

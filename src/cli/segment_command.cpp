@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "case_io/bone_normals.hpp"
 #include "case_io/marker_points.hpp"
 #include "case_io/read_volume.hpp"
 #include "case_io/surface_file.hpp"
@@ -230,13 +231,17 @@ nlohmann::ordered_json report(const Arguments& a,
 
 /// One closed surface a label, half-way between voxels: for a look in another program, not for a
 /// case, whose surfaces follow the grey values (reconstruct).
-void write_surfaces(const fs::path& folder, const Labels& labels) {
+void write_surfaces(const fs::path& folder,
+                    const Labels& labels,
+                    const GridView<const std::int16_t>& ct) {
   std::error_code failed;
   fs::create_directories(folder, failed);  // what fails is said by the first write
   for (const mesh::LabelSurface& surface : mesh::extract_label_surfaces(labels.view())) {
     const fs::path file = folder / ("label_" + std::to_string(surface.label) + ".ply");
-    records::write_file_atomically(
-        file, [&](const fs::path& temporary) { case_io::write_surface(temporary, surface.mesh); });
+    const std::vector<Vec3> normals = case_io::bone_normals(surface.mesh, {}, ct);
+    records::write_file_atomically(file, [&](const fs::path& temporary) {
+      case_io::write_surface(temporary, surface.mesh, normals);
+    });
   }
 }
 
@@ -312,7 +317,7 @@ void run(const Arguments& a) {
   };
   write(a.out, flooded);
   if (!a.markers_out.empty()) write(a.markers_out, task.markers);
-  if (!a.surfaces.empty()) write_surfaces(a.surfaces, flooded);
+  if (!a.surfaces.empty()) write_surfaces(a.surfaces, flooded, ct.view());
   if (!a.json.empty()) records::write_file_atomically(a.json, figures.dump(2) + "\n");
   if (!a.pictures.empty()) {
     const VoxelBox part{task.offset,

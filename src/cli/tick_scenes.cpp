@@ -271,8 +271,8 @@ void look_round(const cases::CaseData& data,
   SceneTimes shaving{"shaving", {}};
   const bool shaves = procedure.shaving.has_value();
   const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
-  for (std::uint64_t seed = 1; seed <= kMostOperations &&
-                               (wants(looking) || wants(yielding) || (shaves && wants(shaving)));
+  for (std::uint64_t seed = 1;
+       seed <= kMostOperations && (wants(looking) || wants(yielding) || (shaves && wants(shaving)));
        ++seed) {
     World world(data, procedure, seed);
     trainee::ScriptedArthroscopist hand(data, procedure, trainee::Skill::Expert, seed);

@@ -46,14 +46,30 @@ std::string list_of(const std::vector<BoneId>& bones) {
   return text;
 }
 
-void refuse_what_cannot_be_operated(const BoneNaming& naming, RegionLabel regions) {
+/// Joints of 1 mm are lost in voxels with a side as long as theirs.
+constexpr double kCoarseMm = 1.3;
+
+/// For a refusal: what else to do than it says.
+std::string advice_on_slices(const GridGeometry& scan) {
+  const double longest = std::max({scan.spacing.x, scan.spacing.y, scan.spacing.z});
+  if (longest < kCoarseMm) return "";
+  return " The likely reason is the scan's slices of " + format("%.2g", longest) +
+         " mm: joints are narrower. Give slices of 1 mm or less, or outline the bones elsewhere "
+         "and "
+         "give them by --labels.";
+}
+
+void refuse_what_cannot_be_operated(const BoneNaming& naming,
+                                    RegionLabel regions,
+                                    const GridGeometry& scan) {
   if (naming.status == NamingStatus::NotAWrist) {
     throw InvalidInput(
         "the bones in this volume do not make a wrist: " + std::to_string(regions) +
         " separate bones were found, " + std::to_string(kBoneCount - naming.missing.size()) +
         " could be matched, with a misfit of " + std::to_string(std::lround(naming.cost)) +
         " (known wrists: up to 20). Give a CT that shows distal radius and ulna, all carpal bones "
-        "and the bases of the metacarpals, of one hand only, without metal.");
+        "and the bases of the metacarpals, of one hand only, without metal." +
+        advice_on_slices(scan));
   }
   std::vector<BoneId> needed;
   for (const BoneId bone : naming.missing) {
@@ -65,7 +81,8 @@ void refuse_what_cannot_be_operated(const BoneNaming& naming, RegionLabel region
   if (!needed.empty()) {
     throw InvalidInput("not found: " + list_of(needed) +
                        ". A case needs them; give a CT that shows the whole carpus and the distal "
-                       "radius, with bones that are not fused.");
+                       "radius, with bones that are not fused." +
+                       advice_on_slices(scan));
   }
 }
 
@@ -217,7 +234,7 @@ void build_case(Grid<std::int16_t> ct,
                 const std::function<void(std::string_view, double)>& stage,
                 Reconstruction& result) {
   const BoneNaming& naming = named.naming;
-  refuse_what_cannot_be_operated(naming, named.segmentation.region_count);
+  refuse_what_cannot_be_operated(naming, named.segmentation.region_count, ct.geometry());
   const std::vector<std::string> warnings = warnings_of(naming);
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   result.naming_cost = naming.cost;
