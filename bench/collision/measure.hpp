@@ -28,6 +28,8 @@ struct CollisionRow {
   Timing timing;
   bool agrees = false;
   std::size_t original_vertices = 0;  ///< table 5.1: of the surface, not of its hull
+  std::size_t original_facets = 0;    ///< table 5.1: likewise; 0: not known
+  std::size_t hull_vertices = 0;      ///< table 5.1
   double thesis_seconds = 0;          ///< table 5.1: as printed; 0 where it has none
 };
 

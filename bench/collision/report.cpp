@@ -173,6 +173,8 @@ void write_json(const std::filesystem::path& file,
                              {"is_peer", row.is_peer},
                              {"facets", row.facets}};
     if (row.original_vertices != 0) r["vertices"] = row.original_vertices;
+    if (row.original_facets != 0) r["surface_facets"] = row.original_facets;
+    if (row.hull_vertices != 0) r["hull_vertices"] = row.hull_vertices;
     if (row.thesis_seconds != 0) r["thesis_seconds"] = row.thesis_seconds;
     if (row.ran) {
       const Timing& t = row.timing;

@@ -63,6 +63,8 @@ PointSet points_of(const std::filesystem::path& folder, BoneId bone, std::size_t
                         : thinned_bone(file_of(folder, bone), vertices);
 }
 
+std::string known_or_dash(std::size_t count) { return count == 0 ? "-" : std::to_string(count); }
+
 class IvriOnAllVertices final : public convex::PairQuery {
  public:
   IvriOnAllVertices(std::span<const Vec3> first, std::span<const Vec3> second)
@@ -122,6 +124,8 @@ std::vector<CollisionRow> thesis_table(const std::filesystem::path& folder,
                                             scripts, cold, options);
         row.facets = static_cast<double>(first->polytope().facets.size());
         row.original_vertices = own.points.size();
+        row.original_facets = own.origin.surface_facets;
+        row.hull_vertices = first->polytope().vertices.size();
         if (engine.name == "lp_scan") row.thesis_seconds = kPrinted[i].proposed;
         if (engine.name == "ivri_all_vertices") row.thesis_seconds = kPrinted[i].ivri;
         rows.push_back(row);
@@ -140,9 +144,10 @@ std::string thesis_text(const std::vector<CollisionRow>& rows) {
   for (const char* suffix : {"", " warm"}) {
     text += format(
         "\nTable 5.1 anew%s: mean microseconds; the thesis's seconds were of a machine of 2008\n"
-        "%-16s %9s %13s %13s %10s %10s %9s %10s %10s %18s %10s\n",
-        *suffix == '\0' ? ", cold" : ", warm", "bone", "vertices", "hull facets", "(thesis)",
-        "lp_scan", "IVRI all", "LP/IVRI", "(thesis)", "best lp", "", "GLPK, CLP / it");
+        "%-16s %18s %18s %18s %18s %10s %10s %9s %10s %10s %18s %10s\n",
+        *suffix == '\0' ? ", cold" : ", warm", "bone", "vertices (thesis)", "facets (thesis)",
+        "hull vertices", "hull facets", "lp_scan", "IVRI all", "LP/IVRI", "(thesis)", "best lp", "",
+        "GLPK, CLP / it");
     const auto bones = thesis_table_4_1();
     for (std::size_t i = 0; i < bones.size(); ++i) {
       auto& engines = table[std::string(bones[i].name) + suffix];
@@ -159,11 +164,14 @@ std::string thesis_text(const std::vector<CollisionRow>& rows) {
       if (best == nullptr || any == engines.end()) continue;
       const double least = best->timing.mean * 1e6;
       text += format(
-          "%-16s %9zu %13.0f %13zu %10.2f %10.2f %9.2f %10.2f %10.3f %-18s %5.0f, %.0f\n",
-          std::string(bones[i].name).c_str(), any->second->original_vertices, best->facets,
-          bones[i].hull_facets, mean("lp_scan"), mean("ivri_all_vertices"),
-          mean("lp_scan") / mean("ivri_all_vertices"), kPrinted[i].proposed / kPrinted[i].ivri,
-          least, best->engine.c_str(), mean("glpk") / least, mean("clp") / least);
+          "%-16s %9zu (%6zu) %9s (%6zu) %9zu (%6zu) %9.0f (%6zu) %10.2f %10.2f %9.2f %10.2f %10.3f "
+          "%-18s %5.0f, %.0f\n",
+          std::string(bones[i].name).c_str(), any->second->original_vertices, bones[i].vertices,
+          known_or_dash(any->second->original_facets).c_str(), bones[i].facets,
+          any->second->hull_vertices, bones[i].hull_vertices, best->facets, bones[i].hull_facets,
+          mean("lp_scan"), mean("ivri_all_vertices"), mean("lp_scan") / mean("ivri_all_vertices"),
+          kPrinted[i].proposed / kPrinted[i].ivri, least, best->engine.c_str(),
+          mean("glpk") / least, mean("clp") / least);
     }
   }
   return text;
