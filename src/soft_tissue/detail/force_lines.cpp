@@ -12,6 +12,19 @@ double slack_of(const Ligament& l, const LineOptions& options) {
   return l.group == "midcarpal" ? options.midcarpal_slack_mm : 0;
 }
 
+/// Its parts between bodies; slack is shared by length.
+void add_stretches(const ForceLine& line, std::vector<ForceLine>& lines) {
+  const double whole = length_as_scanned(line);
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    const double share = distance(line.points[i - 1].second, line.points[i].second) / whole;
+    if (line.points[i - 1].first == line.points[i].first || !(share > 0)) continue;
+    lines.push_back({line.ligament,
+                     {line.points[i - 1], line.points[i]},
+                     line.rest_mm * share,
+                     line.stiffness_n_per_mm / share});
+  }
+}
+
 }  // namespace
 
 std::vector<ForceLine> make_force_lines(const cases::CaseData& data,
@@ -35,10 +48,22 @@ std::vector<ForceLine> make_force_lines(const cases::CaseData& data,
       for (std::size_t i = 1; i < line.points.size(); ++i) {
         line.rest_mm += distance(line.points[i - 1].second, line.points[i].second);
       }
-      lines.push_back(std::move(line));
+      if (options.is_held_on_its_way) {
+        add_stretches(line, lines);
+      } else {
+        lines.push_back(std::move(line));
+      }
     }
   }
   return lines;
+}
+
+double length_as_scanned(const ForceLine& line) noexcept {
+  double length = 0;
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    length += distance(line.points[i - 1].second, line.points[i].second);
+  }
+  return length;
 }
 
 double length_now(const ForceLine& line, const Bodies& bodies) noexcept {

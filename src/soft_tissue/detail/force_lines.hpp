@@ -17,6 +17,7 @@
 namespace carpus::soft_tissue::detail {
 
 struct ForceLine {
+  static constexpr std::size_t kNoLigament = static_cast<std::size_t>(-1);
   std::size_t ligament = 0;                          ///< of the tissue's
   std::vector<std::pair<std::size_t, Vec3>> points;  ///< body, and place as scanned
   double rest_mm = 0;
@@ -30,12 +31,16 @@ struct LineOptions {
   double radiocarpal_slack_mm = 0;                 ///< groups radiocarpal and ulnocarpal
   double midcarpal_slack_mm = 0;                   ///< group midcarpal
   std::span<const std::string_view> without = {};  ///< beginnings of ids of cut ligaments
+  /// Held where a strand touches a bone on its way, each stretch a line of its own, as stiff as the
+  /// same strand that much shorter; else the strand slides there.
+  bool is_held_on_its_way = false;
 };
 
 [[nodiscard]] std::vector<ForceLine> make_force_lines(const cases::CaseData& data,
                                                       const SoftTissue& tissue,
                                                       const LineOptions& options);
 
+[[nodiscard]] double length_as_scanned(const ForceLine& line) noexcept;
 [[nodiscard]] double length_now(const ForceLine& line, const Bodies& bodies) noexcept;
 
 /// The lines' energy and pull, added.

@@ -20,6 +20,7 @@ struct Contact {
   const Grid<float>* other = nullptr;
   double least_mm = 0;  ///< pushes where nearer
   double stiffness_n_per_mm = 0;
+  double room_mm = 0;  ///< beyond least_mm, as the bodies lay when it was found
 };
 
 struct ContactOptions {
