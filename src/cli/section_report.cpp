@@ -102,7 +102,7 @@ void print_published(std::string& out,
     print(out, "%10.*f %-7s %-12s  ", digits, check.ours, unit_of(s.kind), verdict_of(check));
     out += s.published + " " + s.mark + "\n";
     if (check.is_measured && !check.is_reached && !s.why_not.empty()) {
-      out += std::string(33, ' ') + s.why_not + "\n";
+      out += std::string(33, ' ') + "on the demo: " + s.why_not + "\n";
     }
   }
 }

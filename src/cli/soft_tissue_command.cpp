@@ -12,6 +12,7 @@
 #include "case_io/soft_tissue_folder.hpp"
 #include "cases/make_hand_motion.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/section_picture.hpp"
 #include "cli/section_report.hpp"
 #include "cli/soft_tissue_report.hpp"
 #include "reconstruct/skin_surface.hpp"
@@ -30,6 +31,7 @@ struct Arguments {
   bool traction = false;
   bool section = false;
   std::string json;
+  std::string svg;
 };
 
 void print_pull(const cases::CaseData& data,
@@ -71,9 +73,11 @@ void print_section(const cases::CaseData& data,
   const auto& table = soft_tissue::SectioningTable::generic();
   const soft_tissue::SectioningResult result = soft_tissue::section(data, tissue, table);
   std::fputs(section_table(result, table).c_str(), stdout);
-  if (a.json.empty()) return;
-  records::write_file_atomically(
-      a.json, section_json(result, table, data.pseudonym, data.provenance.simulated));
+  if (!a.json.empty()) {
+    records::write_file_atomically(
+        a.json, section_json(result, table, data.pseudonym, data.provenance.simulated));
+  }
+  if (!a.svg.empty()) records::write_file_atomically(a.svg, section_picture(result, table));
 }
 
 void run(const Arguments& a) {
@@ -111,6 +115,8 @@ void add_soft_tissue_command(CLI::App& app) {
   CLI::Option* section = command->add_flag(
       "--section", a->section, "Turn the hand with ligaments cut: ranges beside published ones");
   command->add_option("--json", a->json, "Write the figures of --section to this file")
+      ->needs(section);
+  command->add_option("--svg", a->svg, "Draw the angle against the moment of --section")
       ->needs(section);
   command->callback([a] { run(*a); });
 }
