@@ -93,11 +93,10 @@ std::string section_picture(const soft_tissue::SectioningResult& result,
   std::string body =
       text_at(kLeft, 36, "The hand's turn against the moment on it, ligaments intact and cut",
               {.size = 20, .is_bold = true});
-  body +=
-      text_at(kLeft, 60,
-              "deg from the scan along the moment, N m; simulated: bones, generated strands, no "
-              "muscles, skin or tendons",
-              {.colour = kQuietColour, .size = 13});
+  body += text_at(kLeft, 60,
+                  "up: degrees from the scan along the moment; across: N m. Simulated: bones and "
+                  "generated strands, no muscles, tendons or skin",
+                  {.colour = kQuietColour, .size = 13});
   const auto panel_at = [&](std::size_t i) {
     return Panel{kLeft + static_cast<double>(i % kAcross) * (kWidth + kGapX),
                  kTop + static_cast<double>(i / kAcross) * (kHeight + kGapY), table.moment_nm};

@@ -37,7 +37,7 @@ TEST(SectionPicture, DrawsACurveWhereThereAreRestsAndNamesEachCut) {
   const std::string svg = section_picture(result, table);
   EXPECT_NE(svg.find("radial deviation"), std::string::npos);
   EXPECT_NE(svg.find("cut: SL"), std::string::npos);
-  EXPECT_NE(svg.find("simulated"), std::string::npos);
+  EXPECT_NE(svg.find("Simulated"), std::string::npos);
   EXPECT_EQ(count_of(svg, "<path"), 1u);  // of the cut one a single rest was found
   EXPECT_EQ(count_of(svg, "<svg"), 1u);
 }
