@@ -12,10 +12,14 @@
 #include "case_io/soft_tissue_folder.hpp"
 #include "cases/make_hand_motion.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/section_picture.hpp"
+#include "cli/section_report.hpp"
 #include "cli/soft_tissue_report.hpp"
 #include "reconstruct/skin_surface.hpp"
 #include "reconstruct/stage_clock.hpp"
+#include "records/atomic_file.hpp"
 #include "soft_tissue/make_soft_tissue.hpp"
+#include "soft_tissue/sectioning.hpp"
 #include "soft_tissue/traction.hpp"
 
 namespace carpus::cli {
@@ -25,6 +29,9 @@ struct Arguments {
   std::string case_folder = kDefaultCase;
   bool check = false;
   bool traction = false;
+  bool section = false;
+  std::string json;
+  std::string svg;
 };
 
 void print_pull(const cases::CaseData& data,
@@ -60,6 +67,19 @@ void print_traction(const cases::CaseData& data, const soft_tissue::SoftTissue& 
   std::printf("slack is fitted to the published means, not measured\n");
 }
 
+void print_section(const cases::CaseData& data,
+                   const soft_tissue::SoftTissue& tissue,
+                   const Arguments& a) {
+  const auto& table = soft_tissue::SectioningTable::generic();
+  const soft_tissue::SectioningResult result = soft_tissue::section(data, tissue, table);
+  std::fputs(section_table(result, table).c_str(), stdout);
+  if (!a.json.empty()) {
+    records::write_file_atomically(
+        a.json, section_json(result, table, data.pseudonym, data.provenance.simulated));
+  }
+  if (!a.svg.empty()) records::write_file_atomically(a.svg, section_picture(result, table));
+}
+
 void run(const Arguments& a) {
   cases::CaseData data = case_io::read_case(a.case_folder);
   cases::ensure_hand_motion(data);
@@ -73,6 +93,7 @@ void run(const Arguments& a) {
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   std::fputs(portal_table(arthroscopy::make_map(data, tissue), data).c_str(), stdout);
   if (a.traction) print_traction(data, tissue);
+  if (a.section) print_section(data, tissue, a);
   double whole = 0;
   for (const reconstruct::StageTime& stage : clock.stages()) {
     whole += stage.seconds;
@@ -91,6 +112,12 @@ void add_soft_tissue_command(CLI::App& app) {
   command->add_flag("--check", a->check, "Print the figures, write nothing");
   command->add_flag("--traction", a->traction,
                     "Pull at the fingers: openings beside published ones");
+  CLI::Option* section = command->add_flag(
+      "--section", a->section, "Turn the hand with ligaments cut: ranges beside published ones");
+  command->add_option("--json", a->json, "Write the figures of --section to this file")
+      ->needs(section);
+  command->add_option("--svg", a->svg, "Draw the angle against the moment of --section")
+      ->needs(section);
   command->callback([a] { run(*a); });
 }
 

@@ -28,14 +28,17 @@ std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue, const cases
   std::string out;
   print(out, "size %.3f of the generic wrist, worst fit of a bone %.2f mm rms\n", tissue.size,
         tissue.worst_misfit_mm);
-  print(out, "generated, not seen in the CT; ranges: published or proposed, times the size\n\n");
-  print(out, "%-18s %9s %15s %9s %15s %7s %8s %8s\n", "ligament", "length mm", "range", "thick mm",
-        "range", "width", "straight", "strands");
+  print(out, "generated, not seen in the CT; ranges: published or proposed, times the size;\n");
+  print(out, "N/mm: of all strands, as published or proposed, for no measured range is known\n\n");
+  print(out, "%-18s %9s %15s %9s %15s %7s %8s %8s %6s\n", "ligament", "length mm", "range",
+        "thick mm", "range", "width", "straight", "strands", "N/mm");
   for (const soft_tissue::Ligament& l : tissue.ligaments) {
-    print(out, "%-18s %9.1f %7.1f to %4.1f %9.2f %7.2f to %4.2f %7.1f %8.1f %8zu\n", l.id.c_str(),
-          l.length_mm, l.length_range_mm.low, l.length_range_mm.high, l.measured_thickness_mm,
-          l.thickness_range_mm.low, l.thickness_range_mm.high, l.width_mm, l.straight_mm,
-          l.strands.size());
+    double n_per_mm = 0;
+    for (const soft_tissue::Strand& s : l.strands) n_per_mm += s.stiffness_n_per_mm;
+    print(out, "%-18s %9.1f %7.1f to %4.1f %9.2f %7.2f to %4.2f %7.1f %8.1f %8zu %6.1f\n",
+          l.id.c_str(), l.length_mm, l.length_range_mm.low, l.length_range_mm.high,
+          l.measured_thickness_mm, l.thickness_range_mm.low, l.thickness_range_mm.high, l.width_mm,
+          l.straight_mm, l.strands.size(), n_per_mm);
   }
   if (!tissue.disc.body.facets.empty()) {
     print(out, "%-18s %9s %15s %9.2f %7.2f to %4.2f\n", "disc", "", "",

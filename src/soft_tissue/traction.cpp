@@ -11,82 +11,39 @@
 #include <cmath>
 #include <map>
 
-#include "fields/distance_field.hpp"
+#include "soft_tissue/detail/force_lines.hpp"
+#include "soft_tissue/detail/joint_contacts.hpp"
+#include "soft_tissue/detail/wrist_bodies.hpp"
 
 namespace carpus::soft_tissue {
 namespace {
 
-constexpr std::size_t kBodies = 5;  ///< forearm, scaphoid, lunate, triquetrum, hand
-constexpr std::size_t kHand = 4;
-/// Joint surfaces push where they come nearer than in the scan, or than this [mm].
-constexpr double kContactMm = 0.6;
-/// Of one sample of a surface [N/mm; E]; a joint has tens.
-constexpr double kContactStiffness = 40;
-constexpr std::size_t kContactSamples = 260;  ///< a bone
+using detail::Bodies;
+using detail::Contact;
+using detail::ForceLine;
+using detail::kBodies;
+using detail::kHand;
+using detail::Load;
+
 /// Tissue that holds a little in every way, so that nothing floats [N/mm; E].
 constexpr double kCapsuleStiffness = 0.5;
 constexpr int kRounds = 1500;
 constexpr double kBalancedN = 0.05;
 constexpr std::size_t kMostForces = 8;
 
-std::size_t body_of(BoneId bone) {
-  switch (bone) {
-    case BoneId::Radius:
-    case BoneId::Ulna:
-      return 0;
-    case BoneId::Scaphoid:
-      return 1;
-    case BoneId::Lunate:
-      return 2;
-    case BoneId::Triquetrum:
-    case BoneId::Pisiform:
-      return 3;
-    default:
-      return kHand;
-  }
-}
-
-struct Placed {
-  Mat3 rotation;
-  Vec3 middle;  ///< as scanned
-  Vec3 shift;
-  [[nodiscard]] Vec3 at(const Vec3& p) const { return rotation * (p - middle) + middle + shift; }
-  [[nodiscard]] Vec3 back(const Vec3& p) const {
-    return rotation.transposed() * (p - middle - shift) + middle;
-  }
-};
-
-struct Line {
-  std::size_t ligament = 0;
-  std::vector<std::pair<std::size_t, Vec3>> points;  ///< body and place as scanned
-  double rest_mm = 0;
-  double stiffness = 0;
-};
-
-/// A sample of one bone's surface against another bone.
-struct Touch {
-  std::size_t body = 0;
-  Vec3 point;
-  std::size_t other_body = 0;
-  const Grid<float>* other = nullptr;
-  double least_mm = 0;
-};
-
-struct Load {
-  double energy = 0;
-  std::array<Vec3, kBodies> force;
-  std::array<Vec3, kBodies> moment;
-};
-
 class Bench {
  public:
   Bench(const cases::CaseData& data, const SoftTissue& tissue, const TractionOptions& options)
-      : data_(data), tissue_(tissue), options_(options) {
-    // As in a traction tower: along the forearm.
-    way_ = data.wrist_from_patient.rotation.transposed() * Vec3{-1, 0, 0};
-    find_middles();
-    for (std::size_t l = 0; l < tissue.ligaments.size(); ++l) add_lines(l);
-    add_touches();
+      : tissue_(tissue),
+        options_(options),
+        // As in a traction tower: along the forearm.
+        way_(data.wrist_from_patient.rotation.transposed() * Vec3{-1, 0, 0}),
+        bodies_(detail::bodies_as_scanned(data)),
+        lines_(detail::make_force_lines(data,
+                                        tissue,
+                                        {options.stiffness_factor, options.radiocarpal_slack_mm,
+                                         options.midcarpal_slack_mm, options.without})),
+        contacts_(detail::make_contacts(data, bodies_, {})) {
     find_stiffness();
   }
 
@@ -94,7 +51,7 @@ class Bench {
     Load load = load_at(bodies_);
     double step = 1;
     for (int round = 0; round < kRounds && unbalanced(load) > kBalancedN; ++round) {
-      std::array<Placed, kBodies> next = bodies_;
+      Bodies next = bodies_;
       for (std::size_t b = 1; b < kBodies; ++b) {
         next[b].shift += load.force[b] * (step / shift_stiffness_[b]);
         if (b == kHand) continue;  // the hand is held against turning
@@ -116,69 +73,6 @@ class Bench {
   }
 
  private:
-  void find_middles() {
-    std::array<double, kBodies> count{};
-    for (const cases::Bone& bone : data_.bones) {
-      Placed& body = bodies_[body_of(bone.bone)];
-      if (bone.bone > BoneId::Hamate) continue;
-      for (const Vec3& v : bone.surface.vertices) body.middle += v;
-      count[body_of(bone.bone)] += static_cast<double>(bone.surface.vertices.size());
-    }
-    for (std::size_t b = 0; b < kBodies; ++b) {
-      if (count[b] > 0) bodies_[b].middle = bodies_[b].middle / count[b];
-    }
-  }
-
-  std::size_t body_of_label(std::uint8_t label) const {
-    for (const cases::Bone& bone : data_.bones) {
-      if (bone.label == label) return body_of(bone.bone);
-    }
-    return 0;  // on the disc's ligaments, which stay with the forearm
-  }
-
-  double slack_of(const Ligament& l) const {
-    if (l.group == "radiocarpal" || l.group == "ulnocarpal") return options_.radiocarpal_slack_mm;
-    return l.group == "midcarpal" ? options_.midcarpal_slack_mm : 0;
-  }
-
-  void add_lines(std::size_t index) {
-    const Ligament& l = tissue_.ligaments[index];
-    for (const std::string_view cut : options_.without) {
-      if (l.id.starts_with(cut)) return;
-    }
-    for (const Strand& s : l.strands) {
-      Line line;
-      line.ligament = index;
-      line.stiffness = s.stiffness_n_per_mm * options_.stiffness_factor;
-      for (std::size_t a = 0; a < s.anchors.size(); ++a) {
-        line.points.emplace_back(body_of_label(s.anchors[a].label), s.course[s.anchors[a].point]);
-      }
-      line.rest_mm = slack_of(l);
-      for (std::size_t i = 1; i < line.points.size(); ++i) {
-        line.rest_mm += distance(line.points[i - 1].second, line.points[i].second);
-      }
-      lines_.push_back(std::move(line));
-    }
-  }
-
-  void add_touches() {
-    for (const cases::Bone& a : data_.bones) {
-      if (a.bone > BoneId::Hamate) continue;
-      const std::size_t every =
-          std::max<std::size_t>(1, a.surface.vertices.size() / kContactSamples);
-      for (const cases::Bone& b : data_.bones) {
-        if (b.bone > BoneId::Hamate || body_of(a.bone) == body_of(b.bone)) continue;
-        for (std::size_t v = 0; v < a.surface.vertices.size(); v += every) {
-          const Vec3& p = a.surface.vertices[v];
-          const fields::DistanceSample near = fields::sample_distance(b.distance_field, p);
-          if (!near.is_inside_grid || near.distance_mm > 3) continue;
-          touches_.push_back({body_of(a.bone), p, body_of(b.bone), &b.distance_field,
-                              std::min(kContactMm, near.distance_mm)});
-        }
-      }
-    }
-  }
-
   void find_stiffness() {
     shift_stiffness_.fill(kCapsuleStiffness);
     turn_stiffness_.fill(kCapsuleStiffness * 50);
@@ -186,36 +80,16 @@ class Bench {
       shift_stiffness_[body] += stiffness;
       turn_stiffness_[body] += stiffness * squared_length(p - bodies_[body].middle);
     };
-    for (const Line& line : lines_) {
-      for (const auto& [body, p] : line.points) add(body, p, line.stiffness);
+    for (const ForceLine& line : lines_) {
+      for (const auto& [body, p] : line.points) add(body, p, line.stiffness_n_per_mm);
     }
-    for (const Touch& t : touches_) {
-      add(t.body, t.point, 0.2 * kContactStiffness);
-      add(t.other_body, t.point, 0.2 * kContactStiffness);
+    for (const Contact& c : contacts_) {
+      add(c.body, c.point, 0.2 * c.stiffness_n_per_mm);
+      add(c.other_body, c.point, 0.2 * c.stiffness_n_per_mm);
     }
   }
 
-  static void push(Load& load,
-                   const std::array<Placed, kBodies>& bodies,
-                   std::size_t body,
-                   const Vec3& at,
-                   const Vec3& force) {
-    load.force[body] += force;
-    load.moment[body] += cross(at - bodies[body].middle - bodies[body].shift, force);
-  }
-
-  /// Length of a line now, and the pull of a unit tension on its points, into `load`.
-  static double length_now(const Line& line, const std::array<Placed, kBodies>& bodies) {
-    double length = 0;
-    for (std::size_t i = 1; i < line.points.size(); ++i) {
-      const auto& [a, p] = line.points[i - 1];
-      const auto& [b, q] = line.points[i];
-      length += distance(bodies[a].at(p), bodies[b].at(q));
-    }
-    return length;
-  }
-
-  Load load_at(const std::array<Placed, kBodies>& bodies) const {
+  Load load_at(const Bodies& bodies) const {
     Load load;
     load.force[kHand] = way_ * options_.force_n;
     load.energy = -options_.force_n * dot(way_, bodies[kHand].shift);
@@ -223,32 +97,8 @@ class Bench {
       load.energy += 0.5 * kCapsuleStiffness * squared_length(bodies[b].shift);
       load.force[b] -= bodies[b].shift * kCapsuleStiffness;
     }
-    for (const Line& line : lines_) {
-      const double stretch = length_now(line, bodies) - line.rest_mm;
-      if (stretch <= 0) continue;
-      load.energy += 0.5 * line.stiffness * stretch * stretch;
-      for (std::size_t i = 1; i < line.points.size(); ++i) {
-        const auto& [a, p] = line.points[i - 1];
-        const auto& [b, q] = line.points[i];
-        const Vec3 from = bodies[a].at(p);
-        const Vec3 to = bodies[b].at(q);
-        const Vec3 tension = normalized_or(to - from, {}) * (line.stiffness * stretch);
-        push(load, bodies, a, from, tension);
-        push(load, bodies, b, to, -tension);
-      }
-    }
-    for (const Touch& t : touches_) {
-      const Vec3 at = bodies[t.body].at(t.point);
-      const fields::DistanceSample near =
-          fields::sample_distance(*t.other, bodies[t.other_body].back(at));
-      const double depth = t.least_mm - near.distance_mm;
-      if (!near.is_inside_grid || depth <= 0) continue;
-      load.energy += 0.5 * kContactStiffness * depth * depth;
-      const Vec3 force =
-          bodies[t.other_body].rotation * near.gradient * (kContactStiffness * depth);
-      push(load, bodies, t.body, at, force);
-      push(load, bodies, t.other_body, at, -force);
-    }
+    detail::pull_lines(lines_, bodies, load);
+    detail::push_contacts(contacts_, bodies, load);
     return load;
   }
 
@@ -266,9 +116,9 @@ class Bench {
     r.radiocarpal_mm = row;
     r.midcarpal_mm = dot(way_, bodies_[kHand].shift) - row;
     std::map<std::string, double> forces;
-    for (const Line& line : lines_) {
+    for (const ForceLine& line : lines_) {
       forces[tissue_.ligaments[line.ligament].id] +=
-          line.stiffness * std::max(0.0, length_now(line, bodies_) - line.rest_mm);
+          line.stiffness_n_per_mm * std::max(0.0, detail::length_now(line, bodies_) - line.rest_mm);
     }
     for (const auto& [id, newtons] : forces) r.forces.push_back({id, newtons});
     std::stable_sort(
@@ -278,13 +128,12 @@ class Bench {
     return r;
   }
 
-  const cases::CaseData& data_;
   const SoftTissue& tissue_;
   const TractionOptions& options_;
   Vec3 way_;
-  std::array<Placed, kBodies> bodies_;
-  std::vector<Line> lines_;
-  std::vector<Touch> touches_;
+  Bodies bodies_;
+  std::vector<ForceLine> lines_;
+  std::vector<Contact> contacts_;
   std::array<double, kBodies> shift_stiffness_{};
   std::array<double, kBodies> turn_stiffness_{};
 };
