@@ -11,6 +11,7 @@
 
 #include "anatomy/bone_id.hpp"
 #include "case_io/case_cover.hpp"
+#include "case_io/ply.hpp"
 #include "case_io/read_volume.hpp"
 #include "core/error.hpp"
 #include "core/json_fields.hpp"
@@ -70,7 +71,17 @@ EarlierCase read_earlier_case(const fs::path& folder) {
     throw InvalidInput(file.string() + ": does not say where the case came from; reconstruct it");
   }
   earlier.pseudonym = case_io::read_pseudonym(folder).value_or("wrist");
-  earlier.labels = case_io::read_labels(folder / "labels.nii.gz");
+  earlier.version.labels = case_io::read_labels(folder / "labels.nii.gz");
+  const auto labels = earlier.version.labels.values();
+  const bool is_broken =
+      std::find(labels.begin(), labels.end(), kScaphoidDistalLabel) != labels.end();
+  for (std::size_t label = 1; label <= kScaphoidDistalLabel; ++label) {
+    // A bone of which there is none is none to be kept.
+    const fs::path surface = folder / "bones" / (name_of_label(label, is_broken) + ".ply");
+    if (!fs::is_regular_file(surface)) continue;
+    earlier.version.surfaces.push_back(
+        {static_cast<std::uint8_t>(label), case_io::read_ply(surface)});
+  }
   return earlier;
 }
 

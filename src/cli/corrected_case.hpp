@@ -13,6 +13,7 @@
 
 #include "cases/case_data.hpp"
 #include "geometry/grid.hpp"
+#include "reconstruct/keep_untouched.hpp"
 
 namespace carpus::cli {
 
@@ -27,10 +28,10 @@ struct EarlierCase {
   std::string id;  ///< its folder's name; empty where that is not plain, and may say who it is
   std::string pseudonym;
   cases::Provenance provenance;
-  Grid<std::uint8_t> labels;
+  reconstruct::EarlierVersion version;
 };
 
-/// @throws IoError, InvalidInput where its case.json or labels cannot be read.
+/// @throws IoError, InvalidInput where its case.json, labels or surfaces cannot be read.
 [[nodiscard]] EarlierCase read_earlier_case(const std::filesystem::path& folder);
 
 /// "scaphoid: 12 mm3 added, 3 mm3 taken away", for each bone that differs; by the numbers of

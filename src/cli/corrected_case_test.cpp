@@ -56,7 +56,7 @@ TEST(CorrectedCase, KeepsWhereTheEarlierOneCameFrom) {
   EXPECT_TRUE(earlier.provenance.simulated);
   EXPECT_EQ(earlier.provenance.source, "a CT");
   EXPECT_EQ(earlier.provenance.conventions.size(), 1U);
-  EXPECT_EQ(earlier.labels[1], 2);
+  EXPECT_EQ(earlier.version.labels[1], 2);
   std::ofstream(folder / "case.json") << R"({"pseudonym": "demo", "provenance": {"simulated": 1}})";
   EXPECT_THROW((void)read_earlier_case(folder), InvalidInput);
   fs::remove_all(folder);

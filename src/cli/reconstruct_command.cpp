@@ -156,8 +156,9 @@ reconstruct::Reconstruction make_case(const Arguments& a,
     return reconstruct::reconstruct_labelled(std::move(ct), labels, options);
   }
   const EarlierCase earlier = read_earlier_case(a.input);
-  reconstruct::require_same_grid(ct.geometry(), earlier.labels.geometry(), "the earlier case");
-  const std::vector<std::string> changes = changes_between(earlier.labels, labels);
+  reconstruct::require_same_grid(ct.geometry(), earlier.version.labels.geometry(),
+                                 "the earlier case");
+  const std::vector<std::string> changes = changes_between(earlier.version.labels, labels);
   if (changes.empty()) {
     throw InvalidInput("the labels are those that the case has already; nothing would change");
   }
@@ -167,7 +168,7 @@ reconstruct::Reconstruction make_case(const Arguments& a,
   options.provenance.version_of = earlier.id;
   said = earlier.provenance.conventions;
   for (const std::string& change : changes) said.push_back("corrected by a person, " + change);
-  return reconstruct::reconstruct_labelled(std::move(ct), labels, options);
+  return reconstruct::reconstruct_labelled(std::move(ct), labels, options, &earlier.version);
 }
 
 /// The scan of a case is in its folder beside the labels.

@@ -227,11 +227,13 @@ void generate_structures(Reconstruction& result) {
   }
 }
 
-/// Everything after the names.
+/// Everything after the names. `correct` has the bones with labels and surfaces, and nothing else
+/// yet.
 void build_case(Grid<std::int16_t> ct,
                 NamedSegmentation named,
                 const ReconstructOptions& options,
                 const std::function<void(std::string_view, double)>& stage,
+                const std::function<void(cases::CaseData&)>& correct,
                 Reconstruction& result) {
   const BoneNaming& naming = named.naming;
   refuse_what_cannot_be_operated(naming, named.segmentation.region_count, ct.geometry());
@@ -251,6 +253,7 @@ void build_case(Grid<std::int16_t> ct,
   Grid<std::uint8_t> labels = bone_labels(named);
   build_surfaces(std::move(named.segmentation), std::move(labels), options.surface, naming,
                  ct.view(), result);
+  correct(data);
   warn_of_flagged(result);
   stage("hulls", 0.6);
   for_each_bone(result, [](cases::Bone& bone, BoneFigures& f) { build_hull(bone, f); });
@@ -280,7 +283,8 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
   NamedSegmentation named = segment_and_name(
       ct, options.segmentation,
       [&](std::string_view name, double fraction) { stage(name, kSegmentationShare * fraction); });
-  build_case(std::move(ct), std::move(named), options, stage, result);
+  build_case(
+      std::move(ct), std::move(named), options, stage, [](cases::CaseData&) {}, result);
   clock.end();
   result.stages = clock.stages();
   options.progress("done", 1.0);
@@ -289,7 +293,8 @@ Reconstruction reconstruct_case(Grid<std::int16_t> ct, const ReconstructOptions&
 
 Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
                                     const Grid<std::uint8_t>& labels,
-                                    const ReconstructOptions& options) {
+                                    const ReconstructOptions& options,
+                                    const EarlierVersion* earlier) {
   Reconstruction result;
   StageClock clock;
   const auto stage = [&](std::string_view name, double fraction) {
@@ -299,7 +304,10 @@ Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
   stage("names", 0.1);
   GivenSegmentation given = describe_labels(ct, labels, options.segmentation);
   result.warnings = given.warnings;
-  build_case(std::move(ct), std::move(given.named), options, stage, result);
+  const auto keep = [&](cases::CaseData& data) {
+    if (earlier != nullptr) keep_untouched(*earlier, labels, data);
+  };
+  build_case(std::move(ct), std::move(given.named), options, stage, keep, result);
   clock.end();
   result.stages = clock.stages();
   options.progress("done", 1.0);

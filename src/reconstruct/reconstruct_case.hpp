@@ -16,6 +16,7 @@
 #include "imaging/bone_segmentation.hpp"
 #include "reconstruct/bone_surface.hpp"
 #include "reconstruct/bone_trust.hpp"
+#include "reconstruct/keep_untouched.hpp"
 #include "reconstruct/stage_clock.hpp"
 
 namespace carpus::reconstruct {
@@ -56,9 +57,12 @@ struct Reconstruction {
                                               const ReconstructOptions& options);
 
 /// The same of bones that are outlined and named already (given_labels.hpp): nothing is segmented.
+/// @param earlier  the version of which a person changed these labels: bones that are the same in
+///     both stay as they are there; nullptr where there is none
 /// @throws as reconstruct_case and describe_labels.
 [[nodiscard]] Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
                                                   const Grid<std::uint8_t>& labels,
-                                                  const ReconstructOptions& options);
+                                                  const ReconstructOptions& options,
+                                                  const EarlierVersion* earlier = nullptr);
 
 }  // namespace carpus::reconstruct
