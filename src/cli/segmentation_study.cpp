@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/text_format.hpp"
-#include "imaging/region_merging.hpp"
 #include "phantom/phantom.hpp"
-#include "reconstruct/bone_surface.hpp"
 #include "reconstruct/ground_truth.hpp"
 #include "reconstruct/named_segmentation.hpp"
+#include "reconstruct/surface_bones.hpp"
 
 namespace carpus::cli {
 namespace {
@@ -46,7 +47,7 @@ phantom::PhantomOptions options_of(std::uint64_t seed, double voxel_mm, StudiedS
 
 void name_and_measure(const phantom::Phantom& made, StudiedScan& scan) {
   using namespace reconstruct;
-  const NamedSegmentation named = segment_and_name(made.ct, {}, [](std::string_view, double) {});
+  NamedSegmentation named = segment_and_name(made.ct, {}, [](std::string_view, double) {});
   scan.naming_cost = named.naming.cost;
   scan.is_side_right = named.naming.side == made.options.side;
   if (named.naming.status == anatomy::NamingStatus::NotAWrist) {
@@ -54,26 +55,18 @@ void name_and_measure(const phantom::Phantom& made, StudiedScan& scan) {
     return;
   }
   Grid<std::uint8_t> labels = bone_labels(named);
-  std::vector<BoneField> fields;
+  std::array<bool, 256> is_there{};
+  for (const std::uint8_t label : labels.values()) is_there[label] = label != kBackgroundLabel;
   std::vector<std::uint8_t> numbers;
-  std::vector<MeshIn<frame::Bone>> meshes;
   for (std::uint8_t label = 1; label <= kScaphoidDistalLabel; ++label) {
-    BoneField field = build_bone_field(labels.view(), label, named.segmentation.edge_excess.view());
-    if (field.values.values().empty()) continue;
-    meshes.push_back(build_bone_surface(field));
-    fields.push_back(std::move(field));
-    numbers.push_back(label);
+    if (is_there[label]) numbers.push_back(label);
   }
-  label_by_fields(fields, numbers, labels.view());
-  std::vector<LabelSurface> surfaces;
-  for (std::size_t i = 0; i < meshes.size(); ++i) surfaces.push_back({numbers[i], &meshes[i]});
-  const auto evidence =
-      measure_evidence(labels.view(),
-                       imaging::measure_regions(named.segmentation.regions.view(),
-                                                named.segmentation.edge_excess.view()),
-                       named.segmentation.edge_excess.view(), named.segmentation.smoothed_hu.view(),
-                       surfaces, named.naming);
-  const auto whole = on_whole_scan(labels, named.segmentation.offset, made.ct.geometry());
+  const VoxelIndex offset = named.segmentation.offset;
+  const std::vector<BoneEvidence> evidence =
+      surface_bones(std::move(named.segmentation), numbers, named.naming, made.ct.view(), {},
+                    labels.view())
+          .evidence;
+  const auto whole = on_whole_scan(labels, offset, made.ct.geometry());
   for (StudiedBone& bone : scan.bones) {
     for (const BoneEvidence& each : evidence) {
       if (each.label != bone.label) continue;

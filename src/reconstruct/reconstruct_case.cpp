@@ -17,12 +17,10 @@
 #include "core/text_format.hpp"
 #include "fields/distance_field.hpp"
 #include "hull/quickhull.hpp"
-#include "imaging/region_merging.hpp"
 #include "reconstruct/given_labels.hpp"
-#include "reconstruct/label_by_surfaces.hpp"
 #include "reconstruct/named_segmentation.hpp"
-#include "reconstruct/sharpen_surface.hpp"
 #include "reconstruct/skin_surface.hpp"
+#include "reconstruct/surface_bones.hpp"
 
 namespace carpus::reconstruct {
 namespace {
@@ -154,37 +152,18 @@ void build_surfaces(BoneSegmentation s,
                     const GridView<const std::int16_t>& ct,
                     Reconstruction& result) {
   cases::CaseData& data = result.data;
-  const imaging::RegionTable regions =
-      imaging::measure_regions(s.regions.view(), s.edge_excess.view());
-  s.regions = {};  // each volume goes when nobody asks for it any more: a scan's are large
-  std::vector<BoneField> fields(data.bones.size());
   std::vector<std::uint8_t> label_of;
   for (const cases::Bone& bone : data.bones) label_of.push_back(bone.label);
-  parallel_for(fields.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      fields[i] = build_bone_field(labels.view(), label_of[i], s.edge_excess.view(), options);
-      data.bones[i].surface = build_bone_surface(fields[i], options);
-      check_bone(data.bones[i]);
-    }
-  });
-  label_by_fields(fields, label_of, labels.view());
-  fields = {};
-  // What is known of the bones is asked of them as they were segmented: trust was fitted to that.
-  std::vector<LabelSurface> surfaces;
-  for (const cases::Bone& bone : data.bones) surfaces.push_back({bone.label, &bone.surface});
-  const auto evidence = measure_evidence(labels.view(), regions, s.edge_excess.view(),
-                                         s.smoothed_hu.view(), surfaces, naming);
-  for (const BoneEvidence& each : evidence) {
-    for (std::size_t i = 0; i < label_of.size(); ++i) {
-      if (label_of[i] == each.label) result.figures[i].trust = judge(each);
+  const VoxelIndex offset = s.offset;
+  SurfacedBones made = surface_bones(std::move(s), label_of, naming, ct, options, labels.view());
+  for (std::size_t i = 0; i < label_of.size(); ++i) {
+    data.bones[i].surface = MeshIn<frame::Bone>(std::move(made.surfaces[i]));
+    check_bone(data.bones[i]);
+    for (const BoneEvidence& each : made.evidence) {
+      if (each.label == label_of[i]) result.figures[i].trust = judge(each);
     }
   }
-  std::vector<TriangleMesh*> meshes;
-  for (cases::Bone& bone : data.bones) meshes.push_back(&bone.surface);
-  s.smoothed_hu = s.edge_excess = {};
-  sharpen_surfaces(meshes, ct, s.soft_tissue_hu);
-  label_by_surfaces({meshes.begin(), meshes.end()}, label_of, labels.view());
-  data.labels = on_whole_scan(labels, s.offset, ct.geometry());
+  data.labels = on_whole_scan(labels, offset, ct.geometry());
 }
 
 void warn_of_flagged(Reconstruction& result) {
