@@ -56,6 +56,38 @@ Json volumes_mm3(const Phantom& phantom) {
   return volumes;
 }
 
+/// The scanner, the positioning and the patient, by the names of ScanOptions.
+Json json_of_scan(const ScanOptions& scan) {
+  return {
+      {"point_spread_fwhm_mm", scan.point_spread_fwhm_mm},
+      {"edge_enhancement", scan.edge_enhancement},
+      {"noise_hu", scan.noise_hu},
+      {"slice_mm", scan.slice_mm},
+      {"beam_hardening_hu", scan.beam_hardening_hu},
+      {"metal_radius_mm", scan.metal_radius_mm},
+      {"is_screw", scan.is_screw},
+      {"metal_streaks_hu", scan.metal_streaks_hu},
+      {"motion_step_mm", scan.motion_step_mm},
+      {"has_table", scan.has_table},
+      {"cast_mm", scan.cast_mm},
+      {"cast_hu", scan.cast_hu},
+      {"tilt_degrees", scan.tilt_degrees},
+      {"proximal_reach_mm", scan.proximal_reach_mm},
+      {"distal_reach_mm", scan.distal_reach_mm},
+      {"width_mm", scan.width_mm},
+      {"cut_off_mm", scan.cut_off_mm},
+      {"bone_density", scan.bone_density},
+      {"cortex_thickness", scan.cortex_thickness},
+      {"warp_mm", scan.warp_mm},
+      {"size_variation", scan.size_variation},
+      {"scapholunate_gap_mm", scan.scapholunate_gap_mm},
+      {"is_fused", scan.is_fused},
+      {"bipartite_mm", scan.bipartite_mm},
+      {"hamate_facet_mm", scan.hamate_facet_mm},
+      {"has_fingers", scan.has_fingers},
+  };
+}
+
 Json truth_of(const Phantom& phantom) {
   const PhantomOptions& o = phantom.options;
   const LongAxis& axis = phantom.scaphoid_axis;
@@ -68,6 +100,7 @@ Json truth_of(const Phantom& phantom) {
   truth["side"] = name_of(o.side);
   truth["scale"] = o.scale;
   truth["fracture"] = name_of(o.fracture);
+  truth["scan"] = json_of_scan(o.scan);
   truth["spacing_mm"] = json_of(phantom.ct.geometry().spacing);
   truth["wrist_from_patient"] = {
       {"rotation", json_of(phantom.wrist_from_patient.rotation)},

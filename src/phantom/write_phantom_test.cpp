@@ -128,6 +128,8 @@ TEST_P(WritePhantom, GivesBackTheVolumesAndTheTruth) {
   EXPECT_EQ(truth["seed"], 7);
   EXPECT_EQ(truth["side"], "right");
   EXPECT_EQ(truth["fracture"], "none");
+  EXPECT_EQ(truth["scan"]["noise_hu"], phantom.options.scan.noise_hu);
+  EXPECT_EQ(truth["scan"]["has_fingers"], phantom.options.scan.has_fingers);
   EXPECT_DOUBLE_EQ(truth["volumes_mm3"]["lunate"].get<double>(), 24 * 20 * 12 / 5 * 0.1875);
 }
 
