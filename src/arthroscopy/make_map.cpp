@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "arthroscopy/detail/bone_landmarks.hpp"
 #include "arthroscopy/detail/joint_of.hpp"
 #include "arthroscopy/detail/portal_placement.hpp"
 #include "arthroscopy/detail/pulled_bones.hpp"
@@ -62,6 +63,10 @@ class MapMaker {
       if (!is_reached(j)) map_.problems.push_back(map_.joints[j].name + ": no portal leads there");
     }
     if (map_.portals.empty()) return std::move(map_);
+    for (const detail::Landmark& mark : detail::bone_landmarks(data_, axes_)) {
+      const BoneId bone = mark.id == "ulnar_styloid" ? BoneId::Ulna : BoneId::Radius;
+      map_.landmarks.push_back({mark.id, axes_.point(mark.at), body_of(bone).value_or(0)});
+    }
     place_points(places);
     collect_cartilage();
     return std::move(map_);

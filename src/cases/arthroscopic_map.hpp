@@ -43,6 +43,13 @@ struct Portal {
   std::array<std::optional<BesideWay>, anatomy::kStructureKinds> beside;
 };
 
+/// A place of a bone that is felt through the skin.
+struct FeltLandmark {
+  std::string id;  ///< "lister", "radial_styloid", "ulnar_styloid"
+  Vec3 at;         ///< on the bone [mm]
+  std::uint8_t body = 0;
+};
+
 /// A place of the diagnostic tour.
 struct TourPoint {
   int number = 0;  ///< of the 24 of the whole tour
@@ -83,6 +90,7 @@ inline constexpr std::size_t kMaxTourPoints = 32;
 struct ArthroscopicMap {
   std::vector<JointSpace> joints;  ///< that a portal leads into; the radiocarpal one first
   std::vector<Portal> portals;
+  std::vector<FeltLandmark> landmarks;
   std::vector<TourPoint> points;
   std::vector<CartilageFacet> cartilage;  ///< of these joints
   std::uint8_t forearm = 0;               ///< the radius's body

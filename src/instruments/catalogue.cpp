@@ -12,6 +12,7 @@ namespace carpus::data {
 std::string_view instruments();
 std::string_view screws();
 std::string_view arthroscopes();
+std::string_view portal_instruments();
 }  // namespace carpus::data
 
 namespace carpus::instruments {
@@ -23,13 +24,17 @@ std::vector<Instrument> built_in() {
   std::move(screws.begin(), screws.end(), std::back_inserter(all));
   std::vector<Instrument> scopes = read_instruments(data::arthroscopes(), "arthroscopes.json");
   std::move(scopes.begin(), scopes.end(), std::back_inserter(all));
+  std::vector<Instrument> of_portals =
+      read_instruments(data::portal_instruments(), "portal_instruments.json");
+  std::move(of_portals.begin(), of_portals.end(), std::back_inserter(all));
   if (all.size() >= kNoInstrument)
     throw InvalidInput("instruments.json: more than 254 instruments");
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (all[i].id == all[j].id) {
-        throw InvalidInput("instruments.json, screws.json, arthroscopes.json: " + all[i].id +
-                           ": there are two of it");
+        throw InvalidInput(
+            "instruments.json, screws.json, arthroscopes.json, portal_instruments.json: " +
+            all[i].id + ": there are two of it");
       }
     }
   }

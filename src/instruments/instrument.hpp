@@ -85,6 +85,28 @@ struct Mouth {
   double reach_mm = 1.0;   ///< so near to there it draws tissue in
 };
 
+/// What it does to closed skin and to what lies under it.
+enum class SkinWork : std::uint8_t {
+  Palpate = 0,  ///< a fingertip
+  Mark = 1,     ///< leaves ink
+  Needle = 2,   ///< goes through skin and capsule by its point
+  Incise = 3,   ///< cuts the skin where it is led
+  Spread = 4,   ///< blunt, opens the way under a cut while it is driven forward
+  Sheath = 5,   ///< blunt, goes into the joint by that way
+};
+inline constexpr std::size_t kSkinWorks = 6;
+
+/// How skin and what lies under it hold it back.
+struct SkinTool {
+  SkinWork work = SkinWork::Palpate;
+  double gives_share = 0.0;  ///< of the way by which a hand presses, skin goes along
+  double skin_n = 0.0;       ///< that goes through skin; 0: it does not, without a cut
+  double way_n = 0.0;        ///< against it on its way, both ways
+  double unspread_n = 0.0;   ///< besides, where nothing was spread for it
+  double capsule_n = 0.0;    ///< that goes through the capsule
+  double reaim_mm = 0.0;     ///< until it is so deep its line can be changed
+};
+
 struct Instrument {
   std::string id;                         ///< stable, snake_case: "guide_wire", "acutrak_2_mini_24"
   std::string name;                       ///< for people: "Guide wire 1.14 mm"
@@ -107,6 +129,7 @@ struct Instrument {
   bool has_jaws = false;            ///< which close driven forward, and open in reverse: it grasps
   std::optional<Mouth> mouth;       ///< of a shaver
   std::optional<Optic> optic;       ///< of a scope
+  std::optional<SkinTool> skin;     ///< of what works on closed skin
   bool is_double_pointed = false;   ///< may be held and drawn by either end
   double gauge_step_mm = 0.0;       ///< of its scale
   std::vector<DrawnPart> parts;

@@ -24,6 +24,8 @@ constexpr double kFastestMmPerS = 50.0;
 constexpr std::array<std::string_view, 4> kShapes{"sphere", "capsule", "cone_tip",
                                                   "threaded_cylinder"};
 constexpr std::array<std::string_view, 4> kWorks{"none", "drill", "ream", "thread"};
+constexpr std::array<std::string_view, kSkinWorks> kSkinWorkNames{"palpate", "mark",   "needle",
+                                                                  "incise",  "spread", "sheath"};
 constexpr std::array<std::string_view, 3> kDrives{"none", "powered", "by_hand"};
 constexpr std::array<std::string_view, 4> kMaterials{"steel", "titanium", "handle", "black"};
 
@@ -250,6 +252,19 @@ void read_work(JsonFields& fields, Instrument& instrument) {
   cut.refuse_unknown_fields();
 }
 
+SkinTool read_skin_tool(JsonFields fields) {
+  SkinTool tool;
+  tool.work = static_cast<SkinWork>(fields.choice("work", kSkinWorkNames));
+  tool.gives_share = fields.number("gives_share", 0.0, 0.95);
+  tool.skin_n = fields.number_or("skin_n", 0.0, kGreatestN, 0.0);
+  tool.way_n = fields.number_or("way_n", 0.0, kGreatestN, 0.0);
+  tool.unspread_n = fields.number_or("unspread_n", 0.0, kGreatestN, 0.0);
+  tool.capsule_n = fields.number_or("capsule_n", 0.0, kGreatestN, 0.0);
+  tool.reaim_mm = fields.number_or("reaim_mm", 0.0, 20.0, 0.0);
+  fields.refuse_unknown_fields();
+  return tool;
+}
+
 Instrument read_instrument(JsonFields& fields, const Holders& holders) {
   Instrument instrument;
   instrument.id = fields.text("id");
@@ -275,6 +290,7 @@ Instrument read_instrument(JsonFields& fields, const Holders& holders) {
     instrument.mouth = Mouth{mouth.number("behind_mm", 0, 10), mouth.number("reach_mm", 0.1, 5)};
     mouth.refuse_unknown_fields();
   }
+  if (fields.has("skin")) instrument.skin = read_skin_tool(fields.object("skin"));
   if (fields.has("optic")) {
     JsonFields optic = fields.object("optic");
     instrument.optic =

@@ -93,6 +93,7 @@ struct OperationRecord {
   double compression_n = 0.0;         ///< of the pieces on each other, by the screw
   std::uint32_t stripped_screws = 0;  ///< whose thread gave way, undone or taken out or not
   std::optional<ScopeRecord> scope;   ///< of an arthroscopy
+  std::optional<MakingFacts> making;  ///< of a procedure that makes portals
   double most_bend_rad = 0.0;         ///< by which any wire was bent for good
   std::uint32_t broken_wires = 0;
   std::uint32_t undos = 0;

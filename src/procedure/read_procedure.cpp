@@ -8,6 +8,7 @@
 #include "core/json_fields.hpp"
 #include "procedure/detail/read_fluid_use.hpp"
 #include "procedure/detail/read_loose_removal.hpp"
+#include "procedure/detail/read_portal_making.hpp"
 #include "procedure/detail/read_scope_drill.hpp"
 #include "procedure/detail/read_score_rules.hpp"
 #include "procedure/detail/read_shaving.hpp"
@@ -164,6 +165,10 @@ Procedure read_procedure(std::string_view json,
   if (fields.has("shaving")) {
     JsonFields shaving = fields.object("shaving");
     procedure.shaving = detail::read_shaving(shaving);
+  }
+  if (fields.has("portals")) {
+    JsonFields portals = fields.object("portals");
+    procedure.making = detail::read_portal_making(portals);
   }
   if (fields.has("fluid")) {
     JsonFields fluid = fields.object("fluid");

@@ -17,6 +17,7 @@
 #include "geometry/vec3.hpp"
 #include "instruments/instrument.hpp"
 #include "procedure/loose_removal.hpp"
+#include "procedure/portal_making.hpp"
 #include "procedure/scope_drill.hpp"
 #include "procedure/screw_control.hpp"
 #include "procedure/shaving.hpp"
@@ -153,6 +154,7 @@ struct Situation {
   Judgement judgement = Judgement::None;
   Aim aim;
   ScopeFacts scope;
+  MakingFacts making;         ///< of a procedure that makes portals
   bool is_finishing = false;  ///< this is the tick of Finish
 };
 

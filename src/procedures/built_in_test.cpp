@@ -46,6 +46,8 @@ const cases::CaseData& wrist() {
   static const cases::CaseData data = [] {
     cases::CaseData made = cases::test::synthetic_case();
     cases::ensure_hand_motion(made);
+    made.skin.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};  // any will do
+    made.skin.facets = {{0, 1, 2}};
     made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(portals_of(made));
     return made;
   }();
@@ -57,7 +59,8 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 9U);
+  ASSERT_EQ(built_in().all().size(), 10U);
+  EXPECT_NE(built_in().find("arthroscopic_portal_making"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_disc_debridement"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
@@ -100,6 +103,18 @@ TEST(BuiltIn, EachCanBeDoneAndScored) {
       EXPECT_EQ(step.instruction.back(), '.') << each->id << " " << step.id;
     }
   }
+}
+
+TEST(BuiltIn, PortalsAreMadeThroughSkinAndTwo) {
+  const auto* making = built_in().find("arthroscopic_portal_making");
+  cases::CaseData data = wrist();
+  data.skin = {};
+  EXPECT_THROW((void)making->opening(data), InvalidInput);
+  data.skin = wrist().skin;
+  cases::ArthroscopicMap map = *data.arthroscopy;
+  map.portals[1].id = "1-2";
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  EXPECT_THROW((void)making->opening(data), InvalidInput);
 }
 
 TEST(BuiltIn, LooseBodiesNeedPlacesToLieBy) {

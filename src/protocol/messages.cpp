@@ -490,6 +490,33 @@ void write(FieldWriter& out, const Scope& in) {
   }
 }
 
+void read(FieldReader& in, Skin& out) {
+  in.records("hands", 2, 2, out.hands);
+  in.list("ink_mm", 0, 96, 10000.0, 0.0, out.ink_mm);
+  in.records("cuts", 0, 8, out.cuts);
+  out.made = in.integer("made", 0, 2);
+  if (in.has("spot_mm")) out.spot_mm = in.vec3("spot_mm", 10000.0, 0.0);
+  if (in.has("landmark_mm")) out.landmark_mm = in.vec3("landmark_mm", 10000.0, 0.0);
+}
+
+void write(FieldWriter& out, const Skin& in) {
+  out.name("type", "skin");
+  out.records("hands", in.hands);
+  out.list("ink_mm", in.ink_mm);
+  out.records("cuts", in.cuts);
+  out.value("made", in.made);
+  if (in.spot_mm) {
+    out.vec3("spot_mm", *in.spot_mm);
+  } else {
+    out.null("spot_mm");
+  }
+  if (in.landmark_mm) {
+    out.vec3("landmark_mm", *in.landmark_mm);
+  } else {
+    out.null("landmark_mm");
+  }
+}
+
 void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }
 
 void write(FieldWriter& out, const Disc& in) {
@@ -664,12 +691,13 @@ constexpr std::array<MessageKind<PageMessage>, 24> kPageMessageKinds{
      {"quiz_answer", &read_as<PageMessage, QuizAnswer>},
      {"pause", &read_as<PageMessage, Pause>}}};
 
-constexpr std::array<MessageKind<HostMessage>, 14> kHostMessageKinds{
+constexpr std::array<MessageKind<HostMessage>, 15> kHostMessageKinds{
     {{"welcome", &read_as<HostMessage, Welcome>},
      {"exercise", &read_as<HostMessage, Exercise>},
      {"snapshot", &read_as<HostMessage, Snapshot>},
      {"tissue", &read_as<HostMessage, Tissue>},
      {"scope", &read_as<HostMessage, Scope>},
+     {"skin", &read_as<HostMessage, Skin>},
      {"disc", &read_as<HostMessage, Disc>},
      {"actions", &read_as<HostMessage, Actions>},
      {"event", &read_as<HostMessage, Event>},

@@ -408,6 +408,22 @@ struct Scope {
   bool operator==(const Scope&) const = default;
 };
 
+/// Closed skin that is worked on, and by hand what works on it; comes when any of it changed, after
+/// the snapshot that it belongs to.
+struct Skin {
+  std::vector<HandOnSkin> hands;
+  /// points of it, where the skin lies now
+  std::vector<Vec3> ink_mm;
+  std::vector<SkinCut> cuts;
+  /// portals, so far 0 to 2
+  std::int64_t made = 0;
+  /// where the next portal goes through the skin; in practice, once a ghost was asked for
+  std::optional<Vec3> spot_mm;
+  /// what is felt for before it, likewise
+  std::optional<Vec3> landmark_mm;
+  bool operator==(const Skin&) const = default;
+};
+
 /// By how much the disc has yielded; comes when that changed.
 struct Disc {
   /// of each place of arthroscopy.disc_mm three, along the axes of the Patient frame as the forearm
@@ -501,6 +517,7 @@ using HostMessage = std::variant<Welcome,
                                  Snapshot,
                                  Tissue,
                                  Scope,
+                                 Skin,
                                  Disc,
                                  Actions,
                                  Event,

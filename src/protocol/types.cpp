@@ -302,6 +302,7 @@ void read(FieldReader& in, Instrument& out) {
   out.is_gauge = in.boolean("is_gauge");
   out.is_joystick = in.boolean("is_joystick");
   out.is_sleeve = in.boolean("is_sleeve");
+  out.skin_work = static_cast<SkinWork>(in.choice("skin_work", kSkinWorkNames));
   out.has_mouth = in.boolean("has_mouth");
   out.has_jaws = in.boolean("has_jaws");
   out.stays = in.boolean("stays");
@@ -323,6 +324,7 @@ void write(FieldWriter& out, const Instrument& in) {
   out.value("is_gauge", in.is_gauge);
   out.value("is_joystick", in.is_joystick);
   out.value("is_sleeve", in.is_sleeve);
+  out.name("skin_work", name_of(in.skin_work));
   out.value("has_mouth", in.has_mouth);
   out.value("has_jaws", in.has_jaws);
   out.value("stays", in.stays);
@@ -435,6 +437,38 @@ void write(FieldWriter& out, const DrillState& in) {
   out.value("line_share", in.line_share);
   out.value("line_done", in.line_done);
   out.value("probe_seen", in.probe_seen);
+}
+
+void read(FieldReader& in, HandOnSkin& out) {
+  out.felt = static_cast<FeltThroughSkin>(in.choice("felt", kFeltThroughSkinNames));
+  out.firm_share = in.number("firm_share", 0.0, 1.0);
+  out.on_skin_mm = in.vec3("on_skin_mm", 10000.0, 0.0);
+  out.out_of_skin = in.vec3("out_of_skin", 2.0, 0.0);
+  out.under_mm = in.number("under_mm", 0.0, 1000.0);
+  out.is_wet = in.boolean("is_wet");
+  out.is_spreading = in.boolean("is_spreading");
+}
+
+void write(FieldWriter& out, const HandOnSkin& in) {
+  out.name("felt", name_of(in.felt));
+  out.value("firm_share", in.firm_share);
+  out.vec3("on_skin_mm", in.on_skin_mm);
+  out.vec3("out_of_skin", in.out_of_skin);
+  out.value("under_mm", in.under_mm);
+  out.value("is_wet", in.is_wet);
+  out.value("is_spreading", in.is_spreading);
+}
+
+void read(FieldReader& in, SkinCut& out) {
+  out.from_mm = in.vec3("from_mm", 10000.0, 0.0);
+  out.to_mm = in.vec3("to_mm", 10000.0, 0.0);
+  out.is_spread = in.boolean("is_spread");
+}
+
+void write(FieldWriter& out, const SkinCut& in) {
+  out.vec3("from_mm", in.from_mm);
+  out.vec3("to_mm", in.to_mm);
+  out.value("is_spread", in.is_spread);
 }
 
 void read(FieldReader& in, LooseBody& out) {

@@ -54,6 +54,22 @@ inline constexpr std::array<std::string_view, 2> kGuidanceNames{"direct", "plann
   return kGuidanceNames[static_cast<std::size_t>(value)];
 }
 
+/// What an instrument does to closed skin.
+enum class SkinWork : std::uint8_t { None, Palpate, Mark, Needle, Incise, Spread, Sheath };
+inline constexpr std::array<std::string_view, 7> kSkinWorkNames{
+    "none", "palpate", "mark", "needle", "incise", "spread", "sheath"};
+[[nodiscard]] constexpr std::string_view name_of(SkinWork value) noexcept {
+  return kSkinWorkNames[static_cast<std::size_t>(value)];
+}
+
+/// What a fingertip feels where it presses: no more than a finger tells.
+enum class FeltThroughSkin : std::uint8_t { Nothing, Soft, Cord, Bone };
+inline constexpr std::array<std::string_view, 4> kFeltThroughSkinNames{"nothing", "soft", "cord",
+                                                                       "bone"};
+[[nodiscard]] constexpr std::string_view name_of(FeltThroughSkin value) noexcept {
+  return kFeltThroughSkinNames[static_cast<std::size_t>(value)];
+}
+
 /// Things done once rather than held.
 enum class ActionId : std::uint8_t {
   Take,
@@ -482,6 +498,7 @@ struct Instrument {
   bool is_joystick = false;
   /// a wire is led through its bore
   bool is_sleeve = false;
+  SkinWork skin_work = SkinWork::None;
   /// of a shaver: it cuts there while it is driven forward
   bool has_mouth = false;
   /// they close and lock driven forward, and open in reverse
@@ -585,6 +602,32 @@ struct DrillState {
   /// by the scope; told in practice alone
   bool probe_seen = false;
   bool operator==(const DrillState&) const = default;
+};
+
+/// What a hand that works on skin does there; all none where it holds nothing of that kind.
+struct HandOnSkin {
+  FeltThroughSkin felt = FeltThroughSkin::Nothing;
+  /// 0: gives way; 1: as bone right under the skin 0 to 1
+  double firm_share = 0.0;
+  /// nearest to its tip
+  Vec3 on_skin_mm;
+  /// unit, there
+  Vec3 out_of_skin;
+  /// of the tip under the skin, along its way [mm] 0 to 1000
+  double under_mm = 0.0;
+  /// fluid comes back through the needle
+  bool is_wet = false;
+  bool is_spreading = false;
+  bool operator==(const HandOnSkin&) const = default;
+};
+
+/// A cut of the skin, where it lies now.
+struct SkinCut {
+  Vec3 from_mm;
+  Vec3 to_mm;
+  /// the way under it was opened
+  bool is_spread = false;
+  bool operator==(const SkinCut&) const = default;
 };
 
 /// What floats in a joint now.

@@ -11,6 +11,7 @@
 #include "instruments/instrument.hpp"
 #include "session/body_names.hpp"
 #include "session/scope_message.hpp"
+#include "session/skin_message.hpp"
 
 namespace carpus::session {
 
@@ -54,6 +55,11 @@ protocol::Instrument message_of(const instruments::Instrument& instrument) {
   message.is_joystick = instrument.is_joystick;
   message.is_sleeve = instrument.is_sleeve;
   message.has_jaws = instrument.has_jaws;
+  if (instrument.skin) {
+    // One more: none.
+    message.skin_work =
+        static_cast<protocol::SkinWork>(static_cast<std::uint8_t>(instrument.skin->work) + 1U);
+  }
   message.has_mouth = instrument.mouth.has_value();
   message.stays = instrument.stays;
   message.family = instrument.family;
@@ -155,7 +161,11 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
   protocol::Exercise message;
   message.mode = static_cast<protocol::Mode>(mode);
   message.procedure = summary_of(procedure);
-  for (const procedure::Step& step : procedure.steps) message.steps.push_back(message_of(step));
+  for (const procedure::Step& step : procedure.steps) {
+    message.steps.push_back(message_of(step));
+    std::string& said = message.steps.back().instruction;
+    said = with_second_portal(std::move(said), data, procedure, seed);
+  }
   for (const procedure::NamedView& view : procedure.views) {
     message.views.push_back({view.id, view.label, view.rotation_deg, view.tilt_deg,
                              view.flexion_deg, view.radial_deviation_deg});

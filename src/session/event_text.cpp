@@ -132,6 +132,18 @@ class Sentence {
         return "Fluid has gone into the tissue: the wrist swells";
       case EventKind::ViewClouded:
         return "The view is clouded: let fluid run through, or raise its pressure";
+      case EventKind::FluidBack:
+        return "Fluid comes back through the needle: it is in a joint";
+      case EventKind::NeedleStruckBone:
+        return "The needle struck bone: draw it back, aim anew";
+      case EventKind::SkinCut:
+        return "The skin is cut";
+      case EventKind::WaySpread:
+        return "Spread, down to the capsule";
+      case EventKind::SheathIn:
+        return with_mm("The sheath gave way into a joint, and went on by", event_.value);
+      case EventKind::HeldBySkin:
+        return subject() + " is blunt: the skin holds it, but where it was cut wide enough";
       case EventKind::None:
         break;
     }
@@ -157,6 +169,9 @@ class Sentence {
     if (event_.instrument < all.size() && all[event_.instrument].enters_joints) {
       return subject() + " went in through the " + what +
              ": go in at the portal's mark, along its way";
+    }
+    if (event_.instrument < all.size() && all[event_.instrument].skin) {
+      return subject() + " met the " + what + ": between them, bluntly, and no deeper than skin";
     }
     return subject() + " turned in the " + what + ": spread the way with the needle sleeve first";
   }
@@ -284,6 +299,7 @@ std::optional<protocol::LoggedEvent> blinded(protocol::LoggedEvent told) {
     case EventKind::ShaverHarmed:
     case EventKind::SoundTissueShaved:
     case EventKind::ViewClouded:
+    case EventKind::WaySpread:
     case EventKind::Seated:
     case EventKind::StepCompleted:
       return std::nullopt;

@@ -11,6 +11,7 @@
 #include "session/entry_hint.hpp"
 #include "session/event_text.hpp"
 #include "session/scope_message.hpp"
+#include "session/skin_message.hpp"
 
 namespace carpus::session {
 
@@ -111,6 +112,9 @@ std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& n
   std::optional<protocol::Scope> scope = scope_message(data_, procedure_, now);
   if (scope && scope != sent_scope_) messages.emplace_back(*scope);
   sent_scope_ = std::move(scope);
+  std::optional<protocol::Skin> skin = skin_message(now);
+  if (skin && skin != sent_skin_) messages.emplace_back(*skin);
+  sent_skin_ = std::move(skin);
   std::optional<protocol::Disc> disc = disc_message(now);
   if (disc && disc != sent_disc_) messages.emplace_back(*disc);
   sent_disc_ = std::move(disc);
@@ -122,6 +126,7 @@ void Session::forget_what_was_sent() noexcept {
   sent_poses_.clear();
   sent_actions_.actions.clear();
   sent_scope_.reset();
+  sent_skin_.reset();
   sent_disc_.reset();
 }
 

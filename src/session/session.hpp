@@ -84,6 +84,7 @@ class Session {
   std::vector<BonePose> sent_poses_;
   protocol::Actions sent_actions_;
   std::optional<protocol::Scope> sent_scope_;
+  std::optional<protocol::Skin> sent_skin_;
   std::optional<protocol::Disc> sent_disc_;
 };
 

@@ -100,6 +100,43 @@ struct FluidView {
   bool operator==(const FluidView&) const = default;
 };
 
+/// What a fingertip feels through the skin, where it presses: no more than a finger tells.
+enum class Felt : std::uint8_t { Nothing = 0, Soft = 1, Cord = 2, Bone = 3 };
+struct FeltView {
+  Felt felt = Felt::Nothing;
+  double firm_share = 0.0;  ///< 0 gives way, 1 as bone under skin
+  bool operator==(const FeltView&) const = default;
+};
+
+/// A cut of the skin, where it lies now.
+struct CutView {
+  Vec3 from_in_patient{};
+  Vec3 to_in_patient{};
+  bool is_spread = false;
+  bool operator==(const CutView&) const = default;
+};
+inline constexpr std::size_t kMaxInk = 96;
+inline constexpr std::size_t kMaxCuts = 8;
+
+/// Closed skin that is worked on, of a procedure that makes portals.
+struct SkinView {
+  bool is_there = false;
+  procedure::MakingFacts facts;
+  std::array<FeltView, kHands> feels{};
+  std::array<Vec3, kHands> on_skin{};      ///< nearest to the tip, Patient
+  std::array<Vec3, kHands> out_of_skin{};  ///< unit, there
+  std::array<double, kHands> under_mm{};   ///< of the tip along its way, or of a blade's depth
+  std::array<bool, kHands> is_wet{};       ///< fluid comes back through the needle
+  std::array<bool, kHands> is_spreading{};
+  std::array<Vec3, kMaxInk> ink{};  ///< Patient
+  std::uint8_t ink_count = 0;
+  std::array<CutView, kMaxCuts> cuts{};
+  std::uint8_t cut_count = 0;
+  Vec3 spot{};      ///< where the portal that is next goes through the skin: an aid shows it
+  Vec3 landmark{};  ///< and what is felt for before it, on the skin
+  bool operator==(const SkinView&) const = default;
+};
+
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
 struct ScopeView {
   std::uint8_t hand = kNoHand;  ///< that holds one
@@ -183,6 +220,12 @@ enum class EventKind : std::uint8_t {
   TissueSwells = 41,       ///< of what went into it; value: ml
   ViewClouded = 42,        ///< blood or what lies on the lens hides the joint
   ScrewProbed = 50,        ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
+  FluidBack = 60,          ///< through a needle that is in a joint
+  NeedleStruckBone = 61,   ///< detail: body
+  SkinCut = 62,            ///< a cut was begun
+  WaySpread = 63,          ///< down to the capsule
+  SheathIn = 64,           ///< in a joint; value: by how much it went on beyond the capsule [mm]
+  HeldBySkin = 65,         ///< what is blunt does not go through it
 };
 
 struct Event {
@@ -224,6 +267,7 @@ struct Snapshot {
   std::uint64_t dose_units = 0;  ///< procedure::dose_units of them
   procedure::TubeSetting tube = procedure::kUsualTube;
   ScopeView scope;
+  SkinView skin;
   /// Of the disc's particles, by how much they are off where they rest, frame Bone of the forearm
   /// [mm].
   std::array<std::array<float, 3>, yielding::kMaxParticles> disc_off{};

@@ -13,6 +13,7 @@
 
 #include "arthroscopy/disc_net.hpp"
 #include "core/error.hpp"
+#include "simulation/asked_portals.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
 #include "simulation/lesions_of.hpp"
@@ -27,6 +28,7 @@ namespace {
 constexpr double kWorkspaceMm = 1000.0;    // beyond this from the CT's origin a tip makes no sense
 constexpr double kGreatestThrustN = 60.0;  // protocol/protocol.json
 constexpr int kHookTest = 16;              // of the tour [K, B8]
+constexpr double kSkinMm = 90.0;           // about the first portal, of skin that is worked on
 constexpr double kGreatestShaft = 4.0;     // by component, before it is normalised
 
 std::vector<fields::ContactField> fields_of(const cases::CaseData& data) {
@@ -80,6 +82,7 @@ World::Model::Model(const cases::CaseData& case_data,
   for (const InstrumentIndex index : declared.tray) {
     if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
   }
+  if (declared.making) open_skin();
   if (map != nullptr) lesions = lesions_of(case_data, declared, seed);
   if (lesions) {
     for (std::uint8_t b = 0; b < case_data.bones.size(); ++b) {
@@ -101,6 +104,28 @@ World::Model::Model(const cases::CaseData& case_data,
     throw InvalidInput("simulation: the procedure " + declared.id +
                        " needs a tray and 1 to 32 steps");
   }
+}
+
+/// Which portals are made, and the skin that they are made through.
+void World::Model::open_skin() {
+  map = data.arthroscopy.get();
+  if (map == nullptr) return;
+  const auto portals = asked_portals(*map, *procedure.making, seed);
+  if (!portals) return;
+  asked = *portals;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const cases::Portal& portal = map->portals[asked[i]];
+    for (const procedure::PortalLandmark& each : procedure.making->landmarks) {
+      if (each.portal != portal.id) continue;
+      for (const cases::FeltLandmark& mark : map->landmarks) {
+        if (mark.id == each.landmark) felt_first[i] = {mark.at, mark.body};
+      }
+      if (const cases::Portal* other = cases::find_portal(*map, each.landmark)) {
+        felt_first[i] = {other->skin, other->body};
+      }
+    }
+  }
+  skin.emplace(data.skin, map->portals[asked[0]].skin, kSkinMm);
 }
 
 World::State::State(const Model& model)
@@ -218,7 +243,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     }
     if (hand.wish.driver != Driver::Reverse) hand.reverse_is_held = false;
     // Nothing is lifted over what it lies in.
-    const bool is_in_portal = scope_state.portal[h] != kNoBody;
+    const bool is_in_portal = scope_state.portal[h] != kNoBody || making.worked.hands[h].is_in;
     advance(hand.plan, hand.wish, item == nullptr || !(item->is_fixed() || is_in_portal));
   }
   obey(model, input.command);
@@ -228,6 +253,8 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     if (item == nullptr) continue;
     if (item->is_fixed()) {
       drive(model, h);
+    } else if (works_on_skin(model, *item)) {
+      move_on_skin(model, h);
     } else {
       move_free(model, h);
     }
@@ -303,6 +330,7 @@ procedure::OperationRecord World::operation_record() const {
   }
   record.compression_n = state.now.compression_n;
   record.stripped_screws = state.spent.stripped_screws;
+  if (model_->makes_portals()) record.making = state.making_facts(*model_);
   if (model_->map != nullptr) record.scope = state.scope_record(*model_);
   record.most_bend_rad = state_->spent.most_bend_rad;
   record.broken_wires = state_->spent.broken_wires;

@@ -74,6 +74,12 @@ void write(FieldWriter& out, const ScopeDrill& in);
 void read(FieldReader& in, DrillState& out);
 void write(FieldWriter& out, const DrillState& in);
 
+void read(FieldReader& in, HandOnSkin& out);
+void write(FieldWriter& out, const HandOnSkin& in);
+
+void read(FieldReader& in, SkinCut& out);
+void write(FieldWriter& out, const SkinCut& in);
+
 void read(FieldReader& in, LooseBody& out);
 void write(FieldWriter& out, const LooseBody& in);
 

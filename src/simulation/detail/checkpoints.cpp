@@ -12,10 +12,12 @@ void World::State::save_checkpoint() noexcept {
     for (std::size_t i = 1; i < checkpoints.size(); ++i) {
       checkpoints[i - 1] = checkpoints[i];
       passes_at_checkpoint[i - 1] = passes_at_checkpoint[i];
+      worked_at_checkpoint[i - 1] = worked_at_checkpoint[i];
     }
     --checkpoint_count;
   }
   passes_at_checkpoint[checkpoint_count] = spent.pass_count;
+  worked_at_checkpoint[checkpoint_count] = making.worked;
   checkpoints[checkpoint_count++] = now;
   tissue.cuts().checkpoint();
 }
@@ -58,6 +60,7 @@ void World::State::go_back_to(const Model& model, std::size_t kept) noexcept {
     if (loose_state.bodies[i].hand != kNoHand) let_go_of_loose(model, i);
   }
   now = checkpoints[kept];
+  making.worked = worked_at_checkpoint[kept];  // ink and cuts; of other procedures nothing
   for (std::size_t i = passes_at_checkpoint[kept]; i < spent.pass_count && i < detail::kMaxPasses;
        ++i) {
     spent.passes[i].was_undone = true;

@@ -144,6 +144,7 @@ void World::State::put_down(const Model& model, std::uint8_t hand) noexcept {
   if (held == nullptr) return;
   const std::uint8_t place = now.held[hand];
   const InstrumentIndex instrument = held->instrument;
+  leave_skin(hand);
   now.held[hand] = kNoItem;
   held->hand = kNoHand;
   held->by_far_end = false;

@@ -128,6 +128,7 @@ void World::State::publish_state(const Model& model) noexcept {
   snapshot.dose_units = spent.dose_units;
   snapshot.tube = spent.tube;
   publish_scope(model);
+  publish_skin(model);
   snapshot.aids = spent.aids;
   snapshot.undos = spent.undos;
   snapshot.can_undo = checkpoint_count > 0 && spent.ended == 0;
@@ -159,6 +160,7 @@ void World::State::update_hash(const Model& model) noexcept {
     if (!model.pieces().empty()) visit(shaving_state, fields);
     if (model.procedure.fluid) visit(fluid, fields);
     if (model.procedure.controls_screw) visit(screw_state, fields);
+    if (model.makes_portals()) visit(making, fields);
   }
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
   tissue.cuts().add_to(hash);

@@ -79,6 +79,7 @@ std::vector<std::byte> World::write_state() const {
     if (!model_->pieces().empty()) visit(state.shaving_state, fields);
     if (model_->procedure.fluid) visit(state.fluid, fields);
     if (model_->procedure.controls_screw) visit(state.screw_state, fields);
+    if (model_->makes_portals()) visit(state.making, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -117,6 +118,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::ShavingState shaving;
   detail::JointFluid fluid;
   detail::ScrewState screw;
+  detail::MakingState making;
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
@@ -148,6 +150,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
       visit(screw, fields);
       is_sound = is_sound && detail::is_possible(screw);
     }
+    if (model_->makes_portals()) {
+      visit(making, fields);
+      is_sound = is_sound && detail::is_possible(making);
+    }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
                                    model_->catalogue.size(),
@@ -169,6 +175,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->shaving_state = shaving;
   next->fluid = fluid;
   next->screw_state = screw;
+  next->making = making;
   if (model_->map != nullptr) next->disc = disc;
   next->cut_disc_as_shaved(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());

@@ -62,6 +62,7 @@ void World::State::gather(const Model& model, Facts& facts) const noexcept {
   situation.judgement = spent.judgement;
   situation.aim = model.opening.aim;
   situation.scope = scope_facts(model);
+  situation.making = making_facts(model);
   situation.is_finishing = is_finishing;
 }
 

@@ -24,10 +24,12 @@
 #include "simulation/detail/joint_fluid.hpp"
 #include "simulation/detail/loose_bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
+#include "simulation/detail/portal_making.hpp"
 #include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
 #include "simulation/detail/screw_watch.hpp"
 #include "simulation/detail/shaving.hpp"
+#include "simulation/detail/skin_surface.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
 #include "simulation/permission.hpp"
@@ -41,6 +43,8 @@ struct World::Model {
         const procedure::Procedure& procedure,
         std::uint64_t seed,
         procedure::Mode mode);
+
+  void open_skin();
 
   const cases::CaseData& data;
   const procedure::Procedure& procedure;
@@ -64,7 +68,16 @@ struct World::Model {
   std::size_t loose_count = 0;
   yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
   std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
-  detail::DrillPlan drill;                          ///< of a procedure that declares one
+  /// Of a procedure that makes portals: the skin, which portals, what is felt for before each.
+  std::optional<detail::SkinSurface> skin;
+  std::array<std::uint8_t, procedure::kPortalsMade> asked{};
+  struct LandmarkPlace {
+    Vec3 at;  ///< frame Bone of `body`
+    std::uint8_t body = 0;
+  };
+  std::array<LandmarkPlace, procedure::kPortalsMade> felt_first{};
+  [[nodiscard]] bool makes_portals() const noexcept { return skin.has_value(); }
+  detail::DrillPlan drill;  ///< of a procedure that declares one
   /// What a shaver takes away; none of most procedures.
   [[nodiscard]] std::span<const cases::TissuePiece> pieces() const noexcept;
 };
@@ -83,6 +96,7 @@ struct World::State {
   detail::JointFluid fluid;
   double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
   detail::ScrewState screw_state;
+  detail::MakingState making;
   yielding::NetState disc;
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
@@ -97,6 +111,7 @@ struct World::State {
   std::array<procedure::Shot, kMaxShots> shots{};
   std::array<detail::Operated, detail::kMaxCheckpoints> checkpoints{};
   std::array<std::uint32_t, detail::kMaxCheckpoints> passes_at_checkpoint{};
+  std::array<detail::Worked, detail::kMaxCheckpoints> worked_at_checkpoint{};
   std::size_t checkpoint_count = 0;
   bool is_finishing = false;  ///< in the tick of Finish
   bool is_hashed = true;
@@ -410,6 +425,54 @@ struct World::State {
   [[nodiscard]] procedure::ScrewFacts screw_facts(const Model& model) const noexcept;
   void probe_screw(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   void note_screw_answer(const Model& model, std::size_t asked) noexcept;
+
+  // skin_contact.cpp
+  [[nodiscard]] bool works_on_skin(const Model& model, const detail::Item& item) const noexcept;
+  [[nodiscard]] Vec3 as_scanned(const Model& model, const Vec3& at) const noexcept;
+  [[nodiscard]] Vec3 as_it_lies(const Model& model, const Vec3& scanned) const noexcept;
+  [[nodiscard]] double hand_share(const Model& model, const Vec3& scanned) const noexcept;
+  [[nodiscard]] detail::SkinPlace skin_at(const Model& model, const Vec3& at) const noexcept;
+  void move_on_skin(const Model& model, std::uint8_t hand) noexcept;
+  void move_over_skin(const Model& model, std::uint8_t hand) noexcept;
+  void follow_wish(detail::Item& item, const Vec3& to, double most_mm) noexcept;
+  void publish_skin(const Model& model) noexcept;
+
+  // palpation.cpp
+  [[nodiscard]] double bone_below_mm(const Vec3& skin,
+                                     const Vec3& normal,
+                                     double deepest_mm) const noexcept;
+  [[nodiscard]] FeltView felt_at(const Model& model, const detail::SkinPlace& at) noexcept;
+  [[nodiscard]] double sinks_in_mm(const Model& model,
+                                   const detail::SkinPlace& at,
+                                   double share) noexcept;
+  void note_felt(const Model& model, const detail::SkinPlace& at) noexcept;
+  [[nodiscard]] Vec3 landmark_now(const Model& model, std::size_t which) const noexcept;
+
+  // under_skin.cpp
+  void move_under_skin(const Model& model, std::uint8_t hand) noexcept;
+  void advance_under_skin(const Model& model, std::uint8_t hand, double to_mm) noexcept;
+  [[nodiscard]] double held_back_n(const Model& model, std::uint8_t hand) const noexcept;
+  [[nodiscard]] std::uint8_t cut_at(const Model& model,
+                                    const Vec3& at,
+                                    double radius_mm) const noexcept;
+  [[nodiscard]] bool is_in_any_joint(const Model& model, const Vec3& at) const noexcept;
+  void come_into_skin(const Model& model, std::uint8_t hand, const Vec3& entry) noexcept;
+  void leave_skin(std::uint8_t hand) noexcept;
+  void spread_way(const Model& model, std::uint8_t hand) noexcept;
+
+  // portal_making.cpp
+  [[nodiscard]] std::size_t asked_now() const noexcept;
+  void ink(const Model& model, const Vec3& at) noexcept;
+  void cut_skin(const Model& model, std::uint8_t hand, const detail::SkinPlace& at) noexcept;
+  void watch_blade(const Model& model, std::uint8_t hand, const detail::SkinPlace& at) noexcept;
+  void watch_making(const Model& model, std::uint8_t hand) noexcept;
+  void note_line_in(const Model& model, std::uint8_t hand) noexcept;
+  void note_under(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] procedure::WayMade way_made(const Model& model,
+                                            const detail::UnderSkin& under) const noexcept;
+  [[nodiscard]] procedure::CutMade cut_made(const Model& model,
+                                            const detail::UnderSkin& under) const noexcept;
+  [[nodiscard]] procedure::MakingFacts making_facts(const Model& model) const noexcept;
 
   // yielding_disc.cpp
   void yield_disc(const Model& model) noexcept;

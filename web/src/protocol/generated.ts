@@ -23,6 +23,12 @@ export type Driver = "off" | "forward" | "reverse";
 /** How a hand's wish becomes motion: `direct` is followed as it is, a device's or a script's; `planned` is a pointer's: far ways at a hand's speed, lifted over what is in the way. */
 export type Guidance = "direct" | "planned";
 
+/** What an instrument does to closed skin. */
+export type SkinWork = "none" | "palpate" | "mark" | "needle" | "incise" | "spread" | "sheath";
+
+/** What a fingertip feels where it presses: no more than a finger tells. */
+export type FeltThroughSkin = "nothing" | "soft" | "cord" | "bone";
+
 /** Things done once rather than held. */
 export type ActionId = "take" | "pick_up" | "pick_up_far_end" | "put_down" | "read_gauge" | "take_shot" | "undo" | "finish" | "decline" | "use_aid" | "return_to_step" | "judge";
 
@@ -320,6 +326,7 @@ export interface Instrument {
   readonly is_joystick: boolean;
   /** a wire is led through its bore */
   readonly is_sleeve: boolean;
+  readonly skin_work: SkinWork;
   /** of a shaver: it cuts there while it is driven forward */
   readonly has_mouth: boolean;
   /** they close and lock driven forward, and open in reverse */
@@ -416,6 +423,30 @@ export interface DrillState {
   readonly line_done: boolean;
   /** by the scope; told in practice alone */
   readonly probe_seen: boolean;
+}
+
+/** What a hand that works on skin does there; all none where it holds nothing of that kind. */
+export interface HandOnSkin {
+  readonly felt: FeltThroughSkin;
+  /** 0: gives way; 1: as bone right under the skin 0 to 1 */
+  readonly firm_share: number;
+  /** nearest to its tip */
+  readonly on_skin_mm: Vec3;
+  /** unit, there */
+  readonly out_of_skin: Vec3;
+  /** of the tip under the skin, along its way [mm] 0 to 1000 */
+  readonly under_mm: number;
+  /** fluid comes back through the needle */
+  readonly is_wet: boolean;
+  readonly is_spreading: boolean;
+}
+
+/** A cut of the skin, where it lies now. */
+export interface SkinCut {
+  readonly from_mm: Vec3;
+  readonly to_mm: Vec3;
+  /** the way under it was opened */
+  readonly is_spread: boolean;
 }
 
 /** What floats in a joint now. */
@@ -1299,6 +1330,21 @@ export interface ScopeMessage {
   readonly fluid: JointFluid | null;
 }
 
+/** Closed skin that is worked on, and by hand what works on it; comes when any of it changed, after the snapshot that it belongs to. */
+export interface SkinMessage {
+  readonly type: "skin";
+  readonly hands: readonly [HandOnSkin, HandOnSkin];
+  /** points of it, where the skin lies now */
+  readonly ink_mm: readonly Vec3[];
+  readonly cuts: readonly SkinCut[];
+  /** portals, so far 0 to 2 */
+  readonly made: number;
+  /** where the next portal goes through the skin; in practice, once a ghost was asked for */
+  readonly spot_mm: Vec3 | null;
+  /** what is felt for before it, likewise */
+  readonly landmark_mm: Vec3 | null;
+}
+
 /** By how much the disc has yielded; comes when that changed. */
 export interface DiscMessage {
   readonly type: "disc";
@@ -1390,6 +1436,7 @@ export type HostMessage =
   | SnapshotMessage
   | TissueMessage
   | ScopeMessage
+  | SkinMessage
   | DiscMessage
   | ActionsMessage
   | EventMessage

@@ -3,7 +3,14 @@
 //
 // States of a replay as they come, stretch by stretch, and which are wanted next. The host tells
 // bodies, removed bone and the scope only where they changed within a stretch; here every state has them.
-import type { BodyPose, HostMessage, ScopeMessage, SnapshotMessage, Track } from "../protocol";
+import type {
+  BodyPose,
+  HostMessage,
+  ScopeMessage,
+  SkinMessage,
+  SnapshotMessage,
+  Track,
+} from "../protocol";
 
 export interface ReplayState {
   readonly snapshot: SnapshotMessage;
@@ -13,6 +20,8 @@ export interface ReplayState {
   readonly scope: ScopeMessage | undefined;
   /** Of the message `disc`. */
   readonly discUm: readonly number[];
+  /** Of a procedure that works on closed skin. */
+  readonly skin: SkinMessage | undefined;
 }
 
 export interface Stretch {
@@ -34,18 +43,20 @@ export function statesOf(messages: readonly HostMessage[]): ReplayState[] {
   let tracks: readonly Track[] = [];
   let scope: ScopeMessage | undefined;
   let discUm: readonly number[] = [];
+  let skin: SkinMessage | undefined;
   const states: ReplayState[] = [];
   for (const message of messages) {
     if (message.type === "tissue") tracks = message.tracks;
     if (message.type === "scope") scope = message;
     if (message.type === "disc") discUm = message.off_um;
+    if (message.type === "skin") skin = message;
     const last = states.at(-1);
-    // Both come after the snapshot that they belong to.
-    if (last !== undefined && (message.type === "scope" || message.type === "disc"))
-      states[states.length - 1] = { ...last, scope, discUm };
+    // They come after the snapshot that they belong to.
+    const belongs = message.type === "scope" || message.type === "disc" || message.type === "skin";
+    if (last !== undefined && belongs) states[states.length - 1] = { ...last, scope, discUm, skin };
     if (message.type !== "snapshot") continue;
     bodies = message.bodies ?? bodies;
-    states.push({ snapshot: message, bodies, tracks, scope, discUm });
+    states.push({ snapshot: message, bodies, tracks, scope, discUm, skin });
   }
   return states;
 }

@@ -187,6 +187,7 @@ export class ReplayStage {
       this.theatre.setTarget(bodies.filter((one) => one.is_target).map((one) => one.name));
     }
     this.theatre.show(state.snapshot);
+    this.theatre.showSkinWork(state.skin);
     this.scope?.take(state);
     setText(this.readings, readingsOf(state.snapshot, this.exercise));
   }

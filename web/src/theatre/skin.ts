@@ -5,6 +5,7 @@
 // each point, so that a bent wrist costs no more than a straight one. Closed it goes on beyond the scan,
 // with fingers and an arm that are generated.
 import * as THREE from "three";
+import { MeshBVH } from "three-mesh-bvh";
 import type { Vec3 } from "../protocol";
 import { BLEND_DECLARATIONS } from "./blend_shader";
 import { makeHittable } from "./bone_rays";
@@ -74,6 +75,13 @@ void main() {
   gl_Position = projectionMatrix * inView;
 }
 `;
+
+/** A place of the skin [mm]. */
+export interface SkinPlace {
+  readonly at: Vec3;
+  /** Unit, out of the body. */
+  readonly out: Vec3;
+}
 
 type ClosedSkin = THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
 
@@ -177,6 +185,23 @@ export class Skin {
     for (const mesh of [this.closed, ...this.limbs]) mesh.visible = on;
     this.depth.visible = this.shell.visible = !on;
     if (on) this.group.visible = true;
+  }
+
+  /** The nearest place of it as it lies now, in the frame that it is in [mm]. */
+  nearest(at: Vec3): SkinPlace {
+    const { geometry } = this.hittable();
+    const tree = geometry.boundsTree;
+    const hit = tree instanceof MeshBVH ? tree.closestPointToPoint(new THREE.Vector3(...at)) : null;
+    const index = geometry.getIndex();
+    if (hit === null || index === null) return { at, out: [0, 0, 1] };
+    const [a, b, c] = [0, 1, 2].map((corner) =>
+      new THREE.Vector3().fromBufferAttribute(
+        geometry.getAttribute("position"),
+        index.getX(3 * hit.faceIndex + corner),
+      ),
+    ) as [THREE.Vector3, THREE.Vector3, THREE.Vector3];
+    const out = new THREE.Triangle(a, b, c).getNormal(new THREE.Vector3());
+    return { at: hit.point.toArray(), out: out.toArray() };
   }
 
   /** The skin as it lies now, for rays; made anew when it was moved since. */

@@ -8,7 +8,15 @@ import * as THREE from "three";
 import { make } from "../dom";
 import type { Look } from "../appearance";
 import type { FaceNames, FrameMap } from "../frames";
-import type { BodyPose, Ideal, Instrument, SnapshotMessage, Track, Vec3 } from "../protocol";
+import type {
+  BodyPose,
+  Ideal,
+  Instrument,
+  SkinMessage,
+  SnapshotMessage,
+  Track,
+  Vec3,
+} from "../protocol";
 import { AppliedLook } from "./applied_look";
 import { backdrop } from "./backdrop";
 import { Beam } from "./beam";
@@ -28,6 +36,7 @@ import { PointedAt, type PagePoint } from "./pointed_at";
 import { ShownInstruments } from "./shown_instruments";
 import { Sight, type ToolLine, type ViewId } from "./sight";
 import { SightMark } from "./sight_mark";
+import { SkinWork } from "./skin_work";
 import { STRUCTURES_NOTE } from "./structure_model";
 import { looksDifferent } from "./snapshot_look_model";
 import { WornStage } from "./worn_stage";
@@ -48,6 +57,7 @@ export class Theatre {
   private readonly ghost = new Ghost();
   private readonly cutBones: CutBones;
   private readonly look: AppliedLook;
+  private readonly skinWork: SkinWork;
   private cut: Cut = "off";
   private ideal: Ideal | null = null;
   private readonly scratch = {
@@ -94,7 +104,8 @@ export class Theatre {
     this.names.canvas.hidden = true;
     this.patient.matrixAutoUpdate = false;
     this.patient.matrix.fromArray([...frames.matrix]);
-    this.patient.add(caseScene.root, this.instruments.group);
+    this.skinWork = new SkinWork((at) => caseScene.skin?.nearest(at) ?? { at, out: [0, 0, 1] });
+    this.patient.add(caseScene.root, this.instruments.group, this.skinWork.group);
     this.scene.add(this.backdrop, this.patient, this.beam.group);
     this.radialIsRight = facing.right === "Radial";
     this.scene.updateMatrixWorld(true);
@@ -231,6 +242,12 @@ export class Theatre {
     this.stale = true;
   }
 
+  /** What is done to closed skin; undefined: nothing. */
+  showSkinWork(message: SkinMessage | undefined): void {
+    this.skinWork.show(message, this.shown);
+    this.stale = true;
+  }
+
   /** Whether the case has tendons, arteries and nerves. */
   get hasStructures(): boolean {
     return !this.caseScene.structures.isEmpty;
@@ -262,6 +279,7 @@ export class Theatre {
     this.ideal = ideal;
     this.ghost.set(ideal, instruments);
     this.ghost.group.visible = false;
+    this.skinWork.showAids(false);
     this.setCut("off");
   }
 
@@ -269,7 +287,9 @@ export class Theatre {
     return this.ghost.group.visible;
   }
 
+  /** Of the planned line and screw; on closed skin of the next portal. */
   showGhost(on: boolean): void {
+    this.skinWork.showAids(on);
     this.idealBone()?.add(this.ghost.group);
     this.ghost.group.visible = on;
     this.stale = true;
@@ -398,6 +418,7 @@ export class Theatre {
     this.bones.dispose();
     this.instruments.dispose();
     this.ghost.dispose();
+    this.skinWork.dispose();
     this.cutBones.dispose();
     this.look.dispose();
     this.scene.traverse((node) => {

@@ -29,6 +29,13 @@ describe("ToolPose", () => {
     expect(walked.approachMm).toBe(0);
   });
 
+  it("goes beyond the anchor where skin lets it, no deeper than is said", () => {
+    const under = approachedBy({ ...pose, approachMm: 0 }, -5, 45);
+    expect(under.approachMm).toBe(-5);
+    expect(tipTarget(under)[2]).toBeLessThan(tipTarget({ ...under, approachMm: 0 })[2] - 4.9);
+    expect(approachedBy(under, -1e6, 45).approachMm).toBe(-45);
+  });
+
   it("never goes through the anchor or out of sight", () => {
     expect(approachedBy(pose, -1e6).approachMm).toBe(0);
     expect(approachedBy(pose, 1e6).approachMm).toBe(MAX_APPROACH_MM);

@@ -9,7 +9,10 @@ import { add, normalized, rotated, scaled } from "./vectors";
 
 export interface ToolPose {
   readonly anchorMm: Vec3;
-  /** Distance of the tip from the anchor, towards the hand. Zero lays the tip against the bone. */
+  /**
+   * Distance of the tip from the anchor, towards the hand. Zero lays the tip against the bone; negative,
+   * where skin is pressed or gone through, it is so far beyond.
+   */
   readonly approachMm: number;
   /** Unit vector from the tip towards the hand. */
   readonly shaft: Vec3;
@@ -24,7 +27,7 @@ export const PRESS_MM = 0.15;
 
 /** Where the tip is asked to be [mm]. */
 export function tipTarget(pose: ToolPose): Vec3 {
-  const along = pose.approachMm > 0 ? pose.approachMm : -PRESS_MM;
+  const along = pose.approachMm > 0 ? pose.approachMm : pose.approachMm - PRESS_MM;
   return add(pose.anchorMm, scaled(pose.shaft, along));
 }
 
@@ -32,10 +35,11 @@ export function movedBy(pose: ToolPose, deltaMm: Vec3): ToolPose {
   return { ...pose, anchorMm: add(pose.anchorMm, deltaMm) };
 }
 
-export function approachedBy(pose: ToolPose, deltaMm: number): ToolPose {
+/** @param deepestMm  that it may go beyond the anchor */
+export function approachedBy(pose: ToolPose, deltaMm: number, deepestMm = 0): ToolPose {
   // A tenth of a micrometre: what is left of tenths of a millimetre that do not sum to zero.
   const wanted = Math.round((pose.approachMm + deltaMm) * 1e4) / 1e4;
-  return { ...pose, approachMm: Math.min(MAX_APPROACH_MM, Math.max(0, wanted)) };
+  return { ...pose, approachMm: Math.min(MAX_APPROACH_MM, Math.max(0 - deepestMm, wanted)) };
 }
 
 /** Turns the shaft about the tip. @param axis unit vector. */

@@ -50,6 +50,9 @@ const BESIDE_MM = 30;
 const REPEAT_MS = 250;
 /** An operation's first instants swing the instrument about before it rests where it begins. */
 const SETTLED_TICKS = 150;
+/** Pressed on closed skin or led through it, so far beyond where the tip was laid [mm]. */
+const DEEPEST_MM = 45;
+const BEFORE_SKIN_MM = 12;
 /** While the driver is held: the host stops it 150 ms after it last heard of it. */
 const DRIVE_REPEAT_MS = 40;
 /**
@@ -75,6 +78,10 @@ export interface HandHandlers {
   /** What people call a body. */
   label(body: string): string;
   say(hint: string): void;
+  /** Closed skin is worked on: the hand goes on beyond where it was laid. */
+  worksOnSkin(): boolean;
+  /** Why what this hand holds would not go aside under the skin; undefined: it would. */
+  whyHeldBySkin(hand: HandIndex): string | undefined;
   /** Whether a fragment goes where a hand takes it by this instrument. */
   isJoystick(instrument: string): boolean;
   snapshot(): SnapshotMessage | undefined;
@@ -160,6 +167,7 @@ export class Hand {
     // What is driven came off or was put down: the held key was not meant for what is in the hand now.
     if (before !== undefined && s.hands[this.moved].item !== before.hands[this.moved].item)
       this.stopDriving();
+    this.drawBackFromSkin(s, before);
     for (const hand of [0, 1] as const) {
       const item = heldItem(s, hand);
       const had = before === undefined ? undefined : heldItem(before, hand);
@@ -171,6 +179,21 @@ export class Hand {
         this.takeOver(hand, item, isFreed);
     }
     this.isPlaced = true;
+  }
+
+  /** What is taken anew begins before the skin, not in it: it would prick before it was placed. */
+  private drawBackFromSkin(s: SnapshotMessage, before: SnapshotMessage | undefined): void {
+    if (before === undefined || !this.handlers.worksOnSkin()) return;
+    for (const hand of [0, 1] as const) {
+      const { item } = s.hands[hand];
+      const pose = this.poses[hand];
+      const isAnother =
+        item !== before.hands[hand].item ||
+        heldItem(s, hand)?.instrument !== heldItem(before, hand)?.instrument;
+      if (item < 0 || !isAnother || pose.approachMm >= BEFORE_SKIN_MM) continue;
+      this.poses[hand] = { ...pose, approachMm: BEFORE_SKIN_MM };
+      this.changed = true;
+    }
   }
 
   private stopDriving(): void {
@@ -318,6 +341,10 @@ export class Hand {
     if (snapshot === undefined || kind === "orbit" || kind === "move_wrist") return undefined;
     const item = heldItem(snapshot, this.moved);
     if (kind === "drive" && item !== undefined) return undefined;
+    if (kind === "move_tip" || kind === "turn_shaft") {
+      const why = this.handlers.whyHeldBySkin(this.moved);
+      if (why !== undefined) return why;
+    }
     return whyItKeepsStill(item, (body) => this.handlers.label(body), this.leads(item));
   }
 
@@ -345,7 +372,11 @@ export class Hand {
         this.turn(this.onScreen(action.to), by);
         break;
       case "approach":
-        this.pose = approachedBy(this.pose, action.closer ? -by : by);
+        this.pose = approachedBy(
+          this.pose,
+          action.closer ? -by : by,
+          this.handlers.worksOnSkin() ? DEEPEST_MM : 0,
+        );
         break;
       case "move_wrist":
         this.handlers.moveWrist(action.axis, action.sign * by);
@@ -412,7 +443,8 @@ export class Hand {
     this.pointer = undefined;
     const bone = this.leadsNow() ? undefined : this.theatre.bonePointAt(x, y);
     const anchorMm = bone ?? this.theatre.planePointAt(x, y, this.pose.anchorMm);
-    this.pose = { ...this.pose, anchorMm, approachMm: 0 };
+    // What presses on skin goes on pressing.
+    this.pose = { ...this.pose, anchorMm, approachMm: Math.min(0, this.pose.approachMm) };
     this.changed = true;
   }
 

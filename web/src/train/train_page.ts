@@ -17,6 +17,7 @@ import type {
   ProcedureSummary,
 } from "../protocol";
 import { jointWallOf, ScopeDesk } from "../scope";
+import { SkinDesk } from "../skin_work";
 import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
@@ -51,6 +52,7 @@ export class TrainPage {
   private newestPicture: CArmPicture | undefined;
   private readonly deviceHands: DeviceHands;
   private readonly scope: ScopeDesk;
+  private readonly skin: SkinDesk;
   private readonly part: TakingPart;
   private readonly actions: Actions;
   private readonly connection: Connection;
@@ -93,6 +95,7 @@ export class TrainPage {
     this.headset = this.makeHeadset(frames);
     this.deviceHands = new DeviceHands(this.theatre, (message) => this.connection.tell(message));
     this.scope = this.makeScope(stage, scene);
+    this.skin = new SkinDesk({ stage, pagePoint: (mm) => this.theatre.pagePoint(mm) });
     this.panels.help.onOpen = (isOpen) => {
       this.part.showHelp(isOpen);
     };
@@ -108,7 +111,7 @@ export class TrainPage {
     this.cases = this.makeCaseChoice();
     this.connection = this.connect();
     this.stops = [
-      showToTests(this.theatre, this.seen, this.scope, this.sound, this.headset),
+      showToTests(this.theatre, this.seen, this.scope, this.skin, this.sound, this.headset),
       this.startLoop(),
     ];
   }
@@ -347,6 +350,8 @@ export class TrainPage {
       moveWrist: (axis, by) => {
         this.panels.wrist.move(axis, by);
       },
+      worksOnSkin: () => this.skin.isOn,
+      whyHeldBySkin: (hand) => this.skin.whyHeld(this.seen.latest, hand),
       label: (body) => this.seen.label(body),
       say: (hint) => {
         this.panels.notice.say(hint);
@@ -468,6 +473,7 @@ export class TrainPage {
         this.sound.watch(performance.now());
         this.deviceHands.watch(this.panels.devices.hands, performance.now());
         this.scope.showReadings();
+        this.skin.showReadings(this.seen.latest, this.hand.active);
         this.seen.showReadings(this.hand, this.actions.closedWays(), this.part.operates);
       },
     });
@@ -491,6 +497,7 @@ export class TrainPage {
         this.newestPicture = undefined;
         this.seen.begin(message);
         this.scope.begin(message);
+        this.skin.begin(message);
         if (this.part.operates && this.seen.doing?.mode !== "assessed")
           this.panels.firstTouch.offer();
         break;
@@ -499,6 +506,10 @@ export class TrainPage {
         break;
       case "scope":
         this.scope.seeScope(message);
+        break;
+      case "skin":
+        this.skin.take(message);
+        this.theatre.showSkinWork(message);
         break;
       case "disc":
         this.scope.seeDisc(message);

@@ -120,6 +120,11 @@ export class ViewBar {
     if (on) this.showStructures(false);
   }
 
+  /** In practice, where closed skin is worked on: what is asked for is shown on it. */
+  showGhostOnSkin(): void {
+    this.aids.ghost.hidden = false;
+  }
+
   /** A scope's V is its next portal. */
   offerKey(has: boolean): void {
     this.key.hidden = !has;

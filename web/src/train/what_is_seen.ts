@@ -13,6 +13,7 @@ import type {
   SnapshotMessage,
   TissueMessage,
 } from "../protocol";
+import { worksOnSkin } from "../skin_work";
 import type { Theatre } from "../theatre";
 import type { ClosedWays } from "./bottom_bar";
 import type { Hand } from "./hand";
@@ -77,9 +78,13 @@ export class WhatIsSeen {
     this.theatre.setInstruments(exercise.instruments);
     this.theatre.setTracks([]);
     const assessed = exercise.mode === "assessed";
-    this.theatre.showOnlySkin(assessed);
+    // A portal is made through closed skin, whoever looks on.
+    const closed = assessed || worksOnSkin(exercise.instruments);
+    this.theatre.showSkinWork(undefined);
+    this.theatre.showOnlySkin(closed);
     this.theatre.setIdeal(exercise.ideal, exercise.instruments);
-    views.showOnlySkin(assessed);
+    views.showOnlySkin(closed);
+    if (!assessed && closed) views.showGhostOnSkin();
     views.showAids(false, "off");
     top.showProcedure(exercise.procedure.title, assessed);
     steps.setSteps(exercise);
@@ -89,7 +94,7 @@ export class WhatIsSeen {
     const offered = offeredControls(exercise);
     drive.element.hidden = !offered.drive;
     arm.element.hidden = !offered.cArm;
-    views.offerPlan(offered.plan);
+    if (!worksOnSkin(exercise.instruments)) views.offerPlan(offered.plan);
     views.offerKey(offered.drive);
     bottom.offer(offered);
     wrist.reset(exercise.wrist_limits);
@@ -144,7 +149,7 @@ export class WhatIsSeen {
     arm.takeWrist(s.wrist);
     arm.showCount(s.shots, s.dose_cgy_cm2);
     const stuck =
-      hand.driver === "forward" && !s.paused
+      hand.driver === "forward" && !s.paused && !worksOnSkin(this.exercise?.instruments ?? [])
         ? whyStuck(s, hand.active, thrustN, isPressed)
         : undefined;
     if (stuck !== undefined) notice.say(stuck);

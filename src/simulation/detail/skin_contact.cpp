@@ -1,0 +1,171 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What works on closed skin: where the skin lies now, and how a fingertip, a marker and a blade go
+// over it. Skin gives way by a share of what a hand presses, so that the force of the coupling
+// tells what lies beneath.
+#include "haptics/virtual_coupling.hpp"
+#include "simulation/detail/world_state.hpp"
+
+namespace carpus::simulation {
+
+using detail::Item;
+using detail::SkinPlace;
+using instruments::SkinWork;
+
+namespace {
+
+/// Skin goes with the forearm up to so far proximal of the first portal, with the hand from so far
+/// distal of it [E].
+constexpr double kWithForearmMm = -4.0;
+constexpr double kWithHandMm = 12.0;
+constexpr int kBackSteps = 2;            // by which its place as scanned is found
+constexpr double kFastestMm = 2.0;       // a tick: 2 m/s
+constexpr double kCutsFastestMm = 0.05;  // a blade in skin, a tick
+
+}  // namespace
+
+bool World::State::works_on_skin(const Model& model, const Item& item) const noexcept {
+  return model.makes_portals() && !item.is_fixed() && kind_of(model, item).skin.has_value();
+}
+
+double World::State::hand_share(const Model& model, const Vec3& scanned) const noexcept {
+  const cases::ArthroscopicMap& map = *model.map;
+  const double far = dot(scanned - map.portals[model.asked[0]].skin, map.distal);
+  const double t = (far - kWithForearmMm) / (kWithHandMm - kWithForearmMm);
+  const double within = t < 0.0 ? 0.0 : (t > 1.0 ? 1.0 : t);
+  return within * within * (3.0 - 2.0 * within);
+}
+
+Vec3 World::State::as_it_lies(const Model& model, const Vec3& scanned) const noexcept {
+  const double share = hand_share(model, scanned);
+  const Point<frame::Bone> at{scanned};
+  return (poses[model.map->forearm] * at).v * (1.0 - share) +
+         (poses[model.map->joints.back().distal] * at).v * share;
+}
+
+Vec3 World::State::as_scanned(const Model& model, const Vec3& at) const noexcept {
+  const Point<frame::Patient> now_at{at};
+  const Vec3 by_forearm = (inverses[model.map->forearm] * now_at).v;
+  const Vec3 by_hand = (inverses[model.map->joints.back().distal] * now_at).v;
+  Vec3 scanned = by_forearm;
+  for (int i = 0; i < kBackSteps; ++i) {
+    const double share = hand_share(model, scanned);
+    scanned = by_forearm * (1.0 - share) + by_hand * share;
+  }
+  return scanned;
+}
+
+/// Depths as scanned: bones that part do not thin the skin.
+SkinPlace World::State::skin_at(const Model& model, const Vec3& at) const noexcept {
+  const Vec3 scanned = as_scanned(model, at);
+  SkinPlace place = model.skin->at(scanned);
+  const double share = hand_share(model, scanned);
+  const Direction<frame::Bone> normal{place.normal};
+  place.normal = normalized_or((poses[model.map->forearm] * normal).v * (1.0 - share) +
+                                   (poses[model.map->joints.back().distal] * normal).v * share,
+                               place.normal);
+  place.point = as_it_lies(model, place.point);
+  return place;
+}
+
+void World::State::follow_wish(Item& item, const Vec3& to, double most_mm) noexcept {
+  const Vec3 way = to - item.tip;
+  const double far = length(way);
+  item.tip = far > most_mm ? item.tip + way * (most_mm / far) : to;
+}
+
+void World::State::move_on_skin(const Model& model, std::uint8_t hand) noexcept {
+  const Item& item = *in_hand(hand);
+  switch (kind_of(model, item).skin->work) {
+    case SkinWork::Palpate:
+    case SkinWork::Mark:
+    case SkinWork::Incise:
+      move_over_skin(model, hand);
+      break;
+    case SkinWork::Needle:
+    case SkinWork::Spread:
+    case SkinWork::Sheath:
+      move_under_skin(model, hand);
+      break;
+  }
+}
+
+void World::State::move_over_skin(const Model& model, std::uint8_t hand) noexcept {
+  Item& item = *in_hand(hand);
+  const instruments::SkinTool& tool = *kind_of(model, item).skin;
+  const procedure::PortalMaking& figures = *model.procedure.making;
+  detail::HandState& held = spent.hands[hand];
+  detail::UnderSkin& under = making.worked.hands[hand];
+  turn_towards(item, held.plan.shaft);
+  held.touched_body = kNoBody;
+  held.contact_normal = {};
+  making.feels[hand] = {};
+  const Vec3& wish = held.plan.tip;
+  const SkinPlace at = skin_at(model, wish);
+  if (!(at.depth_mm > 0.0)) {
+    follow_wish(item, wish, kFastestMm);
+    if (under.is_in) leave_skin(hand);
+    return;
+  }
+  const double pressed_n = haptics::kContactStiffnessNPerMm * distance(wish, item.tip);
+  double deep = at.depth_mm * tool.gives_share;
+  if (tool.work == SkinWork::Palpate) {
+    deep = sinks_in_mm(model, at, tool.gives_share);
+    if (pressed_n >= figures.touch_n) {
+      making.feels[hand] = felt_at(model, at);
+      note_felt(model, at);
+    }
+  } else if (tool.work == SkinWork::Mark) {
+    if (pressed_n >= figures.touch_n) ink(model, at.point);
+  } else {
+    const double cuts_n = haptics::kContactStiffnessNPerMm * (at.depth_mm - deep);
+    if (under.is_in || cuts_n >= tool.skin_n) {
+      const double drag = tool.way_n / haptics::kContactStiffnessNPerMm;
+      deep = at.depth_mm > drag ? at.depth_mm - drag : 0.0;
+      const Touched bone = surface_at(at.point - at.normal * deep);
+      if (bone.body != kNoBody && bone.distance_mm < 0.0) deep = under.travel_mm;
+      under.travel_mm = deep;
+      follow_wish(item, at.point - at.normal * deep, kCutsFastestMm);
+      return cut_skin(model, hand, skin_at(model, item.tip));
+    }
+  }
+  follow_wish(item, at.point - at.normal * deep, kFastestMm);
+}
+
+void World::State::publish_skin(const Model& model) noexcept {
+  if (!model.makes_portals()) return;
+  SkinView& view = snapshot.skin;
+  view.is_there = true;
+  view.facts = making_facts(model);
+  view.feels = making.feels;
+  for (std::size_t h = 0; h < kHands; ++h) {
+    const detail::UnderSkin& under = making.worked.hands[h];
+    view.under_mm[h] = under.is_in ? under.travel_mm : 0.0;
+    const Item* item = in_hand(h);
+    const bool works = item != nullptr && works_on_skin(model, *item);
+    if (works) {
+      const SkinPlace at = skin_at(model, item->tip);
+      view.on_skin[h] = at.point;
+      view.out_of_skin[h] = at.normal;
+    } else {
+      view.on_skin[h] = view.out_of_skin[h] = {};
+    }
+    view.is_spreading[h] = under.is_spreading;
+    view.is_wet[h] = works && under.is_told && kind_of(model, *item).skin->work == SkinWork::Needle;
+  }
+  view.ink_count = making.worked.ink_count;
+  for (std::size_t i = 0; i < view.ink_count; ++i) {
+    view.ink[i] = as_it_lies(model, making.worked.ink[i]);
+  }
+  view.cut_count = making.worked.cut_count;
+  for (std::size_t i = 0; i < view.cut_count; ++i) {
+    const detail::SkinCut& cut = making.worked.cuts[i];
+    view.cuts[i] = {as_it_lies(model, cut.from), as_it_lies(model, cut.to), cut.spread_mm > 0.0};
+  }
+  const std::size_t asked = asked_now();
+  view.spot = way_in(model, model.asked[asked]).skin;
+  view.landmark = skin_at(model, landmark_now(model, asked)).point;
+}
+
+}  // namespace carpus::simulation

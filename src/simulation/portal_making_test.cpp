@@ -1,0 +1,390 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Portals made through a plate of skin over a box of a joint, far from the bones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "simulation/asked_portals.hpp"
+#include "simulation/box_joint_test_support.hpp"
+#include "simulation/detail/skin_surface.hpp"
+#include "simulation/world.hpp"
+
+namespace carpus::test {
+// Defined once in this program, where allocation_guard_test.cpp includes it.
+void start_counting_allocations() noexcept;
+int stop_counting_allocations() noexcept;
+}  // namespace carpus::test
+
+namespace carpus::simulation {
+namespace {
+
+using namespace box_joint;  // NOLINT(google-build-using-namespace)
+
+constexpr double kCapsuleMm = 6.0;
+/// Skin, 6 mm before the joint's wall; out of it is +x.
+const double kSkinX = kMiddle.x + kHalf + kCapsuleMm;
+constexpr double kPlateHalf = 60.0;
+
+TriangleMesh plate() {
+  TriangleMesh mesh;
+  for (const double y : {-kPlateHalf, kPlateHalf}) {
+    for (const double z : {-kPlateHalf, kPlateHalf}) mesh.vertices.push_back({kSkinX, y, z});
+  }
+  mesh.facets = {{0, 2, 1}, {1, 2, 3}};
+  return mesh;
+}
+
+/// A tendon runs 4 mm under the skin, 8 mm aside of the portal, a nerve 3 mm under it, 8 mm the
+/// other way.
+cases::Structure tube(const char* id, anatomy::StructureKind kind, double y, double under_mm) {
+  cases::Structure made;
+  made.id = id;
+  made.name = id;
+  made.kind = kind;
+  made.radius_mm = 1.0;
+  for (double z = -40; z <= 40; z += 4) made.course.push_back({{kSkinX - under_mm, y, z}, 0.0});
+  return made;
+}
+
+const cases::CaseData& wrist_with_skin() {
+  static const cases::CaseData data = [] {
+    cases::CaseData made = box_wrist();
+    static_cast<TriangleMesh&>(made.skin) = plate();
+    cases::ArthroscopicMap map = *made.arthroscopy;
+    cases::Portal other = map.portals.front();
+    other.id = "4-5";
+    other.skin.y += 7;
+    map.portals.push_back(other);
+    map.landmarks.push_back({"lister", {kSkinX - 3, 0, -10}, map.forearm});
+    made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+    made.structures = {tube("tendon", anatomy::StructureKind::Tendon, -8, 4),
+                       tube("nerve", anatomy::StructureKind::Nerve, 11, 3)};
+    return made;
+  }();
+  return data;
+}
+
+procedure::PortalMaking figures() {
+  procedure::PortalMaking made;
+  made.first = "3-4";
+  made.second = {"4-5"};
+  made.landmarks = {{"3-4", "lister"}, {"4-5", "3-4"}};
+  made.touch_n = 0.3;
+  made.bone_mm = 4.5;
+  made.deepest_mm = 16;
+  made.cord_deep_mm = 10;
+  made.skin_mm = 1.5;
+  made.firm_share = 0.5;
+  made.cell_mm = 2.5;
+  made.cell_s = 0.1;
+  made.cells = 5;
+  made.ink_mm = 0.8;
+  made.pass_mm = 4;
+  made.strike_n = 1;
+  made.in_joint_s = 0.3;
+  made.cut_reach_mm = 1.5;
+  made.cut_stretch_mm = 1;
+  made.spread_s = 0.4;
+  made.spread_reach_mm = 2.5;
+  return made;
+}
+
+InstrumentIndex tool(const char* id) { return *instruments::instrument_of(id); }
+
+const procedure::Procedure& making() {
+  static const procedure::Procedure kProcedure = [] {
+    procedure::Procedure made = probe_alone();
+    made.tray.clear();
+    for (const char* id : {"fingertip", "skin_marker", "needle_22g", "blade_15", "mosquito_clamp",
+                           "scope_sheath_1_9"}) {
+      made.tray.push_back(tool(id));
+    }
+    made.making = figures();
+    return made;
+  }();
+  return kProcedure;
+}
+
+Vec3 at(double out_mm, double y = 0.0, double z = 0.0) {
+  return Vec3{kSkinX + out_mm, kMiddle.y + y, kMiddle.z + z};
+}
+
+class Maker {
+ public:
+  explicit Maker(World& world) : hand(world), world_(world) { hand.go(at(15)); }
+  void take(const char* id) {
+    Command command;
+    command.kind = CommandKind::Take;
+    command.index = tool(id);
+    hand.command(command);
+    hand.go(hand_at(), 60);
+  }
+  void feel(double y, double z) {
+    for (const double dy : {-2.5, 0.0, 2.5}) {
+      for (const double dz : {-2.5, 0.0, 2.5}) hand.go(at(-2, y + dy, z + dz), 300);
+    }
+    hand.go(at(15, y, z), 50);
+  }
+  void prick(double y = 0.0, double z = 0.0, double deep = 9.0) {
+    take("needle_22g");
+    hand.go(at(15, y, z));
+    hand.go(at(-deep, y, z), 500);
+    hand.go(at(15, y, z), 100);
+  }
+  void cut(double y = 0.0, double deep = 1.7, double half = 2.5) {
+    take("blade_15");
+    hand.go(at(15, y, -half), 50);
+    hand.go(at(-deep, y, -half), 300);
+    hand.go(at(-deep, y, half), 300);
+    hand.go(at(15, y, half), 100);
+  }
+  void spread(double y = 0.0) {
+    take("mosquito_clamp");
+    hand.go(at(15, y));
+    hand.go(at(-6.5, y), 300);
+    hand.drive(Driver::Forward);
+    for (int i = 0; i < 600; ++i) hand.step();
+    hand.drive(Driver::Off);
+    hand.go(at(15, y), 100);
+  }
+  void enter(double y = 0.0, double deep = 11.0) {
+    take("scope_sheath_1_9");
+    hand.go(at(15, y));
+    hand.go(at(-deep, y), 500);
+  }
+  [[nodiscard]] const procedure::PortalMade& made(std::size_t which = 0) const {
+    return world_.now().skin.facts.portal[which];
+  }
+
+  Hand hand;
+
+ private:
+  [[nodiscard]] Vec3 hand_at() const { return at(15); }
+  World& world_;
+};
+
+double tip_out_mm(const World& world) {
+  return world.now().items[world.now().hands[0].item].tip_in_patient.x - kSkinX;
+}
+
+TEST(SkinSurface, TellsDepthAndWayOutOfAPlate) {
+  const detail::SkinSurface skin(plate(), at(0), 200);
+  const detail::SkinPlace under = skin.at(at(-3, 5, 7));
+  EXPECT_NEAR(under.depth_mm, 3.0, 1e-12);
+  EXPECT_NEAR(distance(under.point, at(0, 5, 7)), 0.0, 1e-12);
+  EXPECT_NEAR(under.normal.x, 1.0, 1e-12);
+  EXPECT_NEAR(skin.at(at(2)).depth_mm, -2.0, 1e-12);
+  EXPECT_TRUE(detail::SkinSurface({}, {}, 10).is_empty());
+}
+
+TEST(AskedPortals, TheSeedDrawsTheSecondAmongThoseThatTheCaseHas) {
+  const cases::ArthroscopicMap& map = *wrist_with_skin().arthroscopy;
+  procedure::PortalMaking wanted = figures();
+  EXPECT_EQ((*asked_portals(map, wanted, 5))[1], 1);
+  wanted.second = {"6R"};
+  EXPECT_FALSE(asked_portals(map, wanted, 5).has_value());
+  cases::ArthroscopicMap more = map;
+  more.portals.push_back(map.portals[1]);
+  more.portals.back().id = "6R";
+  wanted.second = {"4-5", "6R"};
+  bool has_both[2] = {false, false};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    has_both[(*asked_portals(more, wanted, seed))[1] - 1] = true;
+  }
+  EXPECT_TRUE(has_both[0] && has_both[1]);
+}
+
+TEST(PortalMaking, AFingerIsHeldBackBySkinAndFeelsACordWhereATendonRuns) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.hand.go(at(-2), 300);
+  EXPECT_LT(tip_out_mm(world), -0.5) << "skin gives";
+  EXPECT_GT(tip_out_mm(world), -1.9) << "and holds";
+  EXPECT_EQ(world.now().skin.feels[0].felt, Felt::Soft);
+  maker.hand.go(at(-2, -8), 300);
+  EXPECT_EQ(world.now().skin.feels[0].felt, Felt::Cord);
+  EXPECT_GT(world.now().hands[0].force_in_patient.x, 0.5);
+  maker.hand.go(at(3, -8), 50);
+  EXPECT_EQ(world.now().skin.feels[0].felt, Felt::Nothing);
+}
+
+TEST(PortalMaking, OneTouchIsNotAPlaceFeltAndNothingCountsAfterThePrick) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.hand.go(at(-2), 3000);
+  EXPECT_EQ(std::popcount(maker.made().place_felt), 1);
+  maker.hand.go(at(15), 20);
+  maker.feel(0, 0);
+  EXPECT_GE(std::popcount(maker.made().place_felt), 5);
+  EXPECT_EQ(maker.made().landmark_felt, 0) << "the tubercle lies elsewhere";
+  maker.prick();
+  maker.take("fingertip");
+  maker.feel(0, -10);
+  EXPECT_EQ(maker.made().landmark_felt, 0) << "too late";
+}
+
+TEST(PortalMaking, AMarkerLeavesInkThatUndoTakesBack) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.take("skin_marker");
+  maker.hand.go(at(-1), 100);
+  maker.hand.go(at(-1, 0, 6), 100);
+  const std::uint8_t drawn = world.now().skin.ink_count;
+  EXPECT_GE(drawn, 6);
+  EXPECT_NEAR(world.now().skin.ink[0].x, kSkinX, 1e-6);
+  maker.hand.go(at(15), 20);
+  maker.take("needle_22g");
+  EXPECT_EQ(world.now().skin.ink_count, drawn);
+  Command undo;
+  undo.kind = CommandKind::Undo;
+  maker.hand.command(undo);
+  EXPECT_EQ(world.now().skin.ink_count, drawn) << "to the needle's taking";
+  maker.hand.command(undo);
+  EXPECT_EQ(world.now().skin.ink_count, 0) << "to the marker's";
+}
+
+TEST(PortalMaking, ANeedleLosesResistanceInTheJointAndFluidComesBack) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.take("needle_22g");
+  maker.hand.go(at(-0.4), 50);
+  EXPECT_FALSE(world.now().skin.under_mm[0] > 0) << "skin holds a light touch";
+  maker.hand.go(at(-4), 50);
+  const double in_tissue = world.now().hands[0].force_in_patient.x;
+  EXPECT_GT(in_tissue, 0.4);
+  EXPECT_FALSE(world.now().skin.is_wet[0]);
+  maker.hand.go(at(-9), 500);
+  EXPECT_TRUE(world.now().skin.is_wet[0]);
+  EXPECT_LT(world.now().hands[0].force_in_patient.x, 0.5 * in_tissue);
+  EXPECT_TRUE(maker.made().needle.is_in);
+  EXPECT_NEAR(maker.made().needle.skin_off_mm, 0.0, 0.05);
+  EXPECT_NEAR(maker.made().needle.tilt_cosine, 1.0, 1e-6);
+  EXPECT_EQ(maker.made().passes, 1);
+  // It goes straight: a hand that wanders aside does not take it along.
+  maker.hand.go(at(-9, 4), 200);
+  EXPECT_NEAR(world.now().items[world.now().hands[0].item].tip_in_patient.y, kMiddle.y, 0.05);
+}
+
+TEST(PortalMaking, AnotherPassCountsAndAPlaceFarOffIsTold) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.prick(5, 0);
+  maker.prick(5, 0);
+  EXPECT_EQ(maker.made().passes, 2);
+  EXPECT_TRUE(maker.made().needle.is_in) << "luck";
+  EXPECT_NEAR(maker.made().needle.inner_off_mm, 5.0, 0.1);
+}
+
+TEST(PortalMaking, WhatIsBluntIsHeldBySkinThatWasNotCut) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.enter();
+  EXPECT_FALSE(world.now().skin.under_mm[0] > 0);
+  EXPECT_EQ(world.now().skin.facts.made, 0);
+}
+
+TEST(PortalMaking, ACutIsAsLongAndDeepAsTheBladeWasLed) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.prick();
+  maker.cut(0, 1.7, 2.5);
+  maker.spread();
+  maker.enter();
+  EXPECT_EQ(world.now().skin.facts.made, 1);
+  const procedure::CutMade& cut = maker.made().cut;
+  EXPECT_NEAR(cut.length_mm, 5.0, 0.4);
+  EXPECT_NEAR(cut.deepest_mm, 1.5, 0.3);
+  EXPECT_NEAR(cut.along_cosine, 1.0, 0.02);
+  EXPECT_LT(cut.off_mm, 0.2);
+  EXPECT_EQ(maker.made().cuts, 1);
+  EXPECT_EQ(maker.made().out_of_order, 0);
+}
+
+TEST(PortalMaking, WhatWasNotSpreadResistsAndIsOutOfOrder) {
+  World with(wrist_with_skin(), making(), 1);
+  Maker spread(with);
+  spread.prick();
+  spread.cut();
+  spread.spread();
+  EXPECT_TRUE(spread.made().is_spread);
+  spread.enter(0, 8.5);
+  World without(wrist_with_skin(), making(), 1);
+  Maker forced(without);
+  forced.cut();
+  forced.enter(0, 8.5);
+  EXPECT_EQ(with.now().skin.facts.made, 1);
+  EXPECT_EQ(without.now().skin.facts.made, 0) << "the same push does not go in";
+  forced.enter(0, 14);
+  EXPECT_EQ(without.now().skin.facts.made, 1);
+  EXPECT_EQ(forced.made().out_of_order,
+            procedure::kCutBeforeNeedle | procedure::kSheathBeforeSpread);
+  EXPECT_GT(forced.made().overrun_mm, spread.made().overrun_mm)
+      << "what gives at last under force goes on";
+}
+
+TEST(PortalMaking, ABladeTooDeepReachesTheTendon) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.cut(-8, 1.7);
+  const auto struck = [&world] {
+    const auto record = world.operation_record();
+    return std::count_if(record.structures.begin(), record.structures.end(),
+                         [](const auto& near) { return near.was_struck; });
+  };
+  EXPECT_EQ(struck(), 0);
+  maker.cut(-8, 4.0);
+  EXPECT_EQ(struck(), 1);
+}
+
+TEST(PortalMaking, TheStateComesBackFromItsBytesAndGoesOnAlike) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.feel(0, 0);
+  maker.take("skin_marker");
+  maker.hand.go(at(-1), 100);
+  maker.hand.go(at(15), 20);
+  maker.prick();
+  maker.cut();
+  maker.spread();
+  maker.take("scope_sheath_1_9");
+  maker.hand.go(at(15));
+  maker.hand.go(at(-3), 100);
+  World again(wrist_with_skin(), making(), 1);
+  const std::vector<std::byte> bytes = world.write_state();
+  ASSERT_TRUE(again.read_state(bytes));
+  Input input = maker.hand.inputs.back();
+  for (int i = 0; i < 900; ++i) {
+    input.hands[0].tip_in_patient.x -= 0.01;
+    world.step(input);
+    again.step(input);
+    ASSERT_EQ(world.now().state_hash, again.now().state_hash) << i;
+  }
+  EXPECT_EQ(again.now().skin.facts.made, 1);
+  EXPECT_EQ(again.now().skin.ink_count, 1);
+}
+
+TEST(PortalMaking, NoTickAllocates) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  Input input = maker.hand.inputs.back();
+  for (const char* id : {"fingertip", "skin_marker", "needle_22g", "blade_15"}) {
+    input.command.kind = CommandKind::Take;
+    input.command.index = tool(id);
+    carpus::test::start_counting_allocations();
+    for (int i = 0; i < 400; ++i) {
+      input.hands[0].tip_in_patient = at(i < 200 ? 10 - 0.1 * i : -10 + 0.1 * (i - 200));
+      world.step(input);
+      input.command = {};
+    }
+    EXPECT_EQ(carpus::test::stop_counting_allocations(), 0) << id;
+  }
+}
+
+}  // namespace
+}  // namespace carpus::simulation
