@@ -268,6 +268,8 @@ void look_round(const cases::CaseData& data,
                 TickBench& bench) {
   SceneTimes looking{"scope_in_joint", {}};
   SceneTimes yielding{"disc_yields", {}};
+  SceneTimes ligament{"ligament_yields", {}};
+  SceneTimes both{"disc_and_ligament", {}};
   const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
   for (std::uint64_t seed = 1; seed <= kMostOperations && (wants(looking) || wants(yielding));
        ++seed) {
@@ -278,7 +280,15 @@ void look_round(const cases::CaseData& data,
       const Input input = hand.next(world.now());
       const float us = timed_step(world, input);
       const Snapshot& now = world.now();
-      if (!now.is_disc_still && wants(yielding)) {
+      const bool is_disc = !now.sheets[0].is_still;
+      const bool is_ligament = std::any_of(
+          now.sheets.begin() + 1, now.sheets.begin() + std::max<std::size_t>(1, now.sheet_count),
+          [](const simulation::SheetView& sheet) { return !sheet.is_still; });
+      if (is_disc && is_ligament) {
+        if (wants(both)) both.microseconds.push_back(us);
+      } else if (is_ligament) {
+        if (wants(ligament)) ligament.microseconds.push_back(us);
+      } else if (is_disc && wants(yielding)) {
         yielding.microseconds.push_back(us);
       } else if (now.scope.facts.is_in_joint[0] && wants(looking)) {
         looking.microseconds.push_back(us);
@@ -286,7 +296,7 @@ void look_round(const cases::CaseData& data,
     }
     bench.unresolved_contacts += world.faults().unresolved_contacts;
   }
-  for (SceneTimes* times : {&looking, &yielding}) {
+  for (SceneTimes* times : {&looking, &yielding, &ligament, &both}) {
     if (!times->microseconds.empty()) bench.scenes.push_back(std::move(*times));
   }
 }

@@ -10,12 +10,13 @@
 #include <type_traits>
 
 #include "cases/joint_lesions.hpp"
+#include "cases/ligament_band.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
 #include "procedure/mode.hpp"
 #include "simulation/input.hpp"
-#include "yielding/yielding_net.hpp"
+#include "yielding/net.hpp"
 
 namespace carpus::simulation {
 
@@ -98,6 +99,17 @@ struct FluidView {
   double fog_depth = 0.0;    ///< optical depth of mist on the lens
   double smear_depth = 0.0;  ///< of blood on it
   bool operator==(const FluidView&) const = default;
+};
+
+/// The disc, and ligaments that yield (cases/ligament_band.hpp).
+inline constexpr std::size_t kMaxSheets = 1 + cases::kMaxBands;
+
+/// Tissue that yields, as it lies: by how much each particle is off where it was scanned, frame
+/// Bone of its first body [mm].
+struct SheetView {
+  std::array<std::array<float, 3>, yielding::kMaxParticles> off{};
+  std::uint16_t count = 0;
+  bool is_still = true;
 };
 
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
@@ -224,11 +236,8 @@ struct Snapshot {
   std::uint64_t dose_units = 0;  ///< procedure::dose_units of them
   procedure::TubeSetting tube = procedure::kUsualTube;
   ScopeView scope;
-  /// Of the disc's particles, by how much they are off where they rest, frame Bone of the forearm
-  /// [mm].
-  std::array<std::array<float, 3>, yielding::kMaxParticles> disc_off{};
-  std::uint16_t disc_count = 0;
-  bool is_disc_still = true;
+  std::array<SheetView, kMaxSheets> sheets{};  ///< the disc first
+  std::uint8_t sheet_count = 0;
   std::uint8_t aids = 0;  ///< bit i: procedure::Aid i was used
   std::uint32_t undos = 0;
   bool can_undo = false;

@@ -30,9 +30,10 @@
 #include "simulation/detail/shaving.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
+#include "simulation/detail/yielding_sheet.hpp"
 #include "simulation/permission.hpp"
 #include "simulation/world.hpp"
-#include "yielding/yielding_net.hpp"
+#include "yielding/net_state.hpp"
 
 namespace carpus::simulation {
 
@@ -62,7 +63,7 @@ struct World::Model {
   std::size_t float_count = 0;
   std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
   std::size_t loose_count = 0;
-  yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
+  std::vector<detail::YieldingSheet> sheets;  ///< of an arthroscopy, the disc first; else none
   std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
   detail::DrillPlan drill;                          ///< of a procedure that declares one
   /// What a shaver takes away; none of most procedures.
@@ -83,7 +84,18 @@ struct World::State {
   detail::JointFluid fluid;
   double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
   detail::ScrewState screw_state;
-  yielding::NetState disc;
+  std::array<yielding::NetState, kMaxSheets> sheets;  ///< as in the model
+  /// Of those between two bodies: as they were laid last. Follows from the poses.
+  std::array<Pose<frame::Bone, frame::Bone>, kMaxSheets> sheet_poses{};
+  std::array<bool, kMaxSheets> has_sheet_moved{};  ///< since it was published
+  /// What of a sheet lies under a tip, frame Bone of its first body.
+  struct UnderTip {
+    std::uint8_t sheet = detail::kNoSheet;
+    Vec3 at;
+    Vec3 out;  ///< unit, towards the tip
+    double most_gives_mm = 0.0;
+  };
+  std::array<UnderTip, kHands> under_tips{};  ///< found anew in every tick, by hand
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
   detail::Tissue tissue;
@@ -411,10 +423,29 @@ struct World::State {
   void probe_screw(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   void note_screw_answer(const Model& model, std::size_t asked) noexcept;
 
-  // yielding_disc.cpp
-  void yield_disc(const Model& model) noexcept;
+  // yielding_sheets.cpp
+  void lay_sheets(const Model& model) noexcept;
+  void find_sheets(const Model& model) noexcept;
+  [[nodiscard]] yielding::Tip tip_on(const Model& model,
+                                     const detail::YieldingSheet& sheet,
+                                     const detail::Item& item,
+                                     const Vec3& tip) const noexcept;
+  [[nodiscard]] UnderTip under_tip(const Model& model,
+                                   std::uint8_t s,
+                                   const yielding::Tip& tip) const noexcept;
+  [[nodiscard]] std::optional<Wall> sheet_at(const Model& model,
+                                             std::uint8_t hand,
+                                             const Vec3& tip_in_patient,
+                                             const Vec3& wall_outwards) const noexcept;
+  void yield_sheets(const Model& model) noexcept;
+  void sink_in(const Model& model, std::uint8_t hand, const yielding::Tip& tip) noexcept;
+  void publish_sheets(const Model& model) noexcept;
+
+  // disc_hook.cpp
+  [[nodiscard]] bool is_by_edge(const Model& model, std::uint8_t hand) noexcept;
+  void hook_disc(const Model& model, std::array<yielding::Tip, kHands>& tips) noexcept;
+  void let_go_of_disc(const Model& model) noexcept;
   [[nodiscard]] Vec3 hook_force(const Model& model, std::size_t hand) const noexcept;
-  void publish_disc(const Model& model) noexcept;
 
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;

@@ -11,8 +11,8 @@ export interface ReplayState {
   readonly tracks: readonly Track[];
   /** Of an arthroscopy, while a hand holds a scope. */
   readonly scope: ScopeMessage | undefined;
-  /** Of the message `disc`. */
-  readonly discUm: readonly number[];
+  /** By sheet, of the messages `sheet`. */
+  readonly sheetsUm: ReadonlyMap<number, readonly number[]>;
 }
 
 export interface Stretch {
@@ -33,19 +33,19 @@ export function statesOf(messages: readonly HostMessage[]): ReplayState[] {
   let bodies: readonly BodyPose[] = [];
   let tracks: readonly Track[] = [];
   let scope: ScopeMessage | undefined;
-  let discUm: readonly number[] = [];
+  let sheetsUm: ReadonlyMap<number, readonly number[]> = new Map();
   const states: ReplayState[] = [];
   for (const message of messages) {
     if (message.type === "tissue") tracks = message.tracks;
     if (message.type === "scope") scope = message;
-    if (message.type === "disc") discUm = message.off_um;
+    if (message.type === "sheet") sheetsUm = new Map(sheetsUm).set(message.sheet, message.off_um);
     const last = states.at(-1);
     // Both come after the snapshot that they belong to.
-    if (last !== undefined && (message.type === "scope" || message.type === "disc"))
-      states[states.length - 1] = { ...last, scope, discUm };
+    if (last !== undefined && (message.type === "scope" || message.type === "sheet"))
+      states[states.length - 1] = { ...last, scope, sheetsUm };
     if (message.type !== "snapshot") continue;
     bodies = message.bodies ?? bodies;
-    states.push({ snapshot: message, bodies, tracks, scope, discUm });
+    states.push({ snapshot: message, bodies, tracks, scope, sheetsUm });
   }
   return states;
 }

@@ -500,8 +500,8 @@ export class TrainPage {
       case "scope":
         this.scope.seeScope(message);
         break;
-      case "disc":
-        this.scope.seeDisc(message);
+      case "sheet":
+        this.scope.seeSheet(message);
         break;
       case "actions":
         this.seen.takeActions(message);
