@@ -3,13 +3,14 @@
 #include "arthroscopy/disc_net.hpp"
 
 #include "arthroscopy/pathology_table.hpp"
+#include "yielding/net_of_sheet.hpp"
 
 namespace carpus::arthroscopy {
 namespace {
 
 /// So that 1 N of a probe presses the middle in by 0.6 mm: its rebound intact [S78]; that this was
 /// at about 1 N is [E].
-constexpr yielding::Material kDisc{16.0, 0.25, 0.8, 60.0};
+constexpr yielding::SheetMaterial kDisc{16.0, 0.25, 0.8, 60.0};
 constexpr double kSpacingMm = 0.8;
 constexpr const char* kOffTheFovea = "1B";
 constexpr double kOffMm = 4.0;       // about the tear [E]
@@ -20,16 +21,15 @@ constexpr double kRestsOffMm = 1.3;  // resting offset of a detached disc [S78]
 
 yielding::Net disc_net(const cases::ArthroscopicMap& map, const cases::JointLesions* lesions) {
   if (map.disc_sheet.vertices.empty()) return {};
-  yielding::Net net(map.disc_sheet, map.distal, kDisc, kSpacingMm);
-  if (lesions == nullptr) return net;
   const PathologyTable& table = PathologyTable::generic();
-  for (const cases::Lesion& lesion : lesions->lesions) {
+  for (const cases::Lesion& lesion :
+       lesions != nullptr ? lesions->lesions : std::vector<cases::Lesion>{}) {
     if (lesion.look == cases::LesionLook::ScrewSite) continue;
-    const Grade& how = table.scale_of(lesion.finding).grades[lesion.grade];
-    if (how.id != kOffTheFovea) continue;
-    net.come_off(lesion.from, lesion.to, kOffMm, kLeftShare, kRestsOffMm);
+    if (table.scale_of(lesion.finding).grades[lesion.grade].id != kOffTheFovea) continue;
+    const yielding::ComeOff off{lesion.from, lesion.to, kOffMm, kLeftShare, kRestsOffMm};
+    return yielding::net_of_sheet(map.disc_sheet, map.distal, kDisc, kSpacingMm, &off);
   }
-  return net;
+  return yielding::net_of_sheet(map.disc_sheet, map.distal, kDisc, kSpacingMm);
 }
 
 }  // namespace carpus::arthroscopy

@@ -7,7 +7,7 @@
 
 #include "cases/arthroscopic_map.hpp"
 #include "cases/joint_lesions.hpp"
-#include "yielding/yielding_net.hpp"
+#include "yielding/net.hpp"
 
 namespace carpus::arthroscopy {
 

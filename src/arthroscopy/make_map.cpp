@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Joints by their spaces -> portals (detail/portal_placement, which tells how) -> the tour's points
-// on the joints' walls (detail/tour_places) -> cartilage near these walls.
+// on the joints' walls (detail/tour_places) -> ligaments that yield on these walls
+// (detail/lay_band) -> cartilage near them.
 #include "arthroscopy/make_map.hpp"
 
 #include <algorithm>
@@ -13,8 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "arthroscopy/band_table.hpp"
 #include "arthroscopy/detail/bone_landmarks.hpp"
 #include "arthroscopy/detail/joint_of.hpp"
+#include "arthroscopy/detail/lay_band.hpp"
 #include "arthroscopy/detail/portal_placement.hpp"
 #include "arthroscopy/detail/pulled_bones.hpp"
 #include "arthroscopy/detail/scanned_bones.hpp"
@@ -68,6 +71,7 @@ class MapMaker {
       map_.landmarks.push_back({mark.id, axes_.point(mark.at), body_of(bone).value_or(0)});
     }
     place_points(places);
+    lay_bands();
     collect_cartilage();
     return std::move(map_);
   }
@@ -127,6 +131,22 @@ class MapMaker {
         }
       }
       map_.points.push_back(std::move(placed));
+    }
+  }
+
+  void lay_bands() {
+    const BandTable& table = BandTable::generic();
+    for (const TabledBand& band : table.bands) {
+      const auto joint = detail::joint_of(map_, band.joint);
+      if (!joint || map_.bands.size() == cases::kMaxBands) continue;
+      auto laid =
+          detail::lay_band(data_, tissue_, walls_[*joint], map_.joints[*joint].wall, band, table);
+      if (!laid) {
+        map_.problems.push_back("the " + band.name + " ligament yields nowhere in this case");
+        continue;
+      }
+      laid->joint = *joint;
+      map_.bands.push_back(std::move(*laid));
     }
   }
 

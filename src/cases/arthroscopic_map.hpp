@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "anatomy/structure_table.hpp"
+#include "cases/ligament_band.hpp"
 #include "geometry/grid.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "geometry/vec3.hpp"
@@ -94,9 +95,10 @@ struct ArthroscopicMap {
   std::vector<TourPoint> points;
   std::vector<CartilageFacet> cartilage;  ///< of these joints
   std::uint8_t forearm = 0;               ///< the radius's body
-  TriangleMesh disc;        ///< stands before what lies behind it; goes with the forearm
-  TriangleMesh disc_sheet;  ///< its middle, which yields (arthroscopy/disc_net.hpp)
-  Vec3 distal;              ///< unit: up in a level picture; goes with the forearm
+  TriangleMesh disc;                ///< stands before what lies behind it; goes with the forearm
+  TriangleMesh disc_sheet;          ///< its middle, which yields (arthroscopy/disc_net.hpp)
+  std::vector<LigamentBand> bands;  ///< ligaments that yield, at most kMaxBands
+  Vec3 distal;                      ///< unit: up in a level picture; goes with the forearm
   /// Why there is none, or what of it is missing, in words.
   std::vector<std::string> problems;
 

@@ -91,7 +91,9 @@ void run(const Arguments& a) {
   if (!a.check) case_io::write_soft_tissue(tissue, data, a.case_folder);
   std::fputs(soft_tissue_table(tissue, data).c_str(), stdout);
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
-  std::fputs(portal_table(arthroscopy::make_map(data, tissue), data).c_str(), stdout);
+  const cases::ArthroscopicMap map = arthroscopy::make_map(data, tissue);
+  std::fputs(portal_table(map, data).c_str(), stdout);
+  std::fputs(yielding_table(map).c_str(), stdout);
   if (a.traction) print_traction(data, tissue);
   if (a.section) print_section(data, tissue, a);
   double whole = 0;

@@ -270,6 +270,8 @@ void look_round(const cases::CaseData& data,
   SceneTimes yielding{"disc_yields", {}};
   SceneTimes shaving{"shaving", {}};
   const bool shaves = procedure.shaving.has_value();
+  SceneTimes ligament{"ligament_yields", {}};
+  SceneTimes both{"disc_and_ligament", {}};
   const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
   for (std::uint64_t seed = 1;
        seed <= kMostOperations && (wants(looking) || wants(yielding) || (shaves && wants(shaving)));
@@ -281,9 +283,18 @@ void look_round(const cases::CaseData& data,
       const Input input = hand.next(world.now());
       const float us = timed_step(world, input);
       const Snapshot& now = world.now();
-      if (now.scope.are_running[0] || now.scope.are_running[1]) {
+      const bool shaves_now = now.scope.are_running[0] || now.scope.are_running[1];
+      const bool is_disc = !now.sheets[0].is_still;
+      const bool is_ligament = std::any_of(
+          now.sheets.begin() + 1, now.sheets.begin() + std::max<std::size_t>(1, now.sheet_count),
+          [](const simulation::SheetView& sheet) { return !sheet.is_still; });
+      if (shaves_now) {
         if (wants(shaving)) shaving.microseconds.push_back(us);
-      } else if (!now.is_disc_still && wants(yielding)) {
+      } else if (is_disc && is_ligament) {
+        if (wants(both)) both.microseconds.push_back(us);
+      } else if (is_ligament) {
+        if (wants(ligament)) ligament.microseconds.push_back(us);
+      } else if (is_disc && wants(yielding)) {
         yielding.microseconds.push_back(us);
       } else if (now.scope.facts.is_in_joint[0] && wants(looking)) {
         looking.microseconds.push_back(us);
@@ -291,7 +302,7 @@ void look_round(const cases::CaseData& data,
     }
     bench.unresolved_contacts += world.faults().unresolved_contacts;
   }
-  for (SceneTimes* times : {&looking, &yielding, &shaving}) {
+  for (SceneTimes* times : {&looking, &yielding, &ligament, &both, &shaving}) {
     if (!times->microseconds.empty()) bench.scenes.push_back(std::move(*times));
   }
 }

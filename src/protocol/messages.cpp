@@ -517,10 +517,14 @@ void write(FieldWriter& out, const Skin& in) {
   }
 }
 
-void read(FieldReader& in, Disc& out) { in.list("off_um", 0, 480, -20000, 20000, out.off_um); }
+void read(FieldReader& in, Sheet& out) {
+  out.sheet = in.integer("sheet", 0, 2);
+  in.list("off_um", 0, 480, -20000, 20000, out.off_um);
+}
 
-void write(FieldWriter& out, const Disc& in) {
-  out.name("type", "disc");
+void write(FieldWriter& out, const Sheet& in) {
+  out.name("type", "sheet");
+  out.value("sheet", in.sheet);
   out.list("off_um", in.off_um);
 }
 
@@ -698,7 +702,7 @@ constexpr std::array<MessageKind<HostMessage>, 15> kHostMessageKinds{
      {"tissue", &read_as<HostMessage, Tissue>},
      {"scope", &read_as<HostMessage, Scope>},
      {"skin", &read_as<HostMessage, Skin>},
-     {"disc", &read_as<HostMessage, Disc>},
+     {"sheet", &read_as<HostMessage, Sheet>},
      {"actions", &read_as<HostMessage, Actions>},
      {"event", &read_as<HostMessage, Event>},
      {"score", &read_as<HostMessage, Score>},

@@ -424,12 +424,15 @@ struct Skin {
   bool operator==(const Skin&) const = default;
 };
 
-/// By how much the disc has yielded; comes when that changed.
-struct Disc {
-  /// of each place of arthroscopy.disc_mm three, along the axes of the Patient frame as the forearm
-  /// was scanned; none: it rests
+/// Where a sheet that yields lies: dented by a tip, bulging, or with bones that have parted; comes
+/// when that changed.
+struct Sheet {
+  /// of arthroscopy.sheets 0 to 2
+  std::int64_t sheet = 0;
+  /// of each of its places three, by how much it is off that, along the axes of the Patient frame
+  /// as its body was scanned; none: by nothing
   std::vector<std::int64_t> off_um;
-  bool operator==(const Disc&) const = default;
+  bool operator==(const Sheet&) const = default;
 };
 
 /// All that can be asked for, and whether it would be done; comes when any of it changed.
@@ -518,7 +521,7 @@ using HostMessage = std::variant<Welcome,
                                  Tissue,
                                  Scope,
                                  Skin,
-                                 Disc,
+                                 Sheet,
                                  Actions,
                                  Event,
                                  Score,

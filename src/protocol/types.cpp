@@ -377,6 +377,22 @@ void write(FieldWriter& out, const TourPoint& in) {
   out.text("body", in.body, 32);
 }
 
+void read(FieldReader& in, YieldingSheet& out) {
+  out.id = in.string("id", 32);
+  out.joint = in.string("joint", 32);
+  out.body = in.string("body", 32);
+  out.kind = static_cast<SheetKind>(in.choice("kind", kSheetKindNames));
+  in.list("places_mm", 0, 160, 10000.0, 0.0, out.places_mm);
+}
+
+void write(FieldWriter& out, const YieldingSheet& in) {
+  out.text("id", in.id, 32);
+  out.text("joint", in.joint, 32);
+  out.text("body", in.body, 32);
+  out.name("kind", name_of(in.kind));
+  out.list("places_mm", in.places_mm);
+}
+
 void read(FieldReader& in, Lesion& out) {
   out.look = static_cast<LesionLook>(in.choice("look", kLesionLookNames));
   out.joint = in.string("joint", 32);
@@ -590,7 +606,7 @@ void read(FieldReader& in, Arthroscopy& out) {
   out.distal = in.vec3("distal", 2.0, 0.0);
   in.records("portals", 0, 16, out.portals);
   in.records("points", 0, 32, out.points);
-  in.list("disc_mm", 0, 160, 10000.0, 0.0, out.disc_mm);
+  in.records("sheets", 0, 3, out.sheets);
   in.records("lesions", 0, 24, out.lesions);
   in.records("findings", 0, 16, out.findings);
   if (in.has("drill")) in.record("drill", out.drill.emplace());
@@ -605,7 +621,7 @@ void write(FieldWriter& out, const Arthroscopy& in) {
   out.vec3("distal", in.distal);
   out.records("portals", in.portals);
   out.records("points", in.points);
-  out.list("disc_mm", in.disc_mm);
+  out.records("sheets", in.sheets);
   out.records("lesions", in.lesions);
   out.records("findings", in.findings);
   if (in.drill) {

@@ -167,12 +167,19 @@ inline constexpr std::array<std::string_view, 3> kFaultKindNames{"screw_out", "g
   return kFaultKindNames[static_cast<std::size_t>(value)];
 }
 
-/// A tuft of synovium that stands on the joint's wall, or a place of the disc, in the order of
-/// disc_mm.
+/// A tuft of synovium that stands on the joint's wall, or a place of the disc, in the order of its
+/// sheet's places.
 enum class TissueKind : std::uint8_t { Synovium, Disc };
 inline constexpr std::array<std::string_view, 2> kTissueKindNames{"synovium", "disc"};
 [[nodiscard]] constexpr std::string_view name_of(TissueKind value) noexcept {
   return kTissueKindNames[static_cast<std::size_t>(value)];
+}
+
+/// Tissue of a joint's wall that yields. A disc lies on one body, a ligament between two.
+enum class SheetKind : std::uint8_t { Disc, Ligament };
+inline constexpr std::array<std::string_view, 2> kSheetKindNames{"disc", "ligament"};
+[[nodiscard]] constexpr std::string_view name_of(SheetKind value) noexcept {
+  return kSheetKindNames[static_cast<std::size_t>(value)];
 }
 
 /// How something that is wrong in a joint shows.
@@ -551,6 +558,18 @@ struct TourPoint {
   bool operator==(const TourPoint&) const = default;
 };
 
+/// A sheet of the joint's wall that yields: see the message `sheet`. Generated.
+struct YieldingSheet {
+  std::string id;
+  std::string joint;
+  /// whose frame its places are in
+  std::string body;
+  SheetKind kind = SheetKind::Disc;
+  /// as scanned, before anything is wrong with it
+  std::vector<Vec3> places_mm;
+  bool operator==(const YieldingSheet&) const = default;
+};
+
 /// Something wrong in a joint, for the scope's picture: a band about the line between two places of
 /// its wall as scanned, or a ball. Generated.
 struct Lesion {
@@ -741,8 +760,8 @@ struct Arthroscopy {
   Vec3 distal;
   std::vector<Portal> portals;
   std::vector<TourPoint> points;
-  /// places of the disc as scanned, which goes with the forearm and yields: see `disc`
-  std::vector<Vec3> disc_mm;
+  /// the disc first, without places where the wrist has none
+  std::vector<YieldingSheet> sheets;
   /// of this exercise, to be drawn and not to be told
   std::vector<Lesion> lesions;
   /// none: nothing is asked

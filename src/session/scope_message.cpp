@@ -43,6 +43,19 @@ void add_lesions(protocol::Arthroscopy& message,
   }
 }
 
+/// As they were scanned, whatever is wrong with them.
+void add_sheets(protocol::Arthroscopy& message,
+                const cases::ArthroscopicMap& map,
+                const BodyNames& names) {
+  const yielding::Net disc = arthroscopy::disc_net(map, nullptr);
+  message.sheets.push_back({"disc", map.joints.front().id, names.name(map.forearm),
+                            protocol::SheetKind::Disc, disc.scanned()});
+  for (const cases::LigamentBand& band : map.bands) {
+    message.sheets.push_back({band.id, map.joints[band.joint].id, names.name(band.first),
+                              protocol::SheetKind::Ligament, band.at});
+  }
+}
+
 /// What is loose of the disc is to be seen, what of it is rim is not.
 void add_pieces(protocol::Arthroscopy& message,
                 const cases::JointLesions& wrong,
@@ -227,7 +240,7 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
   if (const auto* asked = simulation::questions_of(procedure)) add_questions(message, *asked);
   if (wrong && wrong->screw) message.screw = screw_message(*wrong->screw, names);
   if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);
-  message.disc_mm = arthroscopy::disc_net(*data.arthroscopy, wrong ? &*wrong : nullptr).rest();
+  add_sheets(message, *data.arthroscopy, names);
   return message;
 }
 
@@ -270,16 +283,19 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
   return message;
 }
 
-std::optional<protocol::Disc> disc_message(const simulation::Snapshot& now) {
-  if (now.disc_count == 0) return std::nullopt;
-  protocol::Disc message;
-  if (now.is_disc_still) return message;
+protocol::Sheet sheet_message(const simulation::Snapshot& now, std::size_t sheet) {
+  const simulation::SheetView& view = now.sheets[sheet];
+  protocol::Sheet message;
+  message.sheet = static_cast<std::int64_t>(sheet);
   constexpr double kUmPerMm = 1000.0;
-  for (std::size_t i = 0; i < now.disc_count; ++i) {
-    for (const float off : now.disc_off[i]) {
+  bool is_off = false;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    for (const float off : view.off[i]) {
       message.off_um.push_back(std::llround(static_cast<double>(off) * kUmPerMm));
+      is_off = is_off || message.off_um.back() != 0;
     }
   }
+  if (!is_off) message.off_um.clear();
   return message;
 }
 

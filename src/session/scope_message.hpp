@@ -26,7 +26,8 @@ namespace carpus::session {
                                                            const procedure::Procedure& procedure,
                                                            const simulation::Snapshot& now);
 
-/// Without numbers where the disc rests; none in a case without one.
-[[nodiscard]] std::optional<protocol::Disc> disc_message(const simulation::Snapshot& now);
+/// By how much this sheet is off where it was scanned; without numbers where it is not.
+/// @param sheet  below Snapshot::sheet_count
+[[nodiscard]] protocol::Sheet sheet_message(const simulation::Snapshot& now, std::size_t sheet);
 
 }  // namespace carpus::session

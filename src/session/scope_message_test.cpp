@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "instruments/instrument.hpp"
 #include "simulation/lesions_of.hpp"
@@ -139,6 +141,30 @@ TEST(ScopeMessage, TellsWhatIsLeftToShaveAndHowTheMouthIsHeld) {
   ASSERT_TRUE(without);
   EXPECT_TRUE(without->pieces_left.empty() && without->mouth_deg.empty());
   EXPECT_TRUE(without->running.empty()) << "nothing is to be shaved";
+}
+
+TEST(ScopeMessage, WhatYieldsIsToldAsScannedTheDiscFirstAndThenByHowMuchItIsOff) {
+  cases::CaseData data = with_places();
+  cases::ArthroscopicMap map = *data.arthroscopy;
+  cases::LigamentBand band;
+  band.id = "scapholunate";
+  band.at = {{1, 2, 3}, {4, 5, 6}};
+  map.bands.push_back(band);
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  const auto plan = arthroscopy_of(data, arthroscopy(), 1);
+  ASSERT_EQ(plan->sheets.size(), 2U);
+  EXPECT_EQ(plan->sheets[0].kind, protocol::SheetKind::Disc);
+  EXPECT_TRUE(plan->sheets[0].places_mm.empty()) << "this wrist has none";
+  EXPECT_EQ(plan->sheets[1].id, "scapholunate");
+  EXPECT_EQ(plan->sheets[1].kind, protocol::SheetKind::Ligament);
+  EXPECT_EQ(plan->sheets[1].places_mm, band.at);
+  simulation::Snapshot now;
+  now.sheets[1].count = 2;
+  EXPECT_TRUE(sheet_message(now, 1).off_um.empty()) << "as scanned";
+  now.sheets[1].off[1] = {0, 0, 0.25F};
+  const protocol::Sheet off = sheet_message(now, 1);
+  EXPECT_EQ(off.sheet, 1);
+  EXPECT_EQ(off.off_um, (std::vector<std::int64_t>{0, 0, 0, 0, 0, 250}));
 }
 
 TEST(ScopeMessage, TuftsAreToldWhereTheyStand) {

@@ -115,9 +115,12 @@ std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& n
   std::optional<protocol::Skin> skin = skin_message(now);
   if (skin && skin != sent_skin_) messages.emplace_back(*skin);
   sent_skin_ = std::move(skin);
-  std::optional<protocol::Disc> disc = disc_message(now);
-  if (disc && disc != sent_disc_) messages.emplace_back(*disc);
-  sent_disc_ = std::move(disc);
+  for (std::size_t s = 0; s < now.sheet_count; ++s) {
+    protocol::Sheet sheet = sheet_message(now, s);
+    if (sheet == sent_sheets_[s]) continue;
+    messages.emplace_back(sheet);
+    sent_sheets_[s] = std::move(sheet);
+  }
   return messages;
 }
 
@@ -127,7 +130,7 @@ void Session::forget_what_was_sent() noexcept {
   sent_actions_.actions.clear();
   sent_scope_.reset();
   sent_skin_.reset();
-  sent_disc_.reset();
+  for (auto& sheet : sent_sheets_) sheet.reset();
 }
 
 protocol::LoggedEvent Session::describe(const simulation::Event& event) const {

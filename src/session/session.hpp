@@ -9,6 +9,7 @@
 //   page ◀─text─── session ◀──────────── Snapshot ─────────────────────── World
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -85,7 +86,7 @@ class Session {
   protocol::Actions sent_actions_;
   std::optional<protocol::Scope> sent_scope_;
   std::optional<protocol::Skin> sent_skin_;
-  std::optional<protocol::Disc> sent_disc_;
+  std::array<std::optional<protocol::Sheet>, simulation::kMaxSheets> sent_sheets_;
 };
 
 }  // namespace carpus::session

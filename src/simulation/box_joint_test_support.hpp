@@ -92,6 +92,46 @@ inline const cases::CaseData& box_wrist() {
   return data;
 }
 
+/// The box with a ligament for its ceiling, fibres along y from the radius to the lunate, and the
+/// places of the tour by which it is torn.
+inline const cases::CaseData& box_wrist_with_ligament() {
+  static const cases::CaseData data = [] {
+    constexpr std::size_t kRows = 12;
+    constexpr std::size_t kColumns = 6;
+    cases::CaseData made = box_wrist();
+    auto map = std::make_shared<cases::ArthroscopicMap>(*made.arthroscopy);
+    cases::LigamentBand band;
+    band.id = "scapholunate";
+    band.first = test::body_of(BoneId::Radius);
+    band.second = test::body_of(BoneId::Lunate);
+    band.rows = kRows;
+    band.columns = kColumns;
+    band.thickness_mm = 1;
+    band.along_n_per_mm = 100;
+    for (std::size_t r = 0; r < kRows; ++r) {
+      for (std::size_t c = 0; c < kColumns; ++c) {
+        band.at.push_back(kMiddle + Vec3{static_cast<double>(r) - 5.5, static_cast<double>(c) - 2.5,
+                                         kHalfHigh + 0.5});
+        band.inwards.push_back({0, 0, -1});
+      }
+    }
+    map->bands.push_back(band);
+    for (const char* id : {"sl_ligament", "sl_gap"}) {
+      cases::TourPoint point;
+      point.number = 20;
+      point.id = id;
+      point.at = kMiddle + Vec3{0, 0, kHalfHigh};
+      point.body = band.first;
+      map->points.push_back(point);
+    }
+    made.arthroscopy = map;
+    // So that its volar, along which it is torn, is across the fibres.
+    made.wrist_from_patient = {Mat3::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), {}};
+    return made;
+  }();
+  return data;
+}
+
 inline procedure::Opening open_beside(const cases::CaseData&) {
   procedure::Opening opening;
   opening.shaft_in_target = {1, 0, 0};

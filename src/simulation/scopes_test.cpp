@@ -34,8 +34,8 @@ using namespace box_joint;  // NOLINT(google-build-using-namespace)
 /// By how much the particle that moved farthest distally, or proximally (negative), is off.
 double most_off(const Snapshot& now, double sign) {
   double most = 0;
-  for (std::size_t i = 0; i < now.disc_count; ++i) {
-    most = std::max(most, sign * static_cast<double>(now.disc_off[i][2]));
+  for (std::size_t i = 0; i < now.sheets[0].count; ++i) {
+    most = std::max(most, sign * static_cast<double>(now.sheets[0].off[i][2]));
   }
   return most;
 }
@@ -48,7 +48,7 @@ TEST(Scopes, ATipEntersByThePortalAndTheWallHoldsItWhereThereIsNoDisc) {
   hand.go(kMiddle + Vec3{-9, 0, 0});
   hand.go(kMiddle + Vec3{-9, 0, -5}, 300);
   EXPECT_NEAR(hand.tip().z, -kHalfHigh - 0.3, 0.15) << "the rigid wall, beside the disc";
-  EXPECT_TRUE(hand.now().is_disc_still);
+  EXPECT_TRUE(hand.now().sheets[0].is_still);
 }
 
 procedure::Procedure drilling(std::vector<std::uint8_t> places) {
@@ -158,7 +158,7 @@ TEST(Scopes, TheDiscYieldsToThePressAndComesBack) {
   EXPECT_GT(force, 0.1);
   EXPECT_LT(force, 5);
   hand.go(kMiddle, 2000);
-  EXPECT_TRUE(hand.now().is_disc_still) << "at rest within 2 s";
+  EXPECT_TRUE(hand.now().sheets[0].is_still) << "at rest within 2 s";
   EXPECT_EQ(most_off(hand.now(), -1), 0);
 }
 
@@ -179,7 +179,7 @@ TEST(Scopes, AHookThatTouchedTheEdgeTakesItAlongUntilItSlips) {
   EXPECT_GT(pulled, 0.5) << "and pulled back";
   EXPECT_LT(pulled, 6.0);
   hand.go(kMiddle, 2500);
-  EXPECT_TRUE(hand.now().is_disc_still) << "it slipped off";
+  EXPECT_TRUE(hand.now().sheets[0].is_still) << "it slipped off";
 }
 
 TEST(Scopes, GoesOnFromAKeyframeInThePressToTheSameBits) {
@@ -187,7 +187,7 @@ TEST(Scopes, GoesOnFromAKeyframeInThePressToTheSameBits) {
   Hand hand(world);
   enter(hand);
   hand.go(kMiddle + Vec3{0.3, 0.2, -4.2}, 100);
-  ASSERT_FALSE(hand.now().is_disc_still);
+  ASSERT_FALSE(hand.now().sheets[0].is_still);
   World other(box_wrist(), probe_alone(), 1);
   ASSERT_TRUE(other.read_state(world.write_state()));
   Hand same(other);

@@ -240,7 +240,7 @@ void go_on_from_a_keyframe(const cases::CaseData& data,
   }
   EXPECT_LT(left(hand), before) << "it was cut on";
   EXPECT_EQ(again.now().scope, world.now().scope);
-  EXPECT_EQ(again.now().disc_off, world.now().disc_off);
+  EXPECT_EQ(again.now().sheets[0].off, world.now().sheets[0].off);
 }
 
 TEST(Shavers, GoOnFromAKeyframeToTheSameBits) {

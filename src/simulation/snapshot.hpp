@@ -10,12 +10,13 @@
 #include <type_traits>
 
 #include "cases/joint_lesions.hpp"
+#include "cases/ligament_band.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
 #include "procedure/mode.hpp"
 #include "simulation/input.hpp"
-#include "yielding/yielding_net.hpp"
+#include "yielding/net.hpp"
 
 namespace carpus::simulation {
 
@@ -135,6 +136,17 @@ struct SkinView {
   Vec3 spot{};      ///< where the portal that is next goes through the skin: an aid shows it
   Vec3 landmark{};  ///< and what is felt for before it, on the skin
   bool operator==(const SkinView&) const = default;
+};
+
+/// The disc, and ligaments that yield (cases/ligament_band.hpp).
+inline constexpr std::size_t kMaxSheets = 1 + cases::kMaxBands;
+
+/// Tissue that yields, as it lies: by how much each particle is off where it was scanned, frame
+/// Bone of its first body [mm].
+struct SheetView {
+  std::array<std::array<float, 3>, yielding::kMaxParticles> off{};
+  std::uint16_t count = 0;
+  bool is_still = true;
 };
 
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
@@ -268,11 +280,8 @@ struct Snapshot {
   procedure::TubeSetting tube = procedure::kUsualTube;
   ScopeView scope;
   SkinView skin;
-  /// Of the disc's particles, by how much they are off where they rest, frame Bone of the forearm
-  /// [mm].
-  std::array<std::array<float, 3>, yielding::kMaxParticles> disc_off{};
-  std::uint16_t disc_count = 0;
-  bool is_disc_still = true;
+  std::array<SheetView, kMaxSheets> sheets{};  ///< the disc first
+  std::uint8_t sheet_count = 0;
   std::uint8_t aids = 0;  ///< bit i: procedure::Aid i was used
   std::uint32_t undos = 0;
   bool can_undo = false;

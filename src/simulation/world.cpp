@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "arthroscopy/disc_net.hpp"
 #include "core/error.hpp"
 #include "simulation/asked_portals.hpp"
 #include "simulation/c_arm_angles.hpp"
@@ -93,9 +92,13 @@ World::Model::Model(const cases::CaseData& case_data,
     }
   }
   if (map != nullptr) {
-    disc = arthroscopy::disc_net(*map, lesions ? &*lesions : nullptr);
+    sheets = detail::yielding_sheets(*map, lesions ? &*lesions : nullptr);
+    yielding::NetState disc;
+    disc.reset(sheets[detail::kDiscSheet].net);
     for (const cases::TourPoint& point : map->points) {
-      if (point.number == kHookTest) disc_edge = yielding::nearest(disc, point.at);
+      if (point.number == kHookTest) {
+        disc_edge = disc.nearest(sheets[detail::kDiscSheet].net, point.at);
+      }
     }
   }
   if (map != nullptr && declared.drill) drill = detail::drill_plan(*declared.drill, *map);
@@ -135,7 +138,10 @@ World::State::State(const Model& model)
   snapshot.mode = model.mode;
   snapshot.seed = model.seed;
   scene.set_cuts(tissue.cuts().fields());
-  disc.reset(model.disc);
+  for (std::size_t s = 0; s < model.sheets.size(); ++s) {
+    sheets[s].reset(model.sheets[s].net);
+    has_sheet_moved[s] = true;
+  }
   loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
   shaving_state = detail::untouched(model.pieces());
   cut_disc_as_shaved(model);
@@ -150,6 +156,7 @@ void World::State::open(const Model& model) noexcept {
   // PA over the forearm as it lies, as at the procedure's beginning.
   spent.c_arm.rotation_deg = room_rotation_deg(0.0, spent.wrist.pronation_rad);
   pose_bodies(model);
+  lay_sheets(model);
   Item& first = now.items[0];
   first.instrument = model.procedure.tray.front();
   first.length_mm = model.catalogue[first.instrument].length_mm;
@@ -248,6 +255,8 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   }
   obey(model, input.command);
   look_through(model, input.c_arm);
+  lay_sheets(model);
+  find_sheets(model);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;
@@ -259,7 +268,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
       move_free(model, h);
     }
   }
-  yield_disc(model);
+  if (model.map != nullptr) yield_sheets(model);
   watch_structures(model);
   watch_scopes(model);
   run_shavers(model);

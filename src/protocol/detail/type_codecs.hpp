@@ -65,6 +65,9 @@ void write(FieldWriter& out, const Portal& in);
 void read(FieldReader& in, TourPoint& out);
 void write(FieldWriter& out, const TourPoint& in);
 
+void read(FieldReader& in, YieldingSheet& out);
+void write(FieldWriter& out, const YieldingSheet& in);
+
 void read(FieldReader& in, Lesion& out);
 void write(FieldWriter& out, const Lesion& in);
 

@@ -107,7 +107,7 @@ void World::State::publish_state(const Model& model) noexcept {
   while (current < steps.size() && (now.completed_steps >> current & 1U) != 0) ++current;
   snapshot.step = static_cast<std::uint8_t>(spent.ended != 0 ? steps.size() : current);
   for (std::size_t i = 0; i < kMaxItems; ++i) publish_item(model, i);
-  if (model.map != nullptr) publish_disc(model);
+  if (model.map != nullptr) publish_sheets(model);
   for (std::size_t b = 0; b < snapshot.body_count; ++b) snapshot.patient_from_bone[b] = poses[b];
   snapshot.wrist = spent.wrist;
   if (snapshot.tissue_revision != spent.tissue_revision ||
@@ -153,7 +153,9 @@ void World::State::update_hash(const Model& model) noexcept {
   // Nor do procedures in which nothing enters joints.
   if (model.map != nullptr) {
     visit(scope_state, fields);
-    yielding::NetState::visit(disc, model.disc.size(), fields);
+    for (std::size_t s = 0; s < model.sheets.size(); ++s) {
+      yielding::NetState::visit(sheets[s], model.sheets[s].net.size(), fields);
+    }
     if (scope_state.look_count > 0) detail::visit_look(looks[scope_state.look_count - 1], fields);
     if (model.procedure.drill) visit(drill_state, fields);
     if (model.float_count > 0) visit(loose_state, fields);

@@ -13,6 +13,7 @@
 #include "cases/joint_lesions.hpp"
 #include "procedure/operation_record.hpp"
 #include "simulation/detail/operation_state.hpp"
+#include "simulation/detail/yielding_sheet.hpp"
 
 namespace carpus::simulation::detail {
 
@@ -44,10 +45,11 @@ struct ScopeState {
   std::uint32_t look_count = 0;
   std::array<std::uint32_t, cases::kMaxLesions> lesion_ticks{};  ///< since it came into view
   std::uint32_t lesions_seen = 0;
-  std::array<double, kHands> gives_mm{};  ///< by which the disc has yielded to the tip
-  std::array<Vec3, kHands> grip{};        ///< from the tip to what is hooked, when it was
-  std::array<Vec3, kHands> felt{};        ///< force on each hand, of the tick before [N]
-  std::array<bool, kHands> has_edge{};    ///< the probe's hook has touched its ulnar edge
+  std::array<double, kHands> gives_mm{};  ///< by which a sheet has yielded to the tip
+  std::array<std::uint8_t, kHands> gives_on{kNoSheet, kNoSheet};  ///< which
+  std::array<Vec3, kHands> grip{};      ///< from the tip to what is hooked, when it was
+  std::array<Vec3, kHands> felt{};      ///< force on each hand, of the tick before [N]
+  std::array<bool, kHands> has_edge{};  ///< the probe's hook has touched its ulnar edge
   std::array<std::uint16_t, kHands> hooked{kNothingHooked, kNothingHooked};  ///< its particle
   cases::Grades answers = cases::not_judged();
 };
@@ -62,6 +64,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(state.last_tip[h]);
     v(state.path_mm[h]);
     v(state.gives_mm[h]);
+    v(state.gives_on[h]);
     v(state.grip[h]);
     v(state.felt[h]);
     v(state.has_edge[h]);
@@ -104,7 +107,8 @@ void visit_look(SomeLook& look, Visitor&& v) noexcept {
   for (std::size_t h = 0; h < kHands; ++h) {
     is_sound = is_sound && (state.portal[h] == kNoPortal || state.portal[h] < portals) &&
                (!state.is_in_joint[h] || state.portal[h] != kNoPortal) && state.path_mm[h] >= 0.0 &&
-               state.gives_mm[h] >= 0.0;
+               state.gives_mm[h] >= 0.0 &&
+               (state.gives_on[h] == kNoSheet || state.gives_on[h] < kMaxSheets);
   }
   return is_sound;
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What enters joints: it goes in by a portal, whose hole in the skin it pivots in, and stops at the
-// walls of the joint's space, which are rigid. What the scope shows for how long; how it was led.
+// walls of the joint's space, which are rigid but for what yields (yielding_sheets). What the scope
+// shows for how long; how it was led.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -99,11 +100,14 @@ World::State::Wall World::State::wall_at(const Model& model,
   }
   const arthroscopy::OpenedSpace space =
       joint_space_at(model, model.map->portals[portal].joint, tip);
-  const double gives = scope_state.gives_mm[hand];  // where the disc is under it
-  if (space.is_near && space.distance_mm <= kWallMm + gives) return {};
+  const auto sheet = sheet_at(model, hand, tip, space.outwards);
+  const bool is_clear =
+      sheet ? sheet->depth_mm <= 0.0 : space.is_near && space.distance_mm <= kWallMm;
+  if (is_clear) return {};
   const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
   if (is_in_hole(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
   if (is_in_cut_disc(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
+  if (sheet) return *sheet;
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
   const Vec3 aside = tip - way.skin - way.inwards * deep;
@@ -113,7 +117,7 @@ World::State::Wall World::State::wall_at(const Model& model,
   const bool is_in = scope_state.is_in_joint[hand];
   if (!is_in && deep <= way.capsule_mm) return {off - kTunnelMm, aside * (-1.0 / off)};
   if (squared_length(space.outwards) > 0.5) {
-    return {space.distance_mm - kWallMm - gives, -space.outwards};
+    return {space.distance_mm - kWallMm, -space.outwards};
   }
   return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }

@@ -12,6 +12,7 @@ namespace carpus::simulation {
 using cases::TissueKind;
 using cases::TissuePiece;
 using detail::Item;
+using detail::kDiscSheet;
 using detail::kNoPortal;
 using detail::MouthPlace;
 
@@ -42,8 +43,8 @@ World::State::PieceNow World::State::piece_now(const Model& model, std::size_t i
   const double left = detail::left_share(shaving_state, model.pieces(), i);
   const detail::BodyPose& pose = poses[piece.body];
   const Vec3 inwards = (pose * Direction<frame::Bone>{piece.inwards}).v;
-  const Vec3 at = piece.kind == TissueKind::Disc && i < model.disc.size()
-                      ? disc.at(i) + piece.inwards * arthroscopy::kHalfDiscMm
+  const Vec3 at = piece.kind == TissueKind::Disc && i < model.sheets[kDiscSheet].net.size()
+                      ? sheets[kDiscSheet].at(i) + piece.inwards * arthroscopy::kHalfDiscMm
                       : piece.at;
   return {(pose * Point<frame::Bone>{at}).v, inwards, piece.height_mm * left};
 }
@@ -80,11 +81,11 @@ bool World::State::is_in_cut_disc(const Model& model,
   const Vec3 tip = (inverses[model.map->forearm] * Point<frame::Patient>{at}).v;
   bool is_over_hole = false;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Vec3 off = tip - disc.at(i);
+    const Vec3 off = tip - sheets[kDiscSheet].at(i);
     const double high = dot(off, pieces[i].inwards);
     if (high > kDeepMm || high < -kDeepMm) continue;
     const double aside2 = squared_length(off) - high * high;
-    if (disc.is_cut(i)) {
+    if (sheets[kDiscSheet].is_cut(i)) {
       is_over_hole = is_over_hole || aside2 < kThroughMm * kThroughMm;
     } else if (aside2 < radius_mm * radius_mm) {
       return false;
@@ -211,7 +212,7 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
   if (!detail::cut_piece(shaving_state, model.pieces(), piece)) return;
   const TissuePiece& cut = model.pieces()[piece];
   if (cut.kind == TissueKind::Disc) {
-    disc.cut(model.disc, piece);
+    sheets[kDiscSheet].cut(model.sheets[kDiscSheet].net, piece);
   } else if (has_fluid) {  // the disc's middle has no vessels
     bleed_into_joint(model, detail::FluidTable::generic().bleeding.tuft_ml_per_s);
   }
@@ -240,7 +241,7 @@ void World::State::cut_disc_as_shaved(const Model& model) noexcept {
   const std::span<const TissuePiece> pieces = model.pieces();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].kind == TissueKind::Disc && detail::is_gone(shaving_state, pieces, i)) {
-      disc.cut(model.disc, i);
+      sheets[kDiscSheet].cut(model.sheets[kDiscSheet].net, i);
     }
   }
 }

@@ -70,7 +70,9 @@ std::vector<std::byte> World::write_state() const {
   if (state.structures.size() > 0) visit(state.structure_state, fields);
   if (model_->map != nullptr) {
     visit(state.scope_state, fields);
-    yielding::NetState::visit(state.disc, model_->disc.size(), fields);
+    for (std::size_t s = 0; s < model_->sheets.size(); ++s) {
+      yielding::NetState::visit(state.sheets[s], model_->sheets[s].net.size(), fields);
+    }
     for (std::size_t i = 0; i < state.scope_state.look_count; ++i) {
       detail::visit_look(state.looks[i], fields);
     }
@@ -112,7 +114,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::StructureState structures;
   if (state_->structures.size() > 0) visit(structures, fields);
   detail::ScopeState scope;
-  yielding::NetState disc;
+  std::array<yielding::NetState, kMaxSheets> sheets;
   detail::DrillState drill;
   detail::LooseState loose;
   detail::ShavingState shaving;
@@ -122,8 +124,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
-    disc.reset(model_->disc);
-    yielding::NetState::visit(disc, model_->disc.size(), fields);
+    for (std::size_t s = 0; s < model_->sheets.size(); ++s) {
+      sheets[s].reset(model_->sheets[s].net);
+      yielding::NetState::visit(sheets[s], model_->sheets[s].net.size(), fields);
+    }
     is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size());
     if (is_sound) looks.resize(scope.look_count);
     for (procedure::ScopeLook& look : looks) detail::visit_look(look, fields);
@@ -176,7 +180,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->fluid = fluid;
   next->screw_state = screw;
   next->making = making;
-  if (model_->map != nullptr) next->disc = disc;
+  if (model_->map != nullptr) next->sheets = sheets;
   next->cut_disc_as_shaved(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
@@ -189,6 +193,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   const Result<std::size_t> tissue = next->tissue.cuts().read_from(body.subspan(in.at()));
   if (!tissue) return carpus::Refusal{"keyframe: " + tissue.error()};
   next->pose_bodies(*model_);
+  next->lay_sheets(*model_);
   next->carry_fixed_items();
   for (std::uint8_t h = 0; h < kHands; ++h) {
     if (const detail::Item* item = next->in_hand(h)) {

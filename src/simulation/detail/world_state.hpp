@@ -32,9 +32,10 @@
 #include "simulation/detail/skin_surface.hpp"
 #include "simulation/detail/structure_watch.hpp"
 #include "simulation/detail/tissue.hpp"
+#include "simulation/detail/yielding_sheet.hpp"
 #include "simulation/permission.hpp"
 #include "simulation/world.hpp"
-#include "yielding/yielding_net.hpp"
+#include "yielding/net_state.hpp"
 
 namespace carpus::simulation {
 
@@ -66,7 +67,7 @@ struct World::Model {
   std::size_t float_count = 0;
   std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
   std::size_t loose_count = 0;
-  yielding::Net disc;  ///< of an arthroscopy; frame Bone of the forearm
+  std::vector<detail::YieldingSheet> sheets;  ///< of an arthroscopy, the disc first; else none
   std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
   /// Of a procedure that makes portals: the skin, which portals, what is felt for before each.
   std::optional<detail::SkinSurface> skin;
@@ -97,7 +98,18 @@ struct World::State {
   double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
   detail::ScrewState screw_state;
   detail::MakingState making;
-  yielding::NetState disc;
+  std::array<yielding::NetState, kMaxSheets> sheets;  ///< as in the model
+  /// Of those between two bodies: as they were laid last. Follows from the poses.
+  std::array<Pose<frame::Bone, frame::Bone>, kMaxSheets> sheet_poses{};
+  std::array<bool, kMaxSheets> has_sheet_moved{};  ///< since it was published
+  /// What of a sheet lies under a tip, frame Bone of its first body.
+  struct UnderTip {
+    std::uint8_t sheet = detail::kNoSheet;
+    Vec3 at;
+    Vec3 out;  ///< unit, towards the tip
+    double most_gives_mm = 0.0;
+  };
+  std::array<UnderTip, kHands> under_tips{};  ///< found anew in every tick, by hand
   std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
   cases::LaidStructures structures;
   detail::Tissue tissue;
@@ -474,10 +486,29 @@ struct World::State {
                                             const detail::UnderSkin& under) const noexcept;
   [[nodiscard]] procedure::MakingFacts making_facts(const Model& model) const noexcept;
 
-  // yielding_disc.cpp
-  void yield_disc(const Model& model) noexcept;
+  // yielding_sheets.cpp
+  void lay_sheets(const Model& model) noexcept;
+  void find_sheets(const Model& model) noexcept;
+  [[nodiscard]] yielding::Tip tip_on(const Model& model,
+                                     const detail::YieldingSheet& sheet,
+                                     const detail::Item& item,
+                                     const Vec3& tip) const noexcept;
+  [[nodiscard]] UnderTip under_tip(const Model& model,
+                                   std::uint8_t s,
+                                   const yielding::Tip& tip) const noexcept;
+  [[nodiscard]] std::optional<Wall> sheet_at(const Model& model,
+                                             std::uint8_t hand,
+                                             const Vec3& tip_in_patient,
+                                             const Vec3& wall_outwards) const noexcept;
+  void yield_sheets(const Model& model) noexcept;
+  void sink_in(const Model& model, std::uint8_t hand, const yielding::Tip& tip) noexcept;
+  void publish_sheets(const Model& model) noexcept;
+
+  // disc_hook.cpp
+  [[nodiscard]] bool is_by_edge(const Model& model, std::uint8_t hand) noexcept;
+  void hook_disc(const Model& model, std::array<yielding::Tip, kHands>& tips) noexcept;
+  void let_go_of_disc(const Model& model) noexcept;
   [[nodiscard]] Vec3 hook_force(const Model& model, std::size_t hand) const noexcept;
-  void publish_disc(const Model& model) noexcept;
 
   // steps.cpp
   void tick_off_steps(const Model& model) noexcept;

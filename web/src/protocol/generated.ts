@@ -62,8 +62,11 @@ export type ScrewPlace = "inside" | "distal" | "proximal" | "side";
 /** What is wrong with a fixation. */
 export type FaultKind = "screw_out" | "gap" | "step";
 
-/** A tuft of synovium that stands on the joint's wall, or a place of the disc, in the order of disc_mm. */
+/** A tuft of synovium that stands on the joint's wall, or a place of the disc, in the order of its sheet's places. */
 export type TissueKind = "synovium" | "disc";
+
+/** Tissue of a joint's wall that yields. A disc lies on one body, a ligament between two. */
+export type SheetKind = "disc" | "ligament";
 
 /** How something that is wrong in a joint shows. */
 export type LesionLook = "stain" | "tear" | "worn" | "soft" | "fissured" | "frayed" | "bare" | "loose";
@@ -376,6 +379,17 @@ export interface TourPoint {
   readonly body: string;
 }
 
+/** A sheet of the joint's wall that yields: see the message `sheet`. Generated. */
+export interface YieldingSheet {
+  readonly id: string;
+  readonly joint: string;
+  /** whose frame its places are in */
+  readonly body: string;
+  readonly kind: SheetKind;
+  /** as scanned, before anything is wrong with it */
+  readonly places_mm: readonly Vec3[];
+}
+
 /** Something wrong in a joint, for the scope's picture: a band about the line between two places of its wall as scanned, or a ball. Generated. */
 export interface Lesion {
   readonly look: LesionLook;
@@ -552,8 +566,8 @@ export interface Arthroscopy {
   readonly distal: Vec3;
   readonly portals: readonly Portal[];
   readonly points: readonly TourPoint[];
-  /** places of the disc as scanned, which goes with the forearm and yields: see `disc` */
-  readonly disc_mm: readonly Vec3[];
+  /** the disc first, without places where the wrist has none */
+  readonly sheets: readonly YieldingSheet[];
   /** of this exercise, to be drawn and not to be told */
   readonly lesions: readonly Lesion[];
   /** none: nothing is asked */
@@ -1345,10 +1359,12 @@ export interface SkinMessage {
   readonly landmark_mm: Vec3 | null;
 }
 
-/** By how much the disc has yielded; comes when that changed. */
-export interface DiscMessage {
-  readonly type: "disc";
-  /** of each place of arthroscopy.disc_mm three, along the axes of the Patient frame as the forearm was scanned; none: it rests */
+/** Where a sheet that yields lies: dented by a tip, bulging, or with bones that have parted; comes when that changed. */
+export interface SheetMessage {
+  readonly type: "sheet";
+  /** of arthroscopy.sheets 0 to 2 */
+  readonly sheet: number;
+  /** of each of its places three, by how much it is off that, along the axes of the Patient frame as its body was scanned; none: by nothing */
   readonly off_um: readonly number[];
 }
 
@@ -1437,7 +1453,7 @@ export type HostMessage =
   | TissueMessage
   | ScopeMessage
   | SkinMessage
-  | DiscMessage
+  | SheetMessage
   | ActionsMessage
   | EventMessage
   | ScoreMessage

@@ -26,6 +26,7 @@ export const SCHEMA: Schema = {
     screw_place: { values: ["inside", "distal", "proximal", "side"] },
     fault_kind: { values: ["screw_out", "gap", "step"] },
     tissue_kind: { values: ["synovium", "disc"] },
+    sheet_kind: { values: ["disc", "ligament"] },
     lesion_look: { values: ["stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"] },
     device_health: { values: ["closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"] },
     calibration_step: { values: ["begin", "take", "cancel"] },
@@ -193,6 +194,13 @@ export const SCHEMA: Schema = {
       at_mm: {"type": "vec3", "limit": 10000},
       body: {"type": "string", "max_length": 32},
     } },
+    yielding_sheet: { fields: {
+      id: {"type": "string", "max_length": 32},
+      joint: {"type": "string", "max_length": 32},
+      body: {"type": "string", "max_length": 32},
+      kind: {"type": "sheet_kind"},
+      places_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 160},
+    } },
     lesion: { fields: {
       look: {"type": "lesion_look"},
       joint: {"type": "string", "max_length": 32},
@@ -292,7 +300,7 @@ export const SCHEMA: Schema = {
       distal: {"type": "vec3", "limit": 2},
       portals: {"type": "array", "of": {"type": "portal"}, "max_items": 16},
       points: {"type": "array", "of": {"type": "tour_point"}, "max_items": 32},
-      disc_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 160},
+      sheets: {"type": "array", "of": {"type": "yielding_sheet"}, "max_items": 3},
       lesions: {"type": "array", "of": {"type": "lesion"}, "max_items": 24},
       findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
       drill: {"type": "scope_drill", "optional": true},
@@ -712,7 +720,8 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     spot_mm: {"type": "vec3", "limit": 10000, "optional": true},
     landmark_mm: {"type": "vec3", "limit": 10000, "optional": true},
   },
-  disc: {
+  sheet: {
+    sheet: {"type": "integer", "min": 0, "max": 2},
     off_um: {"type": "array", "of": {"type": "integer", "min": -20000, "max": 20000}, "max_items": 480},
   },
   actions: {

@@ -40,7 +40,7 @@ describe("statesOf", () => {
     expect(states.every((state) => state.bodies.length === 1)).toBe(true);
   });
 
-  it("gives the scope and the disc to the snapshot that they came after, and carries them on", () => {
+  it("gives the scope and what yields to the snapshot that they came after, and carries them on", () => {
     const scope = (pullOuts: number): HostMessage =>
       ({ type: "scope", pull_outs: pullOuts }) as HostMessage;
     const states = statesOf([
@@ -49,11 +49,16 @@ describe("statesOf", () => {
       snapshot(2),
       snapshot(3),
       scope(1),
-      { type: "disc", off_um: [0, 0, -500] },
+      { type: "sheet", sheet: 1, off_um: [0, 0, -500] },
       snapshot(4),
     ]);
     expect(states.map((state) => state.scope?.pull_outs)).toEqual([0, 0, 1, 1]);
-    expect(states.map((state) => state.discUm.length)).toEqual([0, 0, 3, 3]);
+    expect(states.map((state) => state.sheetsUm.get(1))).toEqual([
+      undefined,
+      undefined,
+      [0, 0, -500],
+      [0, 0, -500],
+    ]);
   });
 });
 

@@ -18,8 +18,8 @@ export interface ReplayState {
   readonly tracks: readonly Track[];
   /** Of an arthroscopy, while a hand holds a scope. */
   readonly scope: ScopeMessage | undefined;
-  /** Of the message `disc`. */
-  readonly discUm: readonly number[];
+  /** By sheet, of the messages `sheet`. */
+  readonly sheetsUm: ReadonlyMap<number, readonly number[]>;
   /** Of a procedure that works on closed skin. */
   readonly skin: SkinMessage | undefined;
 }
@@ -42,21 +42,21 @@ export function statesOf(messages: readonly HostMessage[]): ReplayState[] {
   let bodies: readonly BodyPose[] = [];
   let tracks: readonly Track[] = [];
   let scope: ScopeMessage | undefined;
-  let discUm: readonly number[] = [];
+  let sheetsUm: ReadonlyMap<number, readonly number[]> = new Map();
   let skin: SkinMessage | undefined;
   const states: ReplayState[] = [];
   for (const message of messages) {
     if (message.type === "tissue") tracks = message.tracks;
     if (message.type === "scope") scope = message;
-    if (message.type === "disc") discUm = message.off_um;
+    if (message.type === "sheet") sheetsUm = new Map(sheetsUm).set(message.sheet, message.off_um);
     if (message.type === "skin") skin = message;
     const last = states.at(-1);
     // They come after the snapshot that they belong to.
-    const belongs = message.type === "scope" || message.type === "disc" || message.type === "skin";
-    if (last !== undefined && belongs) states[states.length - 1] = { ...last, scope, discUm, skin };
+    const belongs = message.type === "scope" || message.type === "sheet" || message.type === "skin";
+    if (last !== undefined && belongs) states[states.length - 1] = { ...last, scope, sheetsUm, skin };
     if (message.type !== "snapshot") continue;
     bodies = message.bodies ?? bodies;
-    states.push({ snapshot: message, bodies, tracks, scope, discUm, skin });
+    states.push({ snapshot: message, bodies, tracks, scope, sheetsUm, skin });
   }
   return states;
 }

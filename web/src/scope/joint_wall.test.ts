@@ -4,6 +4,7 @@ import * as THREE from "three";
 import { describe, expect, it } from "vitest";
 import type { BodyPose } from "../protocol";
 import { jointWallOf } from "./joint_wall";
+import type { SheetPlan } from "./wall_sheet";
 
 /** Four vertices a millimetre apart: disc, disc, ligament far off, cartilage; all with body 0. */
 function wall() {
@@ -25,6 +26,16 @@ function wall() {
   return made;
 }
 
+/** A disc of these places, on body 0. */
+const disc = (...places: [number, number, number][]): SheetPlan => ({
+  id: "disc",
+  joint: "radiocarpal",
+  body: "radius",
+  kind: "disc",
+  places_mm: places,
+});
+const BODIES = ["radius", "lunate"];
+
 const REST: BodyPose = { quaternion: [1, 0, 0, 0], translation_mm: [0, 0, 0] };
 const at = (made: ReturnType<typeof wall>, v: number): number[] => {
   const position = made.geometry.getAttribute("position");
@@ -41,26 +52,21 @@ describe("the wall of a joint", () => {
 
   it("yields where the disc does, and nowhere else", () => {
     const made = wall();
-    made.setDisc([
-      [0, 0, -0.7],
-      [1, 0, -0.7],
-    ]);
-    made.yieldDisc([0, 0, -1000, 0, 0, -1000]);
+    made.setSheets([disc([0, 0, -0.7], [1, 0, -0.7])], BODIES);
+    expect(made.yieldSheet(0, [0, 0, -1000, 0, 0, -1000])).toBe(true);
+    expect(made.yieldSheet(1, [])).toBe(false);
     made.pose([REST, REST]);
     expect(at(made, 0)[2]).toBeCloseTo(-1, 5);
     expect(at(made, 1)[2]).toBeCloseTo(-1, 5);
     expect(at(made, 2)).toEqual([30, 0, 0]);
-    made.yieldDisc([]);
+    made.yieldSheet(0, []);
     made.pose([REST, REST]);
     expect(at(made, 0)).toEqual([0, 0, 0]);
   });
 
   it("is moved outwards where the disc was cut away, and marked as gone there", () => {
     const made = wall();
-    made.setDisc([
-      [0, 0, -0.7],
-      [1, 0, -0.7],
-    ]);
+    made.setSheets([disc([0, 0, -0.7], [1, 0, -0.7])], BODIES);
     const gone = (v: number): number => made.geometry.getAttribute("gone").getX(v);
     expect([0, 1, 2, 3].map(gone)).toEqual([0, 0, 0, 0]);
     made.cutDisc([{ place: 0, outwards: [0, 0, -1] }]);
@@ -83,13 +89,13 @@ describe("the wall of a joint", () => {
 
   it("is whole again in the next exercise, and where cutting was undone", () => {
     const made = wall();
-    made.setDisc([[0, 0, -0.7]]);
+    made.setSheets([disc([0, 0, -0.7])], BODIES);
     for (const mend of [
       () => {
         made.cutDisc([]);
       },
       () => {
-        made.setDisc([[0, 0, -0.7]]);
+        made.setSheets([disc([0, 0, -0.7])], BODIES);
       },
     ]) {
       made.cutDisc([{ place: 0, outwards: [0, 0, -1] }]);
@@ -104,8 +110,8 @@ describe("the wall of a joint", () => {
 
   it("turns what has yielded with the forearm", () => {
     const made = wall();
-    made.setDisc([[0, 0, 0]]);
-    made.yieldDisc([0, 0, -1000]);
+    made.setSheets([disc([0, 0, 0])], BODIES);
+    made.yieldSheet(0, [0, 0, -1000]);
     const half = Math.SQRT1_2; // a quarter turn about x: -z becomes +y
     made.pose([{ quaternion: [half, half, 0, 0], translation_mm: [0, 0, 0] }, REST]);
     expect(at(made, 0)[1]).toBeCloseTo(1, 5);

@@ -5,6 +5,7 @@
 // Generated, not seen in the CT.
 import * as THREE from "three";
 import type { BodyPose, Vec3 } from "../protocol";
+import { WallSheet, type SheetPlan } from "./wall_sheet";
 
 /** As soft_tissue::Lining counts: synovium, bone, cartilage, disc, ligament. */
 const LININGS = 5;
@@ -19,22 +20,18 @@ export interface JointWall {
   readonly middle: THREE.Vector3;
   /** Lays it where the bones are now. @param poses  of the bodies, in the case's order */
   pose(poses: readonly BodyPose[]): void;
-  /** Places of the disc as scanned that yield. */
-  setDisc(placesMm: readonly Vec3[]): void;
-  /** Which of these places a shaver has taken away, and which way is out of the joint there. */
+  /** What of it yields. @param bodies  names, in the case's order */
+  setSheets(plans: readonly SheetPlan[], bodies: readonly string[]): void;
+  /** Which places of the disc a shaver has taken away, and which way is out of the joint there. */
   cutDisc(places: readonly { readonly place: number; readonly outwards: Vec3 }[]): void;
-  /** By how much they are off, three micrometres each; empty: they rest. */
-  yieldDisc(offUm: readonly number[]): void;
+  /** As of the message `sheet`. @returns whether that sheet is part of this wall */
+  yieldSheet(sheet: number, offUm: readonly number[]): boolean;
 }
 
 /** What lines the disc's side of the joint. */
 const DISC = 3;
-/** A vertex goes with so many places of the disc, by how near they are. */
-const PLACES = 4;
-/** ... and less, the farther its nearest is [mm]. */
-const DISC_REACH_MM = 2.5;
-/** So far under the disc the ulna's head lies [mm]. */
-const UNDER_MM = 1.7;
+/** Of the plan's sheets the disc is the first. */
+const DISC_SHEET = 0;
 
 /** @param surface  of the node, in Patient [mm]. undefined where it is no joint's wall. */
 export function jointWallOf(joint: string, surface: THREE.BufferGeometry): JointWall | undefined {
@@ -79,42 +76,15 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
   };
   geometry.computeBoundingSphere();
   const isDisc = Array.from({ length: count }, (_, v) => Math.round(lining.getX(v)) === DISC);
-  let bound: readonly Bound[] = [];
-  let off: readonly number[] = [];
-  let cut: ReadonlyMap<number, Vec3> = new Map();
+  let sheets: readonly (WallSheet | undefined)[] = [];
   const gone = new THREE.BufferAttribute(new Float32Array(count), 1);
   geometry.setAttribute("gone", gone);
-  const yielded = new THREE.Vector3();
-  /** Turned as the forearm is. */
-  const addYield = (poses: readonly BodyPose[]): void => {
-    if (off.length === 0 && cut.size === 0) return;
-    for (const { vertex, places, weights } of bound) {
-      yielded.set(0, 0, 0);
-      places.forEach((place, i) => {
-        const outwards = cut.get(place);
-        if (outwards !== undefined) {
-          const deep = UNDER_MM * (weights[i] ?? 0);
-          yielded.x += deep * outwards[0];
-          yielded.y += deep * outwards[1];
-          yielded.z += deep * outwards[2];
-        }
-        const w = (weights[i] ?? 0) / 1000;
-        yielded.x += w * (off[3 * place] ?? 0);
-        yielded.y += w * (off[3 * place + 1] ?? 0);
-        yielded.z += w * (off[3 * place + 2] ?? 0);
-      });
-      const pose = poses[proximal.getX(vertex)];
-      if (pose !== undefined) {
-        const [w, x, y, z] = pose.quaternion;
-        yielded.applyQuaternion(turn.set(x, y, z, w));
-      }
-      position.setXYZ(
-        vertex,
-        position.getX(vertex) + yielded.x,
-        position.getY(vertex) + yielded.y,
-        position.getZ(vertex) + yielded.z,
-      );
-    }
+  const normals = (): Float32Array => {
+    const scanned = new THREE.BufferGeometry();
+    scanned.setAttribute("position", new THREE.BufferAttribute(rest, 3));
+    scanned.setIndex(surface.getIndex());
+    scanned.computeVertexNormals();
+    return new Float32Array(scanned.getAttribute("normal").array);
   };
   return {
     joint,
@@ -127,70 +97,31 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
         at(poses[distal.getX(v)], v, moved[1]);
         moved[0].lerp(moved[1], share.getX(v)).toArray(position.array, 3 * v);
       }
-      addYield(poses);
+      for (const sheet of sheets) sheet?.addTo(position.array as Float32Array, rest, poses);
       position.needsUpdate = true;
       geometry.computeVertexNormals();
       geometry.computeBoundingSphere();
     },
-    setDisc: (placesMm) => {
-      bound = placesMm.length === 0 ? [] : boundTo(rest, isDisc, placesMm);
-      off = [];
-      cut = new Map();
+    setSheets: (plans, bodies) => {
+      const wall = { rest, normals: normals(), isDisc };
+      sheets = plans.map((plan) =>
+        plan.joint === joint ? new WallSheet(wall, plan, bodies.indexOf(plan.body)) : undefined,
+      );
       gone.array.fill(0);
       gone.needsUpdate = true;
     },
     cutDisc: (places) => {
-      if (places.length === cut.size) return;
-      cut = new Map(places.map(({ place, outwards }) => [place, outwards]));
+      const disc = sheets[DISC_SHEET];
+      if (disc?.cutAway(places) !== true) return;
       gone.array.fill(0);
-      for (const { vertex, places: near, weights } of bound) {
-        let share = 0;
-        near.forEach((place, i) => {
-          if (cut.has(place)) share += weights[i] ?? 0;
-        });
-        gone.setX(vertex, share);
-      }
+      disc.markGone(gone);
       gone.needsUpdate = true;
     },
-    yieldDisc: (offUm) => {
-      off = offUm;
+    yieldSheet: (sheet, offUm) => {
+      sheets[sheet]?.yield(offUm);
+      return sheets[sheet] !== undefined;
     },
   };
-}
-
-interface Bound {
-  readonly vertex: number;
-  readonly places: readonly number[];
-  /** Of each, 1 in all, less far from the disc. */
-  readonly weights: readonly number[];
-}
-
-/** The wall near the disc, each vertex with the places that it goes with. */
-function boundTo(
-  rest: Float32Array,
-  isDisc: readonly boolean[],
-  placesMm: readonly Vec3[],
-): readonly Bound[] {
-  const all: Bound[] = [];
-  for (let vertex = 0; 3 * vertex < rest.length; ++vertex) {
-    const [x, y, z] = [rest[3 * vertex] ?? 0, rest[3 * vertex + 1] ?? 0, rest[3 * vertex + 2] ?? 0];
-    const near = placesMm
-      .map((place, i) => ({ i, mm: Math.hypot(place[0] - x, place[1] - y, place[2] - z) }))
-      .sort((a, b) => a.mm - b.mm)
-      .slice(0, PLACES);
-    const nearest = near[0]?.mm ?? Infinity;
-    if (nearest > DISC_REACH_MM || (isDisc[vertex] !== true && nearest > 0.6 * DISC_REACH_MM))
-      continue;
-    const parts = near.map(({ mm }) => 1 / (mm * mm + 0.04));
-    const sum = parts.reduce((a, b) => a + b, 0);
-    const goes = isDisc[vertex] === true ? 1 : 0.5;
-    all.push({
-      vertex,
-      places: near.map(({ i }) => i),
-      weights: parts.map((part) => (goes * part) / sum),
-    });
-  }
-  return all;
 }
 
 /** Cartilage, disc, ligament, bone; what is left is synovium. Smoothed, so that one runs into another. */

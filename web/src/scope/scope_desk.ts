@@ -6,10 +6,10 @@
 // really is, where the scope looks and what was seen, it says.
 import { make } from "../dom";
 import type {
-  DiscMessage,
   ExerciseMessage,
   HandMessage,
   ScopeMessage,
+  SheetMessage,
   SnapshotMessage,
 } from "../protocol";
 import { add, dot, scaled, subtract } from "../tool_placement";
@@ -158,7 +158,7 @@ export class ScopeDesk {
     this.picture.setScrew(this.plan.screw, bodies);
     this.picture.setBeads([]);
     this.findings.set(this.plan.findings, this.plan.screw);
-    for (const wall of this.walls) if (wall.joint === DISC_JOINT) wall.setDisc(this.plan.disc_mm);
+    for (const wall of this.walls) wall.setSheets(this.plan.sheets, bodies);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
     this.controls.classList.toggle("grasps", this.tools.kind === "grasper");
     this.controls.classList.toggle("shaves", this.tools.kind === "shaver");
@@ -211,10 +211,10 @@ export class ScopeDesk {
     this.posed.delete(DISC_JOINT);
   }
 
-  seeDisc(message: DiscMessage): void {
-    const wall = this.walls.find((one) => one.joint === DISC_JOINT);
-    wall?.yieldDisc(message.off_um);
-    this.posed.delete(DISC_JOINT);
+  seeSheet({ sheet, off_um: offUm }: SheetMessage): void {
+    for (const wall of this.walls) {
+      if (wall.yieldSheet(sheet, offUm)) this.posed.delete(wall.joint);
+    }
   }
 
   /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */

@@ -16,8 +16,8 @@ export interface ScopeMoment {
   readonly snapshot: SnapshotMessage;
   readonly bodies: readonly BodyPose[];
   readonly scope: ScopeMessage | undefined;
-  /** As of the message `disc`. */
-  readonly discUm: readonly number[];
+  /** By sheet, as of the messages `sheet`. */
+  readonly sheetsUm: ReadonlyMap<number, readonly number[]>;
 }
 
 export class ScopeReplay {
@@ -44,7 +44,7 @@ export class ScopeReplay {
     const bodies = exercise.bodies.map((one) => one.name);
     this.picture.setWrong(plan.lesions, plan.pieces, bodies);
     this.picture.setScrew(plan.screw, bodies);
-    for (const wall of walls) if (wall.joint === DISC_JOINT) wall.setDisc(plan.disc_mm);
+    for (const wall of walls) wall.setSheets(plan.sheets, bodies);
     const scope = exercise.instruments.find((one) => one.id === plan.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.element = make("div.scope-replay", {}, this.picture.canvas, this.outside);
@@ -81,10 +81,8 @@ export class ScopeReplay {
     setText(this.caption, `${where}, ${seen} of ${this.plan.points.length} places seen`);
     if (!isIn || item === undefined || portal === undefined) return;
     for (const wall of this.walls) {
-      if (wall.joint === DISC_JOINT) {
-        wall.cutDisc(cutPlaces(this.plan, scope.pieces_left));
-        wall.yieldDisc(moment.discUm);
-      }
+      if (wall.joint === DISC_JOINT) wall.cutDisc(cutPlaces(this.plan, scope.pieces_left));
+      for (const [sheet, offUm] of moment.sheetsUm) wall.yieldSheet(sheet, offUm);
       if (wall.joint === portal.joint) wall.pose(bodies);
     }
     this.picture.lay(portal.joint, bodies);

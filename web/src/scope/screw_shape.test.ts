@@ -31,9 +31,9 @@ function flatWall(z: number): JointWall {
     triangles: 2,
     middle: new THREE.Vector3(),
     pose: () => undefined,
-    setDisc: () => undefined,
+    setSheets: () => undefined,
     cutDisc: () => undefined,
-    yieldDisc: () => undefined,
+    yieldSheet: () => false,
   };
 }
 

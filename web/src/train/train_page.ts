@@ -511,8 +511,8 @@ export class TrainPage {
         this.skin.take(message);
         this.theatre.showSkinWork(message);
         break;
-      case "disc":
-        this.scope.seeDisc(message);
+      case "sheet":
+        this.scope.seeSheet(message);
         break;
       case "actions":
         this.seen.takeActions(message);

@@ -1,6 +1,6 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-#include "yielding/yielding_net.hpp"
+#include "yielding/net_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,11 +14,15 @@
 #include <vector>
 
 #include "core/rng.hpp"
+#include "yielding/net_of_sheet.hpp"
+#include "yielding/net_test_support.hpp"
 
 namespace carpus::yielding {
 namespace {
 
-constexpr Material kMaterial{20.0, 0.3, 0.8, 60.0};
+using test::depth_under;
+
+constexpr SheetMaterial kMaterial{20.0, 0.3, 0.8, 60.0};
 
 /// A square sheet in z = 0, `half` mm to each side of the origin.
 TriangleMesh square(double half, int cells) {
@@ -38,20 +42,14 @@ TriangleMesh square(double half, int cells) {
   return mesh;
 }
 
-Net sheet() { return Net(square(5, 10), {0, 0, 1}, kMaterial, 0.9); }
+Net sheet(const ComeOff* off = nullptr) {
+  return net_of_sheet(square(5, 10), {0, 0, 1}, kMaterial, 0.9, off);
+}
 
-/// A tip of 1 mm that is pressed on by so much until it rests: how deep it is.
-double depth_under(const Net& net, const Vec3& at, double newtons, NetState& state) {
-  double depth = 0;
-  for (int tick = 0; tick < 2000; ++tick) {
-    Tip tip;
-    tip.is_there = true;
-    tip.radius_mm = 1;
-    tip.at = at + Vec3{0, 0, 1.0 - depth};
-    state.step(net, std::span<const Tip>(&tip, 1));
-    depth += 0.01 * (newtons - state.force_on(0).z);
-  }
-  return depth;
+std::size_t nearest_of(const Net& net, const Vec3& at) {
+  const auto state = std::make_unique<NetState>();
+  state->reset(net);
+  return state->nearest(net, at);
 }
 
 TEST(YieldingNet, ParticlesLieOnTheSheetAtLeastTheSpacingApartAndItsRimIsHeld) {
@@ -83,35 +81,7 @@ TEST(YieldingNet, PressedMoreItGivesMoreAndBearsWhatPresses) {
 
 /// Without input the energy never grows, from any state, and it rests within 2 s.
 TEST(YieldingNet, LeftToItselfItOnlyLosesEnergyAndComesToRest) {
-  const Net net = sheet();
-  const auto state = std::make_unique<NetState>();
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Rng rng(seed);
-    state->reset(net);
-    // Thrown about by two tips for a tenth of a second.
-    for (int tick = 0; tick < 100; ++tick) {
-      std::array<Tip, 2> tips;
-      for (Tip& tip : tips) {
-        tip.is_there = true;
-        tip.radius_mm = rng.uniform(0.5, 2.0);
-        tip.at = {rng.uniform(-4, 4), rng.uniform(-4, 4), rng.uniform(-2, 1)};
-        if (rng.uniform() < 0.2) tip.hooked = rng.below(net.size());
-      }
-      state->step(net, tips);
-    }
-    double energy = state->energy_n_mm(net);
-    EXPECT_GT(energy, 0);
-    int ticks = 0;
-    while (!state->is_still() && ticks < 4000) {
-      state->step(net, {});
-      const double now = state->energy_n_mm(net);
-      ASSERT_LE(now, energy) << "seed " << seed << ", tick " << ticks;
-      energy = now;
-      ++ticks;
-    }
-    EXPECT_LT(ticks, 2000) << "seed " << seed;
-    EXPECT_EQ(energy, 0);
-  }
+  test::only_loses_energy_and_rests(sheet(), {}, 4);
 }
 
 TEST(YieldingNet, TheSameTipsGiveTheSameBits) {
@@ -131,9 +101,9 @@ TEST(YieldingNet, TheSameTipsGiveTheSameBits) {
 
 TEST(YieldingNet, WhatIsHookedFollowsAndPullsBackAndWhatHasComeOffIsSlack) {
   const Net whole = sheet();
-  Net torn = sheet();
-  torn.come_off({5, -3, 0}, {5, 3, 0}, 3, 0.05, 0);
-  const std::size_t edge = nearest(whole, {4, 0, 0});
+  const ComeOff off{{5, -3, 0}, {5, 3, 0}, 3, 0.05, 0};
+  const Net torn = sheet(&off);
+  const std::size_t edge = nearest_of(whole, {4, 0, 0});
   const auto lift_under = [&](const Net& net, double newtons) {
     const auto state = std::make_unique<NetState>();
     state->reset(net);
@@ -156,9 +126,9 @@ TEST(YieldingNet, WhatIsHookedFollowsAndPullsBackAndWhatHasComeOffIsSlack) {
 
 TEST(YieldingNet, WhatHasComeOffStandsOffWhereItRests) {
   const Net whole = sheet();
-  Net torn = sheet();
-  torn.come_off({5, 0, 0}, {5, 0, 0}, 3, 0.1, 1.3);
-  const std::size_t edge = nearest(whole, {5, 0, 0});
+  const ComeOff off{{5, 0, 0}, {5, 0, 0}, 3, 0.1, 1.3};
+  const Net torn = sheet(&off);
+  const std::size_t edge = nearest_of(whole, {5, 0, 0});
   EXPECT_NEAR(torn.rest()[edge].z, 1.3, 0.2);
   const auto state = std::make_unique<NetState>();
   state->reset(torn);
@@ -167,7 +137,7 @@ TEST(YieldingNet, WhatHasComeOffStandsOffWhereItRests) {
 
 /// The particle that is nearest to the middle, and the nearest to it.
 std::array<std::size_t, 2> neighbours_of_the_middle(const Net& net) {
-  const std::size_t middle = nearest(net, {0, 0, 0});
+  const std::size_t middle = nearest_of(net, {0, 0, 0});
   std::size_t next = net.size();
   for (std::size_t i = 0; i < net.size(); ++i) {
     const auto far = [&](std::size_t k) { return distance(net.rest()[k], net.rest()[middle]); };
@@ -192,7 +162,7 @@ TEST(YieldingNet, WhatIsCutOutBearsNothing) {
   for (int tick = 0; tick < 100; ++tick) state->step(net, std::span<const Tip>(&tip, 1));
   EXPECT_EQ(state->force_on(0), (Vec3{})) << "a tip goes through the hole";
   for (std::size_t i = 0; i < net.size(); ++i) EXPECT_EQ(state->at(i), net.rest()[i]) << i;
-  tip.hooked = nearest(net, middle);
+  tip.hooked = nearest_of(net, middle);
   tip.at = {0, 0, 2};
   ASSERT_TRUE(state->is_cut(tip.hooked));
   state->step(net, std::span<const Tip>(&tip, 1));
@@ -302,7 +272,7 @@ TEST(YieldingNet, ReadBackAndCutAgainItGoesOnToTheSameBits) {
 }
 
 TEST(YieldingNet, ASheetWithoutFacetsHasNoParticlesAndStaysStill) {
-  const Net none(TriangleMesh{}, {0, 0, 1}, kMaterial, 1);
+  const Net none = net_of_sheet(TriangleMesh{}, {0, 0, 1}, kMaterial, 1);
   EXPECT_EQ(none.size(), 0U);
   const auto state = std::make_unique<NetState>();
   state->reset(none);
@@ -310,7 +280,7 @@ TEST(YieldingNet, ASheetWithoutFacetsHasNoParticlesAndStaysStill) {
   tip.is_there = true;
   state->step(none, std::span<const Tip>(&tip, 1));
   EXPECT_TRUE(state->is_still());
-  EXPECT_EQ(nearest(none, {0, 0, 0}), kMaxParticles);
+  EXPECT_EQ(nearest_of(none, {0, 0, 0}), kMaxParticles);
 }
 
 }  // namespace

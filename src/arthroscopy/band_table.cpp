@@ -1,0 +1,89 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+#include "arthroscopy/band_table.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/json_fields.hpp"
+
+namespace carpus::data {
+std::string_view yielding_ligaments();
+}
+
+namespace carpus::arthroscopy {
+namespace {
+
+constexpr double kGreatest = 1000;  // of any figure, in its unit
+constexpr double kGreatestMm = 5;
+constexpr double kLeast = 1e-3;
+
+double marked(JsonFields& from, const std::string& figure, double greatest = kGreatest) {
+  JsonFields entry = from.object(figure);
+  const double value = entry.number("value", kLeast, greatest);
+  (void)entry.text("mark");
+  entry.refuse_unknown_fields();
+  return value;
+}
+
+TabledBand band_from(JsonFields& json) {
+  TabledBand band;
+  band.id = json.text("id");
+  band.name = json.text("name");
+  band.joint = json.text("joint");
+  band.ligaments = json.texts_or_none("ligaments");
+  if (band.ligaments.empty()) json.refuse("is made of no ligament");
+  band.spacing_mm = marked(json, "spacing_mm", kGreatestMm);
+  band.whole_n_per_mm = marked(json, "whole_n_per_mm");
+  json.refuse_unknown_fields();
+  return band;
+}
+
+BandGrade grade_from(JsonFields& json) {
+  BandGrade grade;
+  grade.id = json.text("id");
+  if (json.has("press_mm")) grade.press_mm = marked(json, "press_mm", kGreatestMm);
+  grade.tension_n_per_mm = json.number("tension_n_per_mm", 0, kGreatest);
+  grade.foundation_n_per_mm2 = json.number("foundation_n_per_mm2", kLeast, kGreatest);
+  grade.along_share = json.number("along_share", kLeast, 1);
+  grade.bulge_mm = json.number("bulge_mm", 0, kGreatestMm);
+  grade.edge_share = json.number_or("edge_share", kLeast, 1, 0);
+  (void)json.text_or("mark", "");
+  json.refuse_unknown_fields();
+  return grade;
+}
+
+}  // namespace
+
+const BandGrade* BandTable::grade(std::string_view id) const noexcept {
+  for (const BandGrade& each : grades) {
+    if (each.id == id) return &each;
+  }
+  return nullptr;
+}
+
+BandTable BandTable::parse(std::string_view json_text) {
+  constexpr const char* kFile = "yielding_ligaments.json";
+  const nlohmann::json root = parse_json_text(json_text, kFile);
+  JsonFields json(root, kFile, "table");
+  BandTable table;
+  (void)json.text("doc");
+  (void)json.number("schema_version", 1, 1);
+  (void)json.text("fit_mark");
+  for (JsonFields& each : json.objects("bands")) table.bands.push_back(band_from(each));
+  table.on_wall_mm = marked(json, "on_wall_mm", kGreatestMm);
+  table.aside_share = marked(json, "aside_share", 1);
+  table.mass_g_per_mm2 = marked(json, "mass_g_per_mm2");
+  table.damping_per_s = marked(json, "damping_per_s");
+  for (JsonFields& each : json.objects("grades")) table.grades.push_back(grade_from(each));
+  if (table.grades.empty() || table.grades.front().id != "0") json.refuse("grades: the first is 0");
+  json.refuse_unknown_fields();
+  return table;
+}
+
+const BandTable& BandTable::generic() {
+  static const BandTable kTable = parse(data::yielding_ligaments());
+  return kTable;
+}
+
+}  // namespace carpus::arthroscopy

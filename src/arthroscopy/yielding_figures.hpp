@@ -1,0 +1,41 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How tissue that yields feels on a case, to be printed beside what is published: how deep a probe
+// presses it in, what it bears along its fibres.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/arthroscopic_map.hpp"
+#include "yielding/net.hpp"
+
+namespace carpus::arthroscopy {
+
+/// How deep a probe of 1 mm presses the net in, at the place nearest to `at`, until the tissue
+/// bears so much [mm]. @param half_thick_mm  the net lies so deep under what is touched
+[[nodiscard]] double pressed_in_mm(const yielding::Net& net,
+                                   const Vec3& at,
+                                   double half_thick_mm,
+                                   double newtons);
+
+/// One ligament at one grade; under 1 N.
+struct BandFigures {
+  std::string band;
+  std::string grade;
+  double press_mm = 0;              ///< in its middle
+  std::optional<double> wanted_mm;  ///< what it is fitted to
+  double bulge_mm = 0;              ///< as it rests
+  double fibres_n_per_mm = 0;       ///< of its fibres in data, at this grade
+  double along_n_per_mm = 0;        ///< what the net bears
+  double whole_n_per_mm = 0;        ///< published, of the ligament with what no scope sees
+  std::size_t particles = 0;
+  std::size_t springs = 0;
+};
+
+/// Of every ligament that yields, whole and attenuated.
+[[nodiscard]] std::vector<BandFigures> band_figures(const cases::ArthroscopicMap& map);
+
+}  // namespace carpus::arthroscopy
