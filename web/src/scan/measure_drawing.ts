@@ -100,11 +100,13 @@ export function drawCut({ context, view, width, height }: Sheet, line: CutLine):
   context.strokeStyle = context.fillStyle = COLOR;
   const trace = traceOfCut(line, view, width, height);
   if (trace === undefined) {
-    drawDot(context, pixelOf(view, width, height, line.a));
+    // Its first end, while the second lies on it; a slice along the cut shows nothing.
+    const isHome = dot(line.away, view.plane.away) > 0.999;
+    if (isHome) drawDot(context, pixelOf(view, width, height, line.a));
     return;
   }
   context.lineWidth = 1.5;
-  context.globalAlpha = trace.ends === undefined ? 0.6 : 0.8;
+  context.globalAlpha = 0.8;
   context.setLineDash([5, 5]);
   drawPath(context, [trace.from, trace.to]);
   context.setLineDash([]);

@@ -140,6 +140,18 @@ describe("labels that are mended", () => {
     expect(paint.canUndo).toBe(false);
     expect(volume.values).toEqual(before);
   });
+  it("are known as they were before the last change", () => {
+    const volume = labels((x) => (x > 10 ? 2 : 1));
+    const paint = new LabelPaint(volume);
+    paint.merge(2, 1);
+    const before = volume.values.slice();
+    paint.begin();
+    paint.stroke(middle, middle, 2, 5);
+    paint.end();
+    const now = volume.values.slice();
+    expect(paint.beforeLatest()).toEqual(before);
+    expect(volume.values).toEqual(now);
+  });
   it("are counted, whatever is done to them", () => {
     const volume = labels((x, y) => (x > 10 ? 2 : y > 15 ? 1 : 0));
     const paint = new LabelPaint(volume);

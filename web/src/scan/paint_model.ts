@@ -107,6 +107,16 @@ export class LabelPaint {
     return this.done.at(-1)?.mark;
   }
 
+  /** A copy of the labels as they were before the last change that was not taken back. */
+  beforeLatest(): Uint8Array {
+    const before = this.values.slice();
+    const change = this.done.at(-1);
+    change?.indices.forEach((i, k) => {
+      before[i] = change.before[k] ?? 0;
+    });
+    return before;
+  }
+
   undo(): boolean {
     this.end();
     const change = this.done.pop();

@@ -298,7 +298,8 @@ export class PaintTools {
     if (!this.isPainting) return;
     this.isPainting = false;
     this.stroke?.end();
-    this.changed(this.stroke?.kind.grows);
+    // Where it changed nothing it marked nothing.
+    this.changed(this.stroke?.isLatest === true && this.stroke.kind.grows);
   }
 
   fill(): void {
