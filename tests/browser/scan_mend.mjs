@@ -260,6 +260,26 @@ async function tellsCasesApart(page, station) {
   await page.unroute("**/api/cases");
 }
 
+/** For a picture of it: HU in the capitate, and the hamate about to be cut. */
+export async function showMending(page) {
+  await page.locator(".scan-reading:not(:empty)").waitFor();
+  await take(page, "hamate", "coronal");
+  await times(page, 4, "+");
+  const drag = async (key, plane, from, to) => {
+    await page.keyboard.press(key);
+    const box = await picture(page, plane).boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x + from[0], y + from[1]);
+    await page.mouse.down();
+    await page.mouse.move(x + to[0], y + to[1], { steps: 3 });
+    await page.mouse.up();
+  };
+  await drag("r", "axial", [0, 0], [24, 8]);
+  await drag("k", "coronal", [-60, 20], [60, 50]);
+  await page.mouse.move(5, 5);
+  await page.waitForTimeout(2500);
+}
+
 /** On a page that shows a whole case's scan. */
 export async function mendsScan(page, station) {
   await check(page, "a bone is cut and split by lines that are seen", () =>

@@ -11,6 +11,7 @@ export class BoneList {
   readonly element = make("ul.scan-bones", { "aria-label": "Bones" });
   private readonly items = new Map<number, HTMLButtonElement>();
   private shown = "";
+  private inHand: number | undefined;
 
   constructor(
     private readonly colors: Uint32Array,
@@ -37,6 +38,9 @@ export class BoneList {
       else item.removeAttribute("aria-current");
       if (inHand !== undefined) item.setAttribute("aria-pressed", String(of === inHand));
     }
+    if (inHand === undefined || inHand === this.inHand) return;
+    this.inHand = inHand;
+    this.items.get(inHand)?.scrollIntoView({ block: "nearest" });
   }
 
   private line(bone: BoneNow): HTMLElement {

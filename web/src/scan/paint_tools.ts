@@ -27,6 +27,8 @@ export interface PaintWishes {
   say(text: string): void;
   /** The labels as they are now, packed, for a new version of the case; undefined for who may make none. */
   readonly makeVersion: ((labels: Blob) => Promise<void>) | undefined;
+  /** A tool is in the hand: nothing else can be. */
+  taken(): void;
   /** A bone has voxels now that had none, or the other way. */
   bonesChanged(): void;
   /** Shows mended surfaces, made by the host of this case; undefined for who may not ask it for any. */
@@ -217,7 +219,10 @@ export class PaintTools {
   take(tool: PaintTool | undefined): void {
     this.tool = tool;
     this.reassign.dropLine();
-    if (tool !== undefined) this.open();
+    if (tool !== undefined) {
+      this.wishes.taken();
+      this.open();
+    }
     this.wishes.say(tool === undefined ? "" : (SAID[tool] ?? ""));
     this.show();
   }

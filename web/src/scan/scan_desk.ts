@@ -104,6 +104,9 @@ export class ScanDesk {
         makeVersion: data.mayAdd
           ? (labels) => this.newCase.makeVersion(this.data.id, labels)
           : undefined,
+        taken: () => {
+          this.measures.putDown();
+        },
         bonesChanged: () => {
           this.list.show(this.bonesNow());
           this.ask();
