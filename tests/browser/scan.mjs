@@ -9,6 +9,7 @@ import { gunzipSync } from "node:zlib";
 import { expectAccessible } from "./accessibility.mjs";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { mendsScan } from "./scan_mend.mjs";
 
 const reading = (page) => page.textContent(".scan-reading");
 
@@ -132,6 +133,9 @@ export async function lookAtScan(browser, station) {
         await page.keyboard.press("v");
       },
     );
+    const began = Date.now();
+    await mendsScan(page, station);
+    console.log(`     mended in ${((Date.now() - began) / 1000).toFixed(1)} s`);
     await check(page, "nothing went wrong on the scan's page", () => {
       expect(problems.length === 0, problems.join(" | "));
     });

@@ -3,4 +3,5 @@
 //
 // What the host tells about the case, its procedures and past attempts over HTTP.
 export * from "./case_client";
+export * from "./case_titles_model";
 export * from "./wanted_case_model";

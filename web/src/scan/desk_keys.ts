@@ -85,6 +85,9 @@ function actOfCode(event: KeyboardEvent, acts: DeskActs): (() => void) | undefin
     KeyN: () => {
       acts.measure("angle");
     },
+    KeyR: () => {
+      acts.measure("region");
+    },
     KeyP: acts.turnPlanes,
     Backspace: acts.dropMeasure,
     Escape: acts.putDown,

@@ -2,25 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Distance of two places and angle of three, in space: what is clicked in one picture and what in another
-// belong together.
+// belong together. The HU of a circle are of one slice.
 import type { Vec3 } from "../protocol";
 import { along, dot } from "./planes_model";
+import { regionLines, type Region, type RegionValues } from "./region_model";
 
-export type MeasureKind = "distance" | "angle";
+export type MeasureKind = "distance" | "angle" | "region";
 
 export interface Measure {
   readonly kind: MeasureKind;
+  /** Of a region its middle and a place on its rim. */
   readonly places: readonly Vec3[];
+  readonly region?: Region & { readonly values: RegionValues };
 }
 
-export const placesNeeded = (kind: MeasureKind): number => (kind === "distance" ? 2 : 3);
+export const placesNeeded = (kind: MeasureKind): number => (kind === "angle" ? 3 : 2);
 
 export function isWhole({ kind, places }: Measure): boolean {
   return places.length === placesNeeded(kind);
 }
 
-/** "12.3 mm" or "47.1°"; empty while places are missing or lie on each other. */
+/** "12.3 mm" or "47.1°", of a region two lines; empty while places are missing or lie on each other. */
 export function measureText(measure: Measure): string {
+  const { region } = measure;
+  if (measure.kind === "region") {
+    return region === undefined ? "" : regionLines(region, region.values).join("\n");
+  }
   const [a, b, c] = measure.places;
   if (a === undefined || b === undefined) return "";
   const one = along(a, -1, b);

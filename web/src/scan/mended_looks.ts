@@ -29,7 +29,8 @@ export class MendedLooks {
   private readonly values: Uint8Array;
   private looked: Uint8Array;
   private lookedPacked: Blob | undefined;
-  private wanted: { readonly grows: boolean } | undefined;
+  /** `unmarked`: the labels before what the marker marked since; undefined where it was not used. */
+  private wanted: { readonly unmarked: Uint8Array | undefined } | undefined;
   private running: Promise<void> | undefined;
   private readonly abort = new AbortController();
   private isHeld = false;
@@ -50,9 +51,10 @@ export class MendedLooks {
     this.abort.abort();
   }
 
-  /** @param grows  by the marker: its bone's border is to be found */
+  /** @param grows  the latest change is the marker's: its bone's border is to be found */
   changed(grows: boolean): void {
-    this.wanted = { grows: grows || this.wanted?.grows === true };
+    const marked = this.wanted?.unmarked;
+    this.wanted = { unmarked: marked ?? (grows ? this.paint.beforeLatest() : undefined) };
     if (this.running !== undefined || this.isHeld) return;
     this.running = this.run().finally(() => {
       this.running = undefined;
@@ -78,7 +80,13 @@ export class MendedLooks {
       if (wanted === undefined || this.isHeld || this.abort.signal.aborted) return;
       this.wanted = undefined;
       try {
-        await this.look(wanted.grows);
+        const { unmarked } = wanted;
+        // What was done before is no marker, however soon the marker follows.
+        if (unmarked !== undefined) {
+          await this.look(unmarked, false);
+          this.wanted = undefined; // what came meanwhile is in what follows
+        }
+        await this.look(this.values.slice(), unmarked !== undefined);
       } catch (error) {
         if (this.abort.signal.aborted) return;
         const why = error instanceof Error ? error.message : String(error);
@@ -87,9 +95,8 @@ export class MendedLooks {
     }
   }
 
-  private async look(grows: boolean): Promise<void> {
+  private async look(sent: Uint8Array, grows: boolean): Promise<void> {
     const began = performance.now();
-    const sent = this.values.slice();
     const latest = this.paint.latest;
     if (isSame(sent, this.looked)) return;
     this.wishes.say(grows ? "Looking for the bone's border…" : "Making the surface anew…");

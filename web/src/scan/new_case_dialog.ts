@@ -48,6 +48,11 @@ export class NewCaseDialog {
         {},
         make("p", {}, "Drop a folder, a zip file or files here: one CT, DICOM or a volume."),
         make(
+          "p.secondary",
+          {},
+          "Of an adult: growth plates and bones that are not ossified yet are not known here.",
+        ),
+        make(
           "div.scan-row",
           {},
           button("Choose files…", "", () => {

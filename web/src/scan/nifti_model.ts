@@ -22,6 +22,12 @@ const TYPE_INT16 = 4;
 /** As the host's readers have it. */
 const MOST_VOXELS = 2 ** 30;
 
+/** Of one voxel [mm3]. */
+export function voxelVolume({ patientFromVoxel: m }: Volume): number {
+  const [a = 0, b = 0, c = 0, , d = 0, e = 0, f = 0, , g = 0, h = 0, i = 0] = m;
+  return Math.abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g));
+}
+
 export function parseNifti(bytes: ArrayBuffer): Volume {
   if (bytes.byteLength < HEADER + 4) throw new Error("the volume is cut off");
   const view = new DataView(bytes);

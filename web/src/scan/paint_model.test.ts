@@ -117,10 +117,70 @@ describe("labels that are mended", () => {
     const volume = labels(() => 3);
     const paint = new LabelPaint(volume);
     // On a screen with x right and y down one walks down: right is where x is less.
-    paint.split(3, 16, [8.1, -4, 17], [8.1, 5, 17], [0, 0, 1]);
+    const line = { a: [8.1, -4, 17], b: [8.1, 5, 17], away: [0, 0, 1] } as const;
+    expect(paint.split(3, 16, line)).toBe(11 * SIDE * SIDE);
     expect(volume.values[voxelIndexAt(volume, [4, 0, 17])]).toBe(16);
     expect(volume.values[voxelIndexAt(volume, [11, 0, 17])]).toBe(3);
     expect(count(volume, 16)).toBe(11 * SIDE * SIDE);
+  });
+  it("are cut off by a line, and left alone where it parts nothing", () => {
+    const volume = labels((_x, y) => (y > 2 ? 3 : 0));
+    const before = volume.values.slice();
+    const paint = new LabelPaint(volume);
+    const line = { a: [8.1, -4, 17], b: [8.1, 5, 17], away: [0, 0, 1] } as const;
+    expect(paint.split(3, 0, line)).toBe(11 * 17 * SIDE);
+    expect(paint.count(3)).toBe(9 * 17 * SIDE);
+    expect(paint.undo()).toBe(true);
+    expect(volume.values).toEqual(before);
+    // All of it on one side or the other: a line beside a bone renames nothing.
+    for (const x of [-5, 40]) {
+      const beside = { ...line, a: [x, -4, 17], b: [x, 5, 17] } as const;
+      expect(paint.split(3, 16, beside)).toBe(0);
+    }
+    expect(paint.canUndo).toBe(false);
+    expect(volume.values).toEqual(before);
+  });
+  it("are known as they were before the last change", () => {
+    const volume = labels((x) => (x > 10 ? 2 : 1));
+    const paint = new LabelPaint(volume);
+    paint.merge(2, 1);
+    const before = volume.values.slice();
+    paint.begin();
+    paint.stroke(middle, middle, 2, 5);
+    paint.end();
+    const now = volume.values.slice();
+    expect(paint.beforeLatest()).toEqual(before);
+    expect(volume.values).toEqual(now);
+  });
+  it("are counted, whatever is done to them", () => {
+    const volume = labels((x, y) => (x > 10 ? 2 : y > 15 ? 1 : 0));
+    const paint = new LabelPaint(volume);
+    const isRight = (): void => {
+      for (const label of [0, 1, 2, 5]) expect(paint.count(label)).toBe(count(volume, label));
+    };
+    isRight();
+    paint.begin();
+    paint.stroke(middle, middle, 2, 5);
+    isRight();
+    paint.rewind();
+    isRight();
+    paint.stroke(middle, [9, 2, 17], 2, 5);
+    paint.end();
+    isRight();
+    paint.begin();
+    paint.insteadOfLatest();
+    isRight();
+    paint.stroke([7, 1, 17], [7, 1, 17], 1, 5);
+    paint.end();
+    paint.take(Uint32Array.of(0, 1), Uint8Array.of(5, 5), true);
+    isRight();
+    paint.merge(2, 0);
+    isRight();
+    paint.undo();
+    paint.undo();
+    isRight();
+    paint.redo();
+    isRight();
   });
   it("are filled where they enclose nothing, but for other bones and what is open", () => {
     const inside = (v: number): boolean => v >= 5 && v <= 12;

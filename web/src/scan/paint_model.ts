@@ -4,8 +4,9 @@
 // Labels changed by hand: a ball that paints or erases along a line, a hollow filled, two bones made one, a
 // bone cut in two, and what the host found from a marker. Each change can be taken back and made again.
 import type { Vec3 } from "../protocol";
+import { cutNormal, type CutLine } from "./cut_line_model";
 import { applied, type Volume } from "./nifti_model";
-import { along, cross, dot } from "./planes_model";
+import { along, dot } from "./planes_model";
 
 /** What one change did: which voxels, and what they held. */
 interface Change {
@@ -25,11 +26,21 @@ export class LabelPaint {
   private open: Map<number, number> | undefined;
   private openMark: object = {};
   private readonly values: Uint8Array;
+  private readonly counts = new Uint32Array(256);
 
-  /** @param labels  changed in place */
+  /** @param labels  changed in place, and by nobody else */
   constructor(private readonly labels: Volume) {
     if (!(labels.values instanceof Uint8Array)) throw new Error("labels are uint8");
     this.values = labels.values;
+    for (let i = 0; i < this.values.length; ++i) {
+      const label = this.values[i] ?? 0;
+      this.counts[label] = (this.counts[label] ?? 0) + 1;
+    }
+  }
+
+  /** How many voxels have a label now. */
+  count(label: number): number {
+    return this.counts[label] ?? 0;
   }
 
   get canUndo(): boolean {
@@ -49,7 +60,7 @@ export class LabelPaint {
 
   /** The change that is open begins anew. */
   rewind(): void {
-    for (const [i, before] of this.open ?? []) this.values[i] = before;
+    for (const [i, before] of this.open ?? []) this.put(i, before);
     this.open?.clear();
   }
 
@@ -96,12 +107,22 @@ export class LabelPaint {
     return this.done.at(-1)?.mark;
   }
 
+  /** A copy of the labels as they were before the last change that was not taken back. */
+  beforeLatest(): Uint8Array {
+    const before = this.values.slice();
+    const change = this.done.at(-1);
+    change?.indices.forEach((i, k) => {
+      before[i] = change.before[k] ?? 0;
+    });
+    return before;
+  }
+
   undo(): boolean {
     this.end();
     const change = this.done.pop();
     if (change === undefined) return false;
     change.indices.forEach((i, k) => {
-      this.values[i] = change.before[k] ?? 0;
+      this.put(i, change.before[k] ?? 0);
     });
     this.undone.push(change);
     return true;
@@ -112,7 +133,7 @@ export class LabelPaint {
     const change = this.undone.pop();
     if (change === undefined) return false;
     change.indices.forEach((i, k) => {
-      this.values[i] = change.after[k] ?? 0;
+      this.put(i, change.after[k] ?? 0);
     });
     this.done.push(change);
     return true;
@@ -122,6 +143,13 @@ export class LabelPaint {
     const before = this.values[i] ?? 0;
     if (before === label) return;
     if (this.open !== undefined && !this.open.has(i)) this.open.set(i, before);
+    this.put(i, label);
+  }
+
+  private put(i: number, label: number): void {
+    const before = this.values[i] ?? 0;
+    this.counts[before] = (this.counts[before] ?? 0) - 1;
+    this.counts[label] = (this.counts[label] ?? 0) + 1;
     this.values[i] = label;
   }
 
@@ -171,21 +199,24 @@ export class LabelPaint {
   }
 
   /**
-   * A bone is cut by the plane through two places along the view; what lies to the right of who walks
-   * along the line, seen on the screen, gets the other label.
+   * What of a bone lies to the right of a line gets another label, 0 for none.
+   * @return the voxels that were cut off; none where the bone lies on one side of the line, and stays as it is
    */
-  split(label: number, into: number, a: Vec3, b: Vec3, away: Vec3): void {
-    const d = along(b, -1, a);
-    const right = cross(away, d);
+  split(label: number, into: number, line: CutLine): number {
+    const right = cutNormal(line);
     const [w, h] = this.labels.size;
-    this.begin();
+    const cut: number[] = [];
     for (let i = 0; i < this.values.length; ++i) {
       if (this.values[i] !== label) continue;
       const voxel: Vec3 = [i % w, Math.floor(i / w) % h, Math.floor(i / (w * h))];
       const mm = applied(this.labels.patientFromVoxel, voxel);
-      if (dot(along(mm, -1, a), right) > 0) this.set(i, into);
+      if (dot(along(mm, -1, line.a), right) > 0) cut.push(i);
     }
+    if (cut.length === this.count(label)) return 0;
+    this.begin();
+    for (const i of cut) this.set(i, into);
     this.end();
+    return cut.length;
   }
 
   /** Hollows of a bone, which water from outside does not reach, become bone. */

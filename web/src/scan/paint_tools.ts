@@ -1,16 +1,20 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What mends labels: brush, eraser and marker, fill, rename or merge, split by a line, undo and redo, and the
-// mended labels as a file. What changed is marked until it is saved.
+// What mends labels: brush, eraser and marker, fill, rename or merge, split or cut by a line, undo and redo, and
+// the mended labels as a file. What changed is marked until it is saved.
 import { button, make, setText } from "../dom";
+import { withKeys } from "../key_caps";
 import type { Vec3 } from "../protocol";
+import { nameOfLabel } from "./bones_now_model";
+import type { CutLine } from "./cut_line_model";
 import { MendedLooks, type MendedLooksWishes } from "./mended_looks";
-import type { Volume } from "./nifti_model";
+import { voxelVolume, type Volume } from "./nifti_model";
 import { packedLabels } from "./packed_labels";
 import { LabelPaint } from "./paint_model";
 import { along, type Plane } from "./planes_model";
-import { boneTitle, KNOWN_BONES, type ScannedBone } from "./scan_case_model";
+import { ReassignTools } from "./reassign_tools";
+import { boneTitle, type ScannedBone } from "./scan_case_model";
 import type { Brush } from "./slice_panel";
 import { Stroke } from "./stroke_model";
 
@@ -23,6 +27,8 @@ export interface PaintWishes {
   say(text: string): void;
   /** The labels as they are now, packed, for a new version of the case; undefined for who may make none. */
   readonly makeVersion: ((labels: Blob) => Promise<void>) | undefined;
+  /** A tool is in the hand: nothing else can be. */
+  taken(): void;
   /** A bone has voxels now that had none, or the other way. */
   bonesChanged(): void;
   /** Shows mended surfaces, made by the host of this case; undefined for who may not ask it for any. */
@@ -31,7 +37,7 @@ export interface PaintWishes {
 
 const SAID: Readonly<Partial<Record<PaintTool, string>>> = {
   split:
-    "Drag a line across the bone in hand: what lies to its right, walking along it, becomes the other bone.",
+    "Drag a line across the bone in hand, or Enter lays its ends at the crosshair: the side with the ticks is cut off.",
   mark: "Mark what belongs to the bone in hand, roughly: how far it goes is found in the CT.",
   move: "Drag: the stroke that was painted last goes with the hand. Enter lays its middle at the crosshair.",
 };
@@ -46,14 +52,15 @@ export class PaintTools {
   chosen = 0;
   private readonly paint: LabelPaint;
   private radius = 2;
-  /** Where the hand went down to split or to move. */
+  /** Where the hand went down to move. */
   private from: Vec3 | undefined;
   private stroke: Stroke | undefined;
   private isPainting = false;
   private isSaved = true;
   private readonly looks: MendedLooks | undefined;
   private readonly size = make("output", { "aria-label": "Radius of the brush" });
-  private readonly other: HTMLSelectElement;
+  private readonly reassign: ReassignTools;
+  private readonly told = make("p.scan-told");
   private readonly title = make("strong");
   private readonly buttons: Readonly<Record<PaintTool, HTMLButtonElement>>;
   private readonly undoButton: HTMLButtonElement;
@@ -69,13 +76,6 @@ export class PaintTools {
   ) {
     this.paint = new LabelPaint(labels);
     this.chosen = bones[0]?.label ?? 1;
-    this.other = make(
-      "select",
-      { "aria-label": "Another bone" },
-      ...KNOWN_BONES.map(([label, name]) =>
-        make("option", { value: String(label) }, boneTitle(name)),
-      ),
-    );
     const toggle = (tool: PaintTool, label: string, key: string): HTMLButtonElement =>
       button(label, key, () => {
         this.take(this.tool === tool ? undefined : tool);
@@ -85,8 +85,21 @@ export class PaintTools {
       erase: toggle("erase", "Erase", "{KeyE}"),
       mark: toggle("mark", "Marker", "{KeyW}"),
       move: toggle("move", "Move", "{KeyV}"),
-      split: toggle("split", "Split by a line", "{KeyK}"),
+      split: toggle("split", "Split or cut by a line", "{KeyK}"),
     };
+    this.reassign = new ReassignTools(labels, this.paint, {
+      inHand: () => this.chosen,
+      choose: this.choose.bind(this),
+      changed: () => {
+        this.changed();
+      },
+      show: this.show.bind(this),
+      tell: this.tell.bind(this),
+      say: wishes.say,
+      focus: () => {
+        this.buttons.split.focus();
+      },
+    });
     const { look } = wishes;
     if (look !== undefined) {
       this.looks = new MendedLooks(look.of, labels, this.paint, {
@@ -133,15 +146,9 @@ export class PaintTools {
           this.fill();
         }),
       ),
-      make("label", {}, "Other bone ", this.other),
-      make(
-        "div.scan-row",
-        {},
-        button("Rename or merge into it", "", () => {
-          this.merge();
-        }),
-        this.buttons.split,
-      ),
+      make("div.scan-row", {}, this.buttons.split),
+      ...this.reassign.elements,
+      this.told,
       make(
         "div.scan-row",
         {},
@@ -172,15 +179,50 @@ export class PaintTools {
     return { radiusMm: RADII_MM[this.radius] ?? 1, isEraser: this.tool === "erase" };
   }
 
+  /** How many voxels have a label now. */
+  readonly count = (label: number): number => this.paint.count(label);
+
+  /** As it is to be drawn. @param away  into the screen of the picture that has the keys */
+  cutLine(cross: Vec3, away: Vec3): CutLine | undefined {
+    return this.tool === "split" ? this.reassign.line(cross, away) : undefined;
+  }
+
   choose(label: number): void {
+    if (label !== this.chosen) this.reassign.forget();
     this.chosen = label;
-    const name = KNOWN_BONES.find(([one]) => one === label)?.[1];
-    setText(this.title, name === undefined ? `label ${label}` : boneTitle(name));
+    this.show();
+  }
+
+  /** A bone that has no voxels. @return what can be done */
+  chooseMissing(label: number): string {
+    this.choose(label);
+    this.open();
+    const marker =
+      this.looks === undefined ? "" : "mark it where it lies ({KeyW}) and its border is found, or ";
+    return withKeys(`It is in hand: ${marker}paint it ({KeyA}).`);
+  }
+
+  private open(): void {
+    (this.element as HTMLDetailsElement).open = true;
+  }
+
+  private titleOf(label: number): string {
+    return boneTitle(nameOfLabel(label, this.count));
+  }
+
+  /** What was done, until something else is. */
+  private tell(text: string): void {
+    setText(this.told, text);
+    this.wishes.say(text);
   }
 
   take(tool: PaintTool | undefined): void {
     this.tool = tool;
-    if (tool !== undefined) (this.element as HTMLDetailsElement).open = true;
+    this.reassign.dropLine();
+    if (tool !== undefined) {
+      this.wishes.taken();
+      this.open();
+    }
     this.wishes.say(tool === undefined ? "" : (SAID[tool] ?? ""));
     this.show();
   }
@@ -189,15 +231,10 @@ export class PaintTools {
   press(plane: Plane, mm: Vec3, phase: Phase): boolean {
     const { tool } = this;
     if (tool === undefined) return false;
-    if (tool === "split") this.pressToSplit(plane, mm, phase);
+    if (tool === "split") this.reassign.press(plane, mm, phase);
     else if (tool === "move") this.pressToMove(mm, phase);
     else this.pressToPaint(mm, phase);
     return true;
-  }
-
-  private pressToSplit(plane: Plane, mm: Vec3, phase: Phase): void {
-    if (phase === "down") this.from = mm;
-    if (phase === "up" && this.from !== undefined) this.split(this.from, mm, plane);
   }
 
   private pressToPaint(mm: Vec3, phase: Phase): void {
@@ -228,7 +265,11 @@ export class PaintTools {
   }
 
   /** With what is in hand, once, where the crosshair is. @return whether it does anything there */
-  dab(mm: Vec3): boolean {
+  dab(plane: Plane, mm: Vec3): boolean {
+    if (this.tool === "split") {
+      this.reassign.enter(plane, mm);
+      return true;
+    }
     if (this.tool === "move") {
       const { stroke } = this;
       if (stroke?.isLatest === true) {
@@ -262,32 +303,23 @@ export class PaintTools {
     if (!this.isPainting) return;
     this.isPainting = false;
     this.stroke?.end();
-    this.changed(this.stroke?.kind.grows);
-  }
-
-  private split(a: Vec3, b: Vec3, plane: Plane): void {
-    this.from = undefined;
-    const into = Number(this.other.value);
-    if (into === this.chosen) {
-      this.wishes.say("Choose another bone, which the part becomes.");
-      return;
-    }
-    if (Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) < 1) return;
-    this.paint.split(this.chosen, into, a, b, plane.away);
-    this.changed();
-  }
-
-  private merge(): void {
-    const into = Number(this.other.value);
-    if (into === this.chosen) return;
-    this.paint.merge(this.chosen, into);
-    this.choose(into);
-    this.changed();
+    // Where it changed nothing it marked nothing.
+    this.changed(this.stroke?.isLatest === true && this.stroke.kind.grows);
   }
 
   fill(): void {
+    const before = this.paint.count(this.chosen);
+    const title = this.titleOf(this.chosen);
     this.paint.fill(this.chosen);
+    const filled = this.paint.count(this.chosen) - before;
+    if (filled === 0) {
+      this.tell(before === 0 ? `${title} has no voxels yet.` : `${title} has no hollow.`);
+      return;
+    }
     this.changed();
+    this.tell(
+      `${(filled * voxelVolume(this.labels)).toFixed(0)} mm³ of hollows in ${title} are filled.`,
+    );
   }
 
   undo(): void {
@@ -307,6 +339,7 @@ export class PaintTools {
   private changed(grows = false): void {
     this.paint.end();
     this.isSaved = false;
+    setText(this.told, "");
     this.looks?.changed(grows);
     this.wishes.bonesChanged();
     this.show();
@@ -403,6 +436,10 @@ export class PaintTools {
     for (const tool of TOOLS) {
       this.buttons[tool].setAttribute("aria-pressed", String(this.tool === tool));
     }
+    const { count, chosen } = this;
+    const title = this.titleOf(chosen);
+    setText(this.title, count(chosen) > 0 ? title : `${title} (not there)`);
+    this.reassign.show();
     this.undoButton.disabled = !this.paint.canUndo;
     this.redoButton.disabled = !this.paint.canRedo;
     setText(this.size, `${(RADII_MM[this.radius] ?? 1).toFixed(1)} mm`);

@@ -72,6 +72,9 @@ export class ScanBar {
         this.tool("angle", "Angle", "{KeyN}", () => {
           handlers.measure("angle");
         }),
+        this.tool("region", "HU", "{KeyR}", () => {
+          handlers.measure("region");
+        }),
       ),
       this.tool("planes", "Along the wrist", "{KeyP}", () => {
         handlers.turnPlanes();
@@ -108,6 +111,7 @@ export class ScanBar {
     isOn("labels", state.labelsShown);
     isOn("distance", state.measure === "distance");
     isOn("angle", state.measure === "angle");
+    isOn("region", state.measure === "region");
     isOn("planes", state.alignment === "wrist");
   }
 

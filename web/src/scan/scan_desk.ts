@@ -5,6 +5,7 @@
 import { make, setText } from "../dom";
 import type { Vec3 } from "../protocol";
 import { BoneList } from "./bone_list";
+import { bonesNow, isThere, SCAPHOID_DISTAL, type BoneNow } from "./bones_now_model";
 import { BonesPanel } from "./bones_panel";
 import { takeKey, type DeskActs } from "./desk_keys";
 import { placeOfLabel } from "./label_place_model";
@@ -13,10 +14,11 @@ import { MeasureTool } from "./measure_tool";
 import type { MendedBone } from "./mended_model";
 import { NewCaseDialog } from "./new_case_dialog";
 import { PaintTools } from "./paint_tools";
-import { applied, extentAlong, finestSpacing, voxelIndexAt, type Volume } from "./nifti_model";
+import { applied, extentAlong, finestSpacing, type Volume } from "./nifti_model";
 import { along, dot, PLANE_IDS, planesOf, type Alignment, type Plane } from "./planes_model";
+import { labelAt, readingAt } from "./reading_model";
 import { ScanBar } from "./scan_bar";
-import { boneTitle, labelColors, type ScannedBone, type ScannedCase } from "./scan_case_model";
+import { boneTitle, labelColors, type ScannedCase } from "./scan_case_model";
 import { scanHelp } from "./scan_help";
 import type { GreyWindow } from "./slice_model";
 import { SlicePanel, type Shown } from "./slice_panel";
@@ -58,12 +60,13 @@ export class ScanDesk {
   private crossShown = true;
   private labelsShown = true;
   private mmPerPixel = 0.2;
-  private readonly measures = new MeasureTool();
+  private readonly measures: MeasureTool;
   private focused: SlicePanel;
   private readonly mend: PaintTools | undefined;
   private isAsked = false;
 
   constructor(private readonly data: DeskCase) {
+    this.measures = new MeasureTool(data.ct);
     this.bar = this.makeBar();
     const planes = this.planes();
     const events = {
@@ -87,7 +90,7 @@ export class ScanDesk {
       (data.ct.size[1] - 1) / 2,
       (data.ct.size[2] - 1) / 2,
     ]);
-    this.list = new BoneList(data.scanned.bones, this.colors, (bone) => {
+    this.list = new BoneList(this.colors, (bone) => {
       this.goTo(bone);
     });
     if (data.labels !== undefined) {
@@ -101,12 +104,17 @@ export class ScanDesk {
         makeVersion: data.mayAdd
           ? (labels) => this.newCase.makeVersion(this.data.id, labels)
           : undefined,
+        taken: () => {
+          this.measures.putDown();
+        },
         bonesChanged: () => {
-          this.list.mark(this.labelAt(this.cross));
+          this.list.show(this.bonesNow());
+          this.ask();
         },
         look: data.mayAdd ? { of: data.id, show: this.showMended.bind(this) } : undefined,
       });
     }
+    this.list.show(this.bonesNow());
     const pictures = make("div.scan-pictures", {}, ...this.panels.map((panel) => panel.element));
     this.element = make(
       "main.scan",
@@ -163,9 +171,9 @@ export class ScanDesk {
       .catch(() => {
         setText(this.said, "The bones' surfaces could not be loaded; the slices are whole.");
       });
+    const bones = this.bonesNow().filter(isThere);
     const first =
-      scanned.bones.find((bone) => bone.flagged) ??
-      scanned.bones.find((bone) => bone.name.startsWith("scaphoid"));
+      bones.find((bone) => bone.flagged) ?? bones.find((bone) => bone.name.startsWith("scaphoid"));
     if (first !== undefined) this.goTo(first);
     else this.setCross(this.cross, true);
     this.focused.canvas.focus({ preventScroll: true });
@@ -236,7 +244,7 @@ export class ScanDesk {
 
   private press(plane: Plane, mm: Vec3, phase: "down" | "move" | "up"): void {
     if (this.measures.kind !== undefined) {
-      if (phase === "down") this.addPlace(mm);
+      this.sayMeasure(this.measures.press(mm, plane.away, phase));
       return;
     }
     if (this.mend?.press(plane, mm, phase) === true) return;
@@ -249,19 +257,12 @@ export class ScanDesk {
   }
 
   private readingAt(mm: Vec3): string {
-    const { ct, labels, scanned } = this.data;
-    const at = voxelIndexAt(ct, mm);
-    if (at < 0) return "outside the scan";
-    const label = labels === undefined ? 0 : this.labelAt(mm);
-    const bone = scanned.bones.find((one) => one.label === label);
-    const place = mm.map((v) => v.toFixed(1)).join(", ");
-    return `${ct.values[at] ?? 0} HU · ${bone === undefined ? "no bone" : boneTitle(bone.name)} · ${place} mm`;
+    const { ct, labels } = this.data;
+    return readingAt(ct, labels, mm, this.count);
   }
 
   private labelAt(mm: Vec3): number {
-    const { labels } = this.data;
-    const at = labels === undefined ? -1 : voxelIndexAt(labels, mm);
-    return at < 0 ? 0 : (labels?.values[at] ?? 0);
+    return labelAt(this.data.labels, mm);
   }
 
   /** @param middle  in the middle of all pictures; else they stay where they are */
@@ -321,17 +322,38 @@ export class ScanDesk {
     this.ask();
   }
 
-  private goTo(bone: ScannedBone): void {
+  /** How many voxels have a label now; without labels, whether the case has the bone. */
+  private readonly count = (label: number): number =>
+    this.mend?.count(label) ?? this.data.scanned.bones.filter((one) => one.label === label).length;
+
+  /** Those that are missing are there to be painted; where nothing can be, they are left out. */
+  private bonesNow(): readonly BoneNow[] {
+    const all = bonesNow(this.data.scanned.bones, this.count);
+    return this.mend === undefined ? all.filter(isThere) : all;
+  }
+
+  private goTo(bone: BoneNow): void {
     const { labels } = this.data;
+    const title = boneTitle(bone.name);
+    if (!isThere(bone)) {
+      const what =
+        bone.presence === "gone"
+          ? "has no voxels any more"
+          : bone.label === SCAPHOID_DISTAL
+            ? "is not there: the scaphoid is in one piece"
+            : "was not found";
+      setText(this.said, `${title} ${what}. ${this.mend?.chooseMissing(bone.label) ?? ""}`);
+      return;
+    }
     const mm = labels === undefined ? undefined : placeOfLabel(labels, bone.label);
     const why = bone.why === "" ? "" : `: ${bone.why}`;
-    setText(this.said, `${boneTitle(bone.name)}${bone.flagged ? why : ""}`);
+    setText(this.said, `${title}${bone.flagged ? why : ""}`);
     this.mend?.choose(bone.label);
     if (mm !== undefined) this.setCross(mm, true);
   }
 
   private nextBone(by: number): void {
-    const { bones } = this.data.scanned;
+    const bones = this.bonesNow().filter(isThere);
     const now = bones.findIndex((bone) => bone.label === this.labelAt(this.cross));
     const next = bones[(now + by + bones.length) % bones.length];
     if (next !== undefined) this.goTo(next);
@@ -343,8 +365,7 @@ export class ScanDesk {
     this.ask();
   }
 
-  private addPlace(mm: Vec3): void {
-    const told = this.measures.add(mm);
+  private sayMeasure(told: string | undefined): void {
     if (told !== undefined) setText(this.said, told);
     this.ask();
   }
@@ -407,8 +428,9 @@ export class ScanDesk {
 
   /** With what is in hand. */
   private atCross(): boolean {
-    if (this.measures.kind !== undefined) this.addPlace(this.cross);
-    else return this.mend?.dab(this.cross) === true;
+    const { planeNow } = this.focused;
+    if (this.measures.kind === undefined) return this.mend?.dab(planeNow, this.cross) === true;
+    this.sayMeasure(this.measures.addByKey(this.cross, planeNow.away));
     return true;
   }
 
@@ -441,6 +463,7 @@ export class ScanDesk {
 
   private draw(): void {
     const { ct, labels } = this.data;
+    const { away } = this.focused.planeNow;
     const shown: Shown = {
       ct,
       labels: this.labelsShown ? labels : undefined,
@@ -448,9 +471,10 @@ export class ScanDesk {
       overlay: { colors: this.colors, opacity: this.bar.opacity },
       cross: this.cross,
       crossShown: this.crossShown,
-      measures: this.measures.measures,
+      measures: this.measures.shown(this.cross, away),
       mmPerPixel: this.mmPerPixel,
       brush: this.measures.kind === undefined ? this.mend?.brush : undefined,
+      cut: this.mend?.cutLine(this.cross, away),
     };
     this.panels.forEach((panel, i) => {
       panel.draw(shown);
@@ -462,7 +486,7 @@ export class ScanDesk {
       slider.value = dot(this.cross, panel.planeNow.away).toFixed(2);
     });
     this.bones?.setCross(this.cross, this.crossShown);
-    this.list.mark(this.labelAt(this.cross));
+    this.list.mark(this.labelAt(this.cross), this.mend?.chosen);
     setText(this.reading, this.readingAt(this.cross));
     this.bar.show({
       grey: this.grey,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fetches a case's scan and shows it; says what comes, and what does not.
-import { fetchCases } from "../case_data";
+import { fetchCases, titleAmong } from "../case_data";
 import { button, make, setText } from "../dom";
 import type { CaseList } from "../protocol";
 import { mayAddCases } from "./new_case_client";
@@ -76,7 +76,7 @@ function ways(cases: CaseList, id: string, before: string | undefined): HTMLElem
     "select",
     { "aria-label": "Case" },
     ...cases.cases.map((one) => {
-      const option = make("option", { value: one.id }, one.title);
+      const option = make("option", { value: one.id }, titleAmong(one, cases.cases));
       option.selected = one.id === id;
       return option;
     }),

@@ -5,7 +5,9 @@
 // mouse and fingers do on it.
 import { make } from "../dom";
 import type { Vec3 } from "../protocol";
-import { measureText, type Measure } from "./measure_model";
+import type { CutLine } from "./cut_line_model";
+import { drawCut, drawMeasure } from "./measure_drawing";
+import type { Measure } from "./measure_model";
 import type { Volume } from "./nifti_model";
 import { along, dot, type Plane } from "./planes_model";
 import {
@@ -29,6 +31,8 @@ export interface Shown {
   readonly measures: readonly Measure[];
   readonly mmPerPixel: number;
   readonly brush: Brush | undefined;
+  /** By which a bone is about to be cut. */
+  readonly cut: CutLine | undefined;
 }
 
 /** Shown as a ring at the pointer. */
@@ -52,8 +56,6 @@ const LINE = "#5cc8ff";
 const PLANE_TITLE = { axial: "Axial", coronal: "Coronal", sagittal: "Sagittal" } as const;
 /** Finer than a screen shows a CT; keeps a large screen's slices quick. */
 const MOST_PIXELS = 700_000;
-/** A measure is drawn where it lies within so many mm of the slice; fainter elsewhere. */
-const NEAR_MM = 1;
 
 export class SlicePanel {
   readonly element: HTMLElement;
@@ -187,7 +189,9 @@ export class SlicePanel {
       context.stroke();
       context.globalAlpha = 1;
     }
-    for (const measure of shown.measures) this.drawMeasure(context, view, measure, w, h);
+    const sheet = { context, view, width: w, height: h };
+    for (const measure of shown.measures) drawMeasure(sheet, measure);
+    if (shown.cut !== undefined) drawCut(sheet, shown.cut);
     if (shown.brush !== undefined) this.drawBrush(context, view, shown, shown.brush, w, h);
     this.drawScale(context, shown, w, h);
   }
@@ -207,44 +211,6 @@ export class SlicePanel {
     context.beginPath();
     context.arc(x, y, Math.max(2, brush.radiusMm / shown.mmPerPixel), 0, 2 * Math.PI);
     context.stroke();
-  }
-
-  private drawMeasure(
-    context: CanvasRenderingContext2D,
-    view: SliceView,
-    measure: Measure,
-    w: number,
-    h: number,
-  ): void {
-    const offs = measure.places.map((p) =>
-      Math.abs(dot(along(p, -1, view.centre), this.plane.away)),
-    );
-    context.globalAlpha = offs.every((off) => off < NEAR_MM) ? 1 : 0.25;
-    const points = measure.places.map((p) => pixelOf(view, w, h, p));
-    context.strokeStyle = context.fillStyle = "#f0c36a";
-    context.lineWidth = 1.5;
-    context.beginPath();
-    points.forEach(([x, y], i) => {
-      if (i === 0) context.moveTo(x, y);
-      else context.lineTo(x, y);
-    });
-    context.stroke();
-    for (const [x, y] of points) {
-      context.beginPath();
-      context.arc(x, y, 2.5, 0, 2 * Math.PI);
-      context.fill();
-    }
-    const at = points[measure.kind === "angle" ? 1 : points.length - 1];
-    if (at !== undefined) {
-      context.font = "600 13px 'Inter Variable', sans-serif";
-      context.strokeStyle = "#0e1214";
-      context.lineWidth = 3;
-      const text = measureText(measure);
-      const left = Math.min(at[0] + 8, w - context.measureText(text).width - 6);
-      context.strokeText(text, left, at[1] - 8);
-      context.fillText(text, left, at[1] - 8);
-    }
-    context.globalAlpha = 1;
   }
 
   /** A bar of 10 mm. */

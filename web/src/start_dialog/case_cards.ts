@@ -4,6 +4,7 @@
 // The cases that can be chosen, as cards: picture, title, how hard, what is to be learnt; in an assessed
 // operation only what is known of a patient who comes in. Buttons, because an arrow key must not open a
 // case.
+import { titleAmong } from "../case_data";
 import { make } from "../dom";
 import type { CaseCard, CaseList, Mode } from "../protocol";
 import { cardText } from "./card_text_model";
@@ -36,7 +37,8 @@ export class CaseCards {
   }
 
   private card(one: CaseCard, index: number, mode: Mode): HTMLElement {
-    const text = cardText(one, index, mode);
+    const title = titleAmong(one, this.list.cases);
+    const text = cardText({ ...one, title }, index, mode);
     const element = make(
       "button.case-card",
       { type: "button", "data-case": one.id },
