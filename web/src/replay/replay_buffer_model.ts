@@ -53,7 +53,8 @@ export function statesOf(messages: readonly HostMessage[]): ReplayState[] {
     const last = states.at(-1);
     // They come after the snapshot that they belong to.
     const belongs = message.type === "scope" || message.type === "sheet" || message.type === "skin";
-    if (last !== undefined && belongs) states[states.length - 1] = { ...last, scope, sheetsUm, skin };
+    if (last !== undefined && belongs)
+      states[states.length - 1] = { ...last, scope, sheetsUm, skin };
     if (message.type !== "snapshot") continue;
     bodies = message.bodies ?? bodies;
     states.push({ snapshot: message, bodies, tracks, scope, sheetsUm, skin });
