@@ -249,6 +249,22 @@ TEST(PortalMaking, AMarkerLeavesInkThatUndoTakesBack) {
   EXPECT_EQ(world.now().skin.ink_count, 0) << "to the marker's";
 }
 
+TEST(PortalMaking, WhatIsTakenWhileAHandPressesDoesNotPrickBeforeItWasPlaced) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.hand.go(at(-6), 100);
+  Command take;
+  take.kind = CommandKind::Take;
+  take.index = tool("needle_22g");
+  maker.hand.command(take);
+  for (int i = 0; i < 500; ++i) maker.hand.step();
+  EXPECT_FALSE(world.now().skin.under_mm[0] > 0);
+  EXPECT_GT(tip_out_mm(world), 1.0);
+  maker.hand.go(at(5), 50);
+  maker.hand.go(at(-6), 100);
+  EXPECT_GT(world.now().skin.under_mm[0], 4.0);
+}
+
 TEST(PortalMaking, ANeedleLosesResistanceInTheJointAndFluidComesBack) {
   World world(wrist_with_skin(), making(), 1);
   Maker maker(world);

@@ -108,6 +108,7 @@ void World::State::take(const Model& model,
     item.tip = tip + item.shaft * kind.shape.back_z_mm();
   }
   scene.set_instrument(hand, kind.shape);
+  making.worked.hands[hand].waits = works_on_skin(model, item);
   emit(EventKind::Taken, place, instrument, 0.0);
 }
 

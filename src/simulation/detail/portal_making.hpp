@@ -36,6 +36,7 @@ struct UnderSkin {
   bool is_told = false;     ///< that it is in the joint
   bool has_struck = false;  ///< bone, since it was drawn back
   bool is_spreading = false;
+  bool waits = false;         ///< taken anew: until the hand is outside the skin it stays there too
   std::uint8_t cut = kNoCut;  ///< by which it went in, or that it makes
   std::uint8_t portal = 0;    ///< that was asked for as it went in
   Vec3 entry;                 ///< through the skin, Patient
@@ -97,6 +98,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(under.is_told);
     v(under.has_struck);
     v(under.is_spreading);
+    v(under.waits);
     v(under.cut);
     v(under.portal);
     v(under.entry);

@@ -19,6 +19,7 @@ namespace {
 /// distal of it [E].
 constexpr double kWithForearmMm = -4.0;
 constexpr double kWithHandMm = 12.0;
+constexpr double kWaitsMm = 3.0;         // off the skin
 constexpr int kBackSteps = 2;            // by which its place as scanned is found
 constexpr double kFastestMm = 2.0;       // a tick: 2 m/s
 constexpr double kCutsFastestMm = 0.05;  // a blade in skin, a tick
@@ -76,7 +77,16 @@ void World::State::follow_wish(Item& item, const Vec3& to, double most_mm) noexc
 }
 
 void World::State::move_on_skin(const Model& model, std::uint8_t hand) noexcept {
-  const Item& item = *in_hand(hand);
+  Item& item = *in_hand(hand);
+  detail::UnderSkin& under = making.worked.hands[hand];
+  if (under.waits) {
+    const Vec3& wish = spent.hands[hand].plan.tip;
+    const SkinPlace at = skin_at(model, wish);
+    under.waits = at.depth_mm > 0.0;
+    spent.hands[hand].touched_body = kNoBody;
+    turn_towards(item, spent.hands[hand].plan.shaft);
+    return follow_wish(item, under.waits ? at.point + at.normal * kWaitsMm : wish, kFastestMm);
+  }
   switch (kind_of(model, item).skin->work) {
     case SkinWork::Palpate:
     case SkinWork::Mark:

@@ -25,7 +25,7 @@ const INK_RADIUS_MM = 0.55;
 const RAISED_MM = 0.15;
 const CUT_WIDTH_MM = 0.5;
 const SPREAD_WIDTH_MM = 2.2;
-const HUB_MM = 46;
+const HUB_MM = 41;
 const DROP_MM = 1.6;
 const Z = new THREE.Vector3(0, 0, 1);
 const normal = new THREE.Vector3();
@@ -157,7 +157,7 @@ export class SkinWork {
     const item = now.items.find((one) => one.hand === wet);
     this.drop.visible = wet >= 0 && item !== undefined;
     if (item === undefined) return;
-    this.drop.position.set(...item.tip_mm).addScaledVector(along.set(...item.shaft), HUB_MM + 24);
+    this.drop.position.set(...item.tip_mm).addScaledVector(along.set(...item.shaft), HUB_MM);
   }
 
   /** Flat on the skin as it is drawn; leaves which way is out in `normal`. */
