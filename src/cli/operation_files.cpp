@@ -110,12 +110,15 @@ std::string score_table(const procedure::ScoreReport& report) {
                                       : "NO");
     add();
   }
-  table += length_lines(report);
-  std::snprintf(line.data(), line.size(), "screw chosen: %s, ideal: %s\n",
-                report.chosen_screw.empty() ? "none" : report.chosen_screw.c_str(),
-                report.ideal_screw.empty() ? "none" : report.ideal_screw.c_str());
-  add();
-  std::snprintf(line.data(), line.size(), "overall %.1f of 100, fixation %s\n", report.overall,
+  // An operation that goes along no bone has none of these.
+  if (report.central_axis_length_mm > 0) {
+    table += length_lines(report);
+    std::snprintf(line.data(), line.size(), "screw chosen: %s, ideal: %s\n",
+                  report.chosen_screw.empty() ? "none" : report.chosen_screw.c_str(),
+                  report.ideal_screw.empty() ? "none" : report.ideal_screw.c_str());
+    add();
+  }
+  std::snprintf(line.data(), line.size(), "overall %.1f of 100, %s\n", report.overall,
                 report.is_fixation_acceptable ? "acceptable" : "not acceptable");
   add();
   return table;

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 cases::CaseData wrist(bool simulated) {
   cases::CaseData data;
@@ -53,9 +54,13 @@ TEST(ScoreTable, TellsTheLengthsInTheScaphoidAndEveryReason) {
 }
 
 TEST(ScoreTable, SaysWhatWasNotMeasured) {
-  EXPECT_THAT(score_table({}),
+  procedure::ScoreReport report;
+  report.central_axis_length_mm = 25.0;
+  EXPECT_THAT(score_table(report),
               AllOf(HasSubstr("angle to it: not measured\n"),
                     HasSubstr("wire: not measured, gauge reading: not measured\n")));
+  // No screw, no line: an arthroscopy.
+  EXPECT_THAT(score_table({}), Not(HasSubstr("central axis")));
 }
 
 }  // namespace
