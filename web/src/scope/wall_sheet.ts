@@ -33,8 +33,11 @@ const DISC_REACH_MM = 2.5;
 /** ... and half as much where something else lines it, so near. */
 const BESIDE_DISC_MM = 0.6 * DISC_REACH_MM;
 /** Of a ligament it goes along whole up to here, and no more from there on [mm]. */
-const LIGAMENT_WHOLE_MM = 1.3;
-const LIGAMENT_REACH_MM = 2.2;
+const LIGAMENT_WHOLE_MM = 1.2;
+const LIGAMENT_REACH_MM = 2.8;
+/** What lies so far before its places is the other side of the joint; half a millimetre under the wall is usual. */
+const BEFORE_MM = 0.3;
+const UNDER_WHOLE_MM = 0.1;
 /** So far under a disc that was cut away the ulna's head lies [mm]. */
 const UNDER_MM = 1.7;
 
@@ -161,9 +164,14 @@ function goesWithDisc(mm: number, isDisc: boolean): number {
   return isDisc ? 1 : 0.5;
 }
 
-/** Its places lie under the wall, never before it: over there is the other side of the joint. */
+/** Smooth in both, so that what is bound and what is not do not part in a fold. */
 function goesWithLigament(mm: number, underMm: number): number {
-  if (underMm <= 0) return 0;
-  const share = (LIGAMENT_REACH_MM - mm) / (LIGAMENT_REACH_MM - LIGAMENT_WHOLE_MM);
-  return Math.min(1, Math.max(0, share));
+  const near = (LIGAMENT_REACH_MM - mm) / (LIGAMENT_REACH_MM - LIGAMENT_WHOLE_MM);
+  const under = (underMm + BEFORE_MM) / (UNDER_WHOLE_MM + BEFORE_MM);
+  return smooth(near) * smooth(under);
+}
+
+function smooth(share: number): number {
+  const t = Math.min(1, Math.max(0, share));
+  return t * t * (3 - 2 * t);
 }
