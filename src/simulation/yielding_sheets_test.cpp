@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string_view>
+#include <memory>
+#include <utility>
 
 #include "arthroscopy/make_lesions.hpp"
 #include "arthroscopy/pathology_table.hpp"
@@ -117,6 +118,25 @@ TEST(YieldingSheets, ATornOneLetsTheProbeThroughAndNoOtherDoes) {
   EXPECT_GT(highest(3), 2.5);
   EXPECT_LT(highest(2), 2.0);
   EXPECT_LT(highest(0), 0.8);
+}
+
+/// A recess beside a ligament is deeper than it: who is in there lies on no sheet.
+TEST(YieldingSheets, ATipThatPassesDeepBesideASheetIsNotHeldByIt) {
+  cases::CaseData data = box_wrist_with_ligament();
+  cases::ArthroscopicMap map = *data.arthroscopy;
+  for (Vec3& at : map.bands.front().at) at.z -= 3.0;  // the ceiling is far above it
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(std::move(map));
+  World world(data, probe_alone(), 1);
+  Hand hand(world);
+  enter(hand);
+  const double beside = 4.0;  // a millimetre and a half of its rim
+  hand.go(kMiddle + Vec3{9, 0, 0});
+  hand.go(kMiddle + Vec3{9, beside, 2.5}, 100);
+  const Vec3 there = kMiddle + Vec3{-9, beside, 2.5};
+  hand.go(there, 100);
+  EXPECT_LT(distance(hand.tip(), there), 0.05);
+  EXPECT_LT(length(hand.now().hands[0].force_in_patient), 0.1);
+  EXPECT_TRUE(hand.now().sheets[kLigament].is_still);
 }
 
 TEST(YieldingSheets, GoesOnFromAKeyframeInThePressOfALigamentToTheSameBits) {

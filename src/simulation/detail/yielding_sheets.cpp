@@ -18,9 +18,13 @@ using detail::YieldingSheet;
 
 namespace {
 
-constexpr double kOverMm = 1.6;         // a tip so near to a particle, aside, lies over the sheet
-constexpr double kAboveMm = 0.3;        // ... and touches it at most so far from it
-constexpr double kDeepMm = 4.5;         // or has sunk in no deeper than this
+constexpr double kOverMm = 1.6;   // a tip so near to a particle, aside, lies over the sheet
+constexpr double kAboveMm = 0.3;  // ... and touches it at most so far from it
+constexpr double kDeepMm = 4.5;   // or has sunk in no deeper than this
+// Deeper than the tissue has given and so much more no press brings a tip: it lies beside the
+// sheet.
+constexpr double kBesideMm = 0.9;
+constexpr double kKeepsMm = 0.05;       // what has given so much is gone on with
 constexpr double kSmoothMm = 1.5;       // what it lies on is the mean of so much of the sheet
 constexpr double kAgainstCosine = 0.3;  // a wall that faces another way stops a tip as it is
 constexpr double kGivesMmPerN = 0.02;   // a tick, for each newton that the hand presses more
@@ -107,9 +111,11 @@ void World::State::find_sheets(const Model& model) noexcept {
       const UnderTip under = under_tip(model, s, tip);
       if (under.sheet == kNoSheet) continue;
       const double high = dot(tip.at - under.at, under.out) - tip.radius_mm;
-      if (under_tips[h].sheet != kNoSheet && high >= least) continue;
+      const bool is_pressed = scope_state.gives_on[h] == s && scope_state.gives_mm[h] > kKeepsMm;
+      if (!is_pressed && under_tips[h].sheet != kNoSheet && high >= least) continue;
       least = high;
       under_tips[h] = under;
+      if (is_pressed) break;
     }
   }
 }
@@ -128,14 +134,16 @@ std::optional<World::State::Wall> World::State::sheet_at(const Model& model,
   const yielding::Tip tip = tip_on(model, sheet, now.items[now.held[hand]], tip_in_patient);
   const Vec3 off = tip.at - under.at;
   const double high = dot(off, under.out);
-  if (squared_length(off) - high * high >= kOverMm * kOverMm || high <= -kDeepMm) {
+  const double gives = scope_state.gives_mm[hand];
+  if (squared_length(off) - high * high >= kOverMm * kOverMm ||
+      high < tip.radius_mm - gives - kBesideMm) {
     return std::nullopt;
   }
   const Vec3 out = (poses[sheet.first] * Direction<frame::Bone>{under.out}).v;
   if (dot(wall_outwards, out) > -kAgainstCosine && squared_length(wall_outwards) > 0.5) {
     return std::nullopt;
   }
-  return Wall{tip.radius_mm - scope_state.gives_mm[hand] - high, out};
+  return Wall{tip.radius_mm - gives - high, out};
 }
 
 /// How far the tissue has given where a tip is.
@@ -173,7 +181,13 @@ void World::State::yield_sheets(const Model& model) noexcept {
     if (item == nullptr) continue;
     tip = tip_on(model, model.sheets[under.sheet], *item, item->tip);
     const double high = dot(tip.at - under.at, under.out);
-    tip.is_there = high < tip.radius_mm + kAboveMm && high > -kDeepMm;
+    const std::uint8_t joint = model.sheets[under.sheet].joint;
+    const double thick_mm = kind_of(model, *item).shape.greatest_radius_mm();
+    const bool is_through = is_in_hole(model, joint, item->tip, thick_mm) ||
+                            is_in_cut_disc(model, joint, item->tip, thick_mm);
+    const double deepest_mm =
+        is_through ? -kDeepMm : tip.radius_mm - scope_state.gives_mm[h] - kBesideMm;
+    tip.is_there = high < tip.radius_mm + kAboveMm && high > deepest_mm;
   }
   hook_disc(model, tips[kDiscSheet]);
   for (std::size_t s = 0; s < model.sheets.size(); ++s) {
