@@ -29,7 +29,10 @@ TEST(Catalogue, HoldsWhatTheProceduresNeedUnderIdsOfItsOwn) {
     EXPECT_TRUE(ids.insert(instrument.id).second) << instrument.id;
     EXPECT_FALSE(instrument.name.empty() || instrument.use.empty() || instrument.mark.empty());
     EXPECT_FALSE(instrument.parts.empty()) << instrument.id << " is drawn";
-    EXPECT_FALSE(instrument.rods.empty()) << instrument.id << " shows in the beam";
+    // A fingertip and a pen of plastic are no metal; all else shows in the beam.
+    const bool is_metal = !instrument.skin || (instrument.skin->work != SkinWork::Palpate &&
+                                               instrument.skin->work != SkinWork::Mark);
+    EXPECT_NE(instrument.rods.empty(), is_metal) << instrument.id;
     EXPECT_FALSE(instrument.is_confirmed) << "no maker's guide was checked yet";
   }
   for (const char* id :
@@ -86,14 +89,18 @@ TEST(Catalogue, WhatRunsOnTheWireTakesIt) {
   EXPECT_LT(one("acutrak_2_mini_24").bore_radius_mm, one("joystick_wire").cut_tip_radius_mm);
 }
 
-TEST(Catalogue, ScrewsComeByFamilyAndLengthAsTrueSizesSayThenArthroscopy) {
+TEST(Catalogue, ScrewsComeByFamilyAndLengthAsTrueSizesSayThenArthroscopyThenSkin) {
   const auto all = catalogue();
   std::size_t first = 0;
   while (all[first].family.empty()) ++first;
   std::size_t end = first;
   while (end < all.size() && all[end].work == Work::Thread) ++end;
   EXPECT_EQ(end - first, 16U);
-  for (std::size_t i = end; i < all.size(); ++i) EXPECT_TRUE(all[i].enters_joints);
+  std::size_t skin = end;
+  while (skin < all.size() && !all[skin].skin) ++skin;
+  EXPECT_LT(end, skin);
+  for (std::size_t i = end; i < skin; ++i) EXPECT_TRUE(all[i].enters_joints) << all[i].id;
+  for (std::size_t i = skin; i < all.size(); ++i) EXPECT_TRUE(all[i].skin) << all[i].id;
   for (std::size_t i = first; i < end; ++i) {
     const Instrument& screw = all[i];
     EXPECT_EQ(screw.rods.front().to_mm, screw.length_mm);
