@@ -30,7 +30,8 @@ function middleOf(page, plane) {
 }
 
 export async function lookAtScan(browser, station) {
-  const page = await newPage(browser);
+  // Lines on slices are counted by their pixels; nothing of it is drawn in three dimensions for long.
+  const page = await newPage(browser, { deviceScaleFactor: 1 });
   const problems = [];
   page.on("pageerror", (error) => problems.push(String(error)));
   const opened = await check(
