@@ -516,8 +516,10 @@ Grid<std::int16_t> read_series(DicomSeries series, const Progress& progress, Rea
   Grid<std::int16_t> ct = decode(series, planes, geometry, progress, notes.count);
   if (squared_length(step.aside) <= 0) return ct;
   const DicomFrame& first = planes.front().at();
-  return set_upright(ct, {dot(step.aside, first.row) / geometry.spacing.x,
-                          dot(step.aside, first.column) / geometry.spacing.y});
+  return set_upright(ct,
+                     {dot(step.aside, first.row) / geometry.spacing.x,
+                      dot(step.aside, first.column) / geometry.spacing.y},
+                     planes.front().path());
 }
 
 }  // namespace carpus::case_io

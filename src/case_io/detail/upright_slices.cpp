@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "case_io/detail/memory_room.hpp"
+
 namespace carpus::case_io {
 namespace {
 
@@ -50,7 +52,9 @@ class Slice {
 
 }  // namespace
 
-Grid<std::int16_t> set_upright(const Grid<std::int16_t>& slanted, const SliceDrift& drift) {
+Grid<std::int16_t> set_upright(const Grid<std::int16_t>& slanted,
+                               const SliceDrift& drift,
+                               const std::string& path) {
   const GridGeometry& from = slanted.geometry();
   const Reach x(drift.x, from.size[0], from.size[2]);
   const Reach y(drift.y, from.size[1], from.size[2]);
@@ -58,6 +62,7 @@ Grid<std::int16_t> set_upright(const Grid<std::int16_t>& slanted, const SliceDri
   upright.size = {x.size, y.size, from.size[2]};
   upright.origin = from.patient_from_voxel(
       {static_cast<double>(-x.before), static_cast<double>(-y.before), 0.0});
+  require_memory(upright.voxel_count() * sizeof(std::int16_t), path);
   const double air = *std::min_element(slanted.values().begin(), slanted.values().end());
   Grid<std::int16_t> result(upright);
   std::size_t at = 0;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "geometry/grid.hpp"
 
@@ -19,7 +20,10 @@ struct SliceDrift {
 /// The volume on an upright grid that holds all of it: as large as the slices' whole reach, values
 /// between pixels by linear interpolation, what no slice reaches as dark as the darkest of them.
 /// @param slanted  values slice by slice; its geometry says where the first slice lies
+/// @param path  of a slice, for the error
+/// @throws IoError where the upright volume, larger than the slices, does not fit into memory
 [[nodiscard]] Grid<std::int16_t> set_upright(const Grid<std::int16_t>& slanted,
-                                             const SliceDrift& drift);
+                                             const SliceDrift& drift,
+                                             const std::string& path);
 
 }  // namespace carpus::case_io
