@@ -14,7 +14,7 @@ namespace carpus::cli {
 namespace {
 
 StudiedBone bone(double dice, double confidence, bool is_found = true) {
-  return {3, dice, is_found, {}, {confidence, confidence < 0.5, "why"}};
+  return {3, dice, is_found, {}, {confidence, confidence < reconstruct::kTrustedConfidence, "why"}};
 }
 
 /// Of four that went wrong one is silent; of two that went well one is flagged.

@@ -56,7 +56,7 @@ struct BoneTrust {
 };
 
 /// Below it a bone is flagged.
-inline constexpr double kTrustedConfidence = 0.5;
+inline constexpr double kTrustedConfidence = 0.44;
 
 struct LabelSurface {
   std::uint8_t label = 0;
