@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 3> kKindNames{"tendon", "artery", "nerve"};
+constexpr std::array<std::string_view, kStructureKinds> kKindNames{"tendon", "artery", "nerve"};
 /// No wrist is larger, nothing in it longer [mm].
 constexpr double kLargestMm = 300;
 /// No tendon here is thicker [mm].
@@ -135,9 +135,13 @@ StructureTable StructureTable::parse(std::string_view json_text) {
   std::string where = "the table";
   try {
     const Json json = Json::parse(json_text);
-    refuse_unknown(json, {"doc", "schema_version", "landmarks", "structures", "portals"});
+    refuse_unknown(json,
+                   {"doc", "schema_version", "at_a_portal", "landmarks", "structures", "portals"});
     if (json.at("schema_version") != 1) throw InvalidInput("another schema_version than 1");
     StructureTable table;
+    for (std::size_t i = 0; i < kKindNames.size(); ++i) {
+      table.at_a_portal[i] = json.at("at_a_portal").at(std::string(kKindNames[i]));
+    }
     std::set<std::string> ids;
     const auto enter = [&](const Json& entry) {
       where = entry.at("id").get<std::string>();

@@ -6,6 +6,7 @@
 // figure has its mark). No scan shows them: what is made from this table is generated, and says so.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -55,7 +56,7 @@ struct TabledStructure {
   BoneId forearm = BoneId::Radius;  ///< its forearm's part goes with this bone
   double shortest_mm = 0;           ///< the whole course, size of the generic wrist
   double longest_mm = 0;
-  std::string avoid;          ///< how not to harm it, in words
+  std::string avoid;          ///< how a wire does not harm it, in words
   std::vector<Place> course;  ///< from proximal to distal
 };
 
@@ -77,6 +78,8 @@ struct StructureTable {
   std::vector<Landmark> landmarks;
   std::vector<TabledStructure> structures;
   std::vector<TabledPortal> portals;
+  /// How who makes an arthroscopy's portal does not harm one, in words; by StructureKind.
+  std::array<std::string, kStructureKinds> at_a_portal;
 
   /// The built-in table; parsed at the first call.
   [[nodiscard]] static const StructureTable& generic();

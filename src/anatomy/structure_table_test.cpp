@@ -14,7 +14,7 @@ namespace carpus::anatomy {
 namespace {
 
 std::string table_with(const std::string& structure) {
-  return R"({"schema_version": 1, "landmarks": [{"id": "lister", "bone": "radius", "at_mm": [5, 0, -11],
+  return R"({"schema_version": 1, "at_a_portal": {"tendon": "t", "artery": "a", "nerve": "n"}, "landmarks": [{"id": "lister", "bone": "radius", "at_mm": [5, 0, -11],
     "words": "w", "mark": "[E]"}], "structures": [)" +
          structure + R"(], "portals": []})";
 }

@@ -27,10 +27,16 @@ std::string instrument_words(const NearStructure& near) {
 /// "Guide wire 1.14 mm turned in the extensor pollicis longus: feel Lister's tubercle, …"
 std::string words_of_harm(const cases::Structure& structure,
                           const NearStructure& near,
-                          std::string_view did) {
+                          std::string_view did,
+                          ThroughSkin way) {
   std::string text = instrument_words(near) + std::string(did) + structure.name;
-  const auto* tabled = anatomy::StructureTable::generic().find(structure.id);
-  if (tabled != nullptr) text += ": " + tabled->avoid;
+  const anatomy::StructureTable& table = anatomy::StructureTable::generic();
+  const auto* tabled = table.find(structure.id);
+  if (way == ThroughSkin::Portal) {
+    text += ": " + table.at_a_portal[static_cast<std::size_t>(structure.kind)];
+  } else if (tabled != nullptr) {
+    text += ": " + tabled->avoid;
+  }
   return text + ".";
 }
 
@@ -55,14 +61,16 @@ Measure nearest(const cases::CaseData& data,
 
 Measure structures_struck(const cases::CaseData& data,
                           const OperationRecord& record,
-                          std::string_view did) {
+                          std::string_view did,
+                          ThroughSkin way) {
   Measure measure{"structures_struck", 0.0, ""};
   measure.applies = !data.structures.empty();
   for (const NearStructure& near : record.structures) {
     const cases::Structure* structure = structure_of(data, near);
     if (structure == nullptr || !near.was_struck) continue;
     *measure.value += 1.0;
-    measure.finding += (measure.finding.empty() ? "" : " ") + words_of_harm(*structure, near, did);
+    measure.finding +=
+        (measure.finding.empty() ? "" : " ") + words_of_harm(*structure, near, did, way);
   }
   if (measure.finding.empty()) measure.finding = "None was.";
   return measure;

@@ -5,6 +5,7 @@
 // They are generated: neither figure applies to a case that has none.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -14,11 +15,14 @@
 
 namespace carpus::procedure {
 
-/// `structures_struck`: how many, the finding naming each and how it is spared.
+enum class ThroughSkin : std::uint8_t { Wire, Portal };
+
+/// `structures_struck`: how many, the finding naming each and how it is spared on that way.
 /// @param did  " turned in the "
 [[nodiscard]] Measure structures_struck(const cases::CaseData& data,
                                         const OperationRecord& record,
-                                        std::string_view did);
+                                        std::string_view did,
+                                        ThroughSkin way);
 
 /// `nearest_tendon_mm`, `nearest_artery_mm`, `nearest_nerve_mm`.
 /// @param nothing  what is said where nothing came near.

@@ -32,6 +32,7 @@ struct PortalMaking {
   double bone_mm = 0.0;                   ///< bone so near under the skin feels hard
   double deepest_mm = 0.0;                ///< bone below that no finger feels
   double cord_deep_mm = 0.0;    ///< a tendon deeper under the skin is no cord under a finger
+  double fascia_mm = 0.0;       ///< tendons lie below it, nerves and arteries do not
   double skin_mm = 0.0;         ///< a cut no deeper is of the skin alone: nothing else lies in it
   double cord_mm = 0.0;         ///< a taut tendon so near to a finger's middle is felt
   double firm_share = 0.0;      ///< of the way to bone a fingertip sinks in until it is firm

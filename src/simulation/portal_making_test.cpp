@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "simulation/asked_portals.hpp"
-#include "simulation/box_joint_test_support.hpp"
 #include "simulation/detail/skin_surface.hpp"
+#include "simulation/skin_over_box_test_support.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::test {
@@ -25,91 +24,6 @@ namespace carpus::simulation {
 namespace {
 
 using namespace box_joint;  // NOLINT(google-build-using-namespace)
-
-constexpr double kCapsuleMm = 6.0;
-/// Skin, 6 mm before the joint's wall; out of it is +x.
-const double kSkinX = kMiddle.x + kHalf + kCapsuleMm;
-constexpr double kPlateHalf = 60.0;
-
-TriangleMesh plate() {
-  TriangleMesh mesh;
-  for (const double y : {-kPlateHalf, kPlateHalf}) {
-    for (const double z : {-kPlateHalf, kPlateHalf}) mesh.vertices.push_back({kSkinX, y, z});
-  }
-  mesh.facets = {{0, 2, 1}, {1, 2, 3}};
-  return mesh;
-}
-
-/// A tendon runs 4 mm under the skin, 8 mm aside of the portal, a nerve 3 mm under it, 8 mm the
-/// other way.
-cases::Structure tube(const char* id, anatomy::StructureKind kind, double y, double under_mm) {
-  cases::Structure made;
-  made.id = id;
-  made.name = id;
-  made.kind = kind;
-  made.radius_mm = 1.0;
-  for (double z = -40; z <= 40; z += 4) made.course.push_back({{kSkinX - under_mm, y, z}, 0.0});
-  return made;
-}
-
-const cases::CaseData& wrist_with_skin() {
-  static const cases::CaseData data = [] {
-    cases::CaseData made = box_wrist();
-    static_cast<TriangleMesh&>(made.skin) = plate();
-    cases::ArthroscopicMap map = *made.arthroscopy;
-    cases::Portal other = map.portals.front();
-    other.id = "4-5";
-    other.skin.y += 7;
-    map.portals.push_back(other);
-    map.landmarks.push_back({"lister", {kSkinX - 3, 0, -10}, map.forearm});
-    made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
-    made.structures = {tube("tendon", anatomy::StructureKind::Tendon, -8, 4),
-                       tube("nerve", anatomy::StructureKind::Nerve, 11, 3)};
-    return made;
-  }();
-  return data;
-}
-
-procedure::PortalMaking figures() {
-  procedure::PortalMaking made;
-  made.first = "3-4";
-  made.second = {"4-5"};
-  made.landmarks = {{"3-4", "lister"}, {"4-5", "3-4"}};
-  made.touch_n = 0.3;
-  made.bone_mm = 4.5;
-  made.deepest_mm = 16;
-  made.cord_deep_mm = 10;
-  made.skin_mm = 1.5;
-  made.firm_share = 0.5;
-  made.cell_mm = 2.5;
-  made.cell_s = 0.1;
-  made.cells = 5;
-  made.ink_mm = 0.8;
-  made.pass_mm = 4;
-  made.strike_n = 1;
-  made.in_joint_s = 0.3;
-  made.cut_reach_mm = 1.5;
-  made.cut_stretch_mm = 1;
-  made.spread_s = 0.4;
-  made.spread_reach_mm = 2.5;
-  return made;
-}
-
-InstrumentIndex tool(const char* id) { return *instruments::instrument_of(id); }
-
-const procedure::Procedure& making() {
-  static const procedure::Procedure kProcedure = [] {
-    procedure::Procedure made = probe_alone();
-    made.tray.clear();
-    for (const char* id : {"fingertip", "skin_marker", "needle_22g", "blade_15", "mosquito_clamp",
-                           "scope_sheath_1_9"}) {
-      made.tray.push_back(tool(id));
-    }
-    made.making = figures();
-    return made;
-  }();
-  return kProcedure;
-}
 
 Vec3 at(double out_mm, double y = 0.0, double z = 0.0) {
   return Vec3{kSkinX + out_mm, kMiddle.y + y, kMiddle.z + z};
@@ -356,6 +270,22 @@ TEST(PortalMaking, ABladeTooDeepReachesTheTendon) {
   EXPECT_EQ(struck(), 0);
   maker.cut(-8, 4.0);
   EXPECT_EQ(struck(), 1);
+}
+
+TEST(PortalMaking, InTheFatABladeHarmsANerveAndNotYetATendonAndTheStrikerIsNamed) {
+  cases::CaseData data = wrist_with_skin();
+  data.structures = {tube("tendon", anatomy::StructureKind::Tendon, 0, 3),
+                     tube("nerve", anatomy::StructureKind::Nerve, 8, 3)};
+  World world(data, making(), 1);
+  Maker maker(world);
+  const auto near = [&world](std::size_t i) { return world.operation_record().structures[i]; };
+  maker.cut(0, 2.5);
+  maker.cut(8, 2.5);
+  EXPECT_FALSE(near(0).was_struck) << "below the fascia";
+  EXPECT_TRUE(near(1).was_struck);
+  EXPECT_EQ(near(1).by, tool("blade_15"));
+  maker.enter(8);
+  EXPECT_EQ(near(1).by, tool("blade_15")) << "though the sheath came nearer afterwards";
 }
 
 TEST(PortalMaking, TheStateComesBackFromItsBytesAndGoesOnAlike) {

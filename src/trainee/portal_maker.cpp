@@ -40,9 +40,9 @@ Tick ticks_of(double s) { return static_cast<Tick>(std::max(0.0, s) / kTickSecon
 PortalSkill portal_skill_of(Skill skill) noexcept {
   PortalSkill made;
   if (skill == Skill::Middle) {
-    made = {50.0, 22.0, 6.0, 0.1, 1.6, 7.0, 2, 5, 0.75, 5.5, 1.0, 20.0, 2.2, 0.1, 0.25};
+    made = {50.0, 22.0, 6.0, 6.0, 0.1, 1.6, 7.0, 2, 5, 0.75, 5.5, 1.0, 20.0, 2.2, 0.3, 0.1, 0.25};
   } else if (skill == Skill::Novice) {
-    made = {40.0, 16.0, 5.0, 0.2, 3.2, 14.0, 1, 8, 0.85, 8.0, 2.0, 45.0, 3.8, 0.45, 0.4};
+    made = {40.0, 16.0, 5.0, 8.0, 0.2, 3.2, 14.0, 1, 8, 0.85, 8.0, 2.0, 45.0, 3.8, 0.0, 0.45, 0.4};
   }
   return made;
 }
@@ -175,9 +175,9 @@ void ScriptedPortalMaker::plan_portal() {
   tasks_.push_back(rest);
 }
 
-/// By where the needle was.
-void ScriptedPortalMaker::plan_cut() {
-  const Vec3 out = -at_.inwards;
+/// By where the needle was, straight into the skin as it lies there.
+void ScriptedPortalMaker::plan_cut(const simulation::Snapshot& now) {
+  const Vec3 out = normalized_or(now.skin.out_of_skin[0], -at_.inwards);
   const Vec3 distal = data_.arthroscopy->distal;
   const Vec3 flat = normalized_or(distal - out * dot(distal, out), distal);
   const Vec3 start = found_ - flat * (skill_.cut_mm / 2);
@@ -200,7 +200,7 @@ void ScriptedPortalMaker::lead_blade(const simulation::Snapshot& now) {
   planned_ = hand_;
   go({hand_.tip + way * mm, hand_.shaft}, skill_.in_mm_per_s, 0.2);
   tasks_.back().keeps_deep = true;
-  go({planned_.tip + hand_.shaft * kOutsideMm, hand_.shaft}, kDrawsMmPerS);
+  go({planned_.tip + out * kOutsideMm, hand_.shaft}, kDrawsMmPerS);
   tasks_.back().looks = true;
 }
 
@@ -234,7 +234,7 @@ void ScriptedPortalMaker::plan_sheath() {
   ++entries_;
   const HandPose before{found_ - found_way_ * kOutsideMm, -found_way_};
   go(before, skill_.speed_mm_per_s);
-  go({found_ + found_way_ * (at_.capsule_mm + 2 * kBeyondMm), -found_way_}, skill_.in_mm_per_s,
+  go({found_ + found_way_ * (at_.capsule_mm + 2 * kBeyondMm), -found_way_}, skill_.through_mm_per_s,
      0.5);
   tasks_.back().until = Until::Made;
   tasks_.back().enters = true;
@@ -248,7 +248,7 @@ bool ScriptedPortalMaker::is_reached(const Task& task, const simulation::Snapsho
     case Until::FluidBack:
       return now.skin.is_wet[0];
     case Until::Deep:
-      return now.skin.under_mm[0] >= cut_deep_mm_;
+      return now.skin.under_mm[0] >= cut_deep_mm_ - skill_.foresees_mm;
     case Until::Made:
       return now.skin.facts.made > which_;
   }
@@ -319,7 +319,7 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
       }
       if (done.plans) {
         planned_ = hand_;
-        plan_cut();
+        plan_cut(now);
       } else if (done.finishes) {
         if (++which_ < procedure::kPortalsMade && now.skin.facts.made >= which_) {
           planned_ = hand_;

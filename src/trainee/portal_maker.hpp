@@ -26,7 +26,8 @@ namespace carpus::trainee {
 struct PortalSkill {
   double traction_n = 60.0;
   double speed_mm_per_s = 30.0;
-  double in_mm_per_s = 8.0;  ///< under the skin
+  double in_mm_per_s = 8.0;       ///< under the skin
+  double through_mm_per_s = 3.5;  ///< with the sheath
   double tremor_mm = 0.05;
   double place_error_mm = 0.5;  ///< of where it is pricked, by axis
   double tilt_error_deg = 2.5;  ///< of the needle, by axis
@@ -34,10 +35,11 @@ struct PortalSkill {
   int tries = 4;                ///< of the needle
   double learning = 0.6;        ///< errors shrink by this with each
   double cut_mm = 4.5;
-  double cut_error_mm = 0.4;
+  double cut_error_mm = 0.25;
   double cut_turn_deg = 8.0;  ///< off the limb's axis
-  double cut_deep_mm = 1.6;
-  double skips = 0.0;  ///< chance to leave out the needle, or to spread
+  double cut_deep_mm = 1.4;
+  double foresees_mm = 0.7;  ///< of that a blade is held back: it goes on while one reacts
+  double skips = 0.0;        ///< chance to leave out the needle, or to spread
   double reaction_s = 0.15;
 };
 [[nodiscard]] PortalSkill portal_skill_of(Skill skill) noexcept;
@@ -82,7 +84,7 @@ class ScriptedPortalMaker {
   [[nodiscard]] Portal portal_now(std::size_t which) const;
   void plan_portal();
   void plan_prick(bool is_first);
-  void plan_cut();
+  void plan_cut(const simulation::Snapshot& now);
   void lead_blade(const simulation::Snapshot& now);
   void plan_way_in(const simulation::Snapshot& now);
   void plan_sheath();

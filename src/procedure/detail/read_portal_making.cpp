@@ -32,6 +32,7 @@ void read_palpation(JsonFields fields, PortalMaking& making) {
 
 void read_tools(JsonFields fields, PortalMaking& making) {
   making.skin_mm = fields.number("skin_mm", 0.0, kMostMm);
+  making.fascia_mm = fields.number("fascia_mm", making.skin_mm, kMostMm);
   making.ink_mm = fields.number("ink_mm", 0.1, kMostMm);
   making.pass_mm = fields.number("pass_mm", 0.1, kMostMm);
   making.strike_n = fields.number("strike_n", 0.0, kMostN);

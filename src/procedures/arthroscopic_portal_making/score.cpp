@@ -105,7 +105,8 @@ procedure::ScoreReport score(const cases::CaseData& data,
     overrun = std::max(overrun, made.overrun_mm);
     direction = std::max(direction, degrees_of(made.cut.along_cosine));
   }
-  Measure struck = procedure::structures_struck(data, record, " met the ");
+  Measure struck =
+      procedure::structures_struck(data, record, " met the ", procedure::ThroughSkin::Portal);
   std::vector<Measure> care{
       {"palpated_share", 100 * felt, ""}, {"needle_passes", passes, ""},
       {"bone_strikes", strikes, ""},      {"out_of_order", wrong, ""},

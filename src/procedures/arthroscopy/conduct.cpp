@@ -47,7 +47,8 @@ void add_ways_in(std::vector<Measure>& measures,
                  const cases::CaseData& data,
                  const procedure::OperationRecord& record) {
   const bool has_entered = record.scope && record.scope->entries > 0;
-  Measure struck = procedure::structures_struck(data, record, " went in through the ");
+  Measure struck = procedure::structures_struck(data, record, " went in through the ",
+                                                procedure::ThroughSkin::Portal);
   if (!has_entered) {  // what never went in proved no care
     struck.value.reset();
     struck.finding = "No scope went in.";

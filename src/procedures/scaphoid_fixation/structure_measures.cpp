@@ -15,7 +15,8 @@ Measure struck(const Facts& facts) {
     none.applies = !facts.data.structures.empty();
     return none;
   }
-  return procedure::structures_struck(facts.data, facts.record, " turned in the ");
+  return procedure::structures_struck(facts.data, facts.record, " turned in the ",
+                                      procedure::ThroughSkin::Wire);
 }
 
 }  // namespace

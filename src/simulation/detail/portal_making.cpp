@@ -45,18 +45,22 @@ void World::State::ink(const Model& model, const Vec3& at) noexcept {
   worked.ink[worked.ink_count++] = scanned;
 }
 
-/// A blade cuts sharply whatever it meets from below the skin down to its tip.
+/// A blade cuts sharply whatever it meets from below the skin down to its tip: nerves and arteries
+/// run in the fat, tendons below the fascia.
 void World::State::watch_blade(const Model& model,
                                std::uint8_t hand,
                                const SkinPlace& at) noexcept {
-  const double skin_mm = model.procedure.making->skin_mm;
-  if (structures.size() == 0 || at.depth_mm <= skin_mm) return;
-  const Vec3 under = at.point - at.normal * skin_mm;
+  const procedure::PortalMaking& figures = *model.procedure.making;
+  if (structures.size() == 0 || at.depth_mm <= figures.skin_mm) return;
+  const Vec3 below_skin = at.point - at.normal * figures.skin_mm;
+  const Vec3 below_fascia = at.point - at.normal * figures.fascia_mm;
   structures.follow({poses.data(), snapshot.body_count});
   const Vec3& tip = now.items[now.held[hand]].tip;
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const double least = structure_state.harm[i].least_mm;
-    const double gap = structures.gap_mm(i, tip, under, least);
+    const bool is_tendon = structures.kind(i) == anatomy::StructureKind::Tendon;
+    if (is_tendon && at.depth_mm <= figures.fascia_mm) continue;
+    const double gap = structures.gap_mm(i, tip, is_tendon ? below_fascia : below_skin, least);
     note_harm(hand, i, gap, gap < 0.0);
   }
 }

@@ -112,11 +112,13 @@ void World::State::note_harm(std::uint8_t hand,
                              double gap_mm,
                              bool is_struck) noexcept {
   detail::StructureHarm& harm = structure_state.harm[structure];
-  if (gap_mm < harm.least_mm) {
-    harm.least_mm = gap_mm;
+  const bool strikes = is_struck && !harm.was_struck;
+  // What came nearest, until something strikes it: then that, whatever goes by afterwards.
+  if (strikes || (gap_mm < harm.least_mm && !harm.was_struck)) {
     harm.by = now.items[now.held[hand]].instrument;
   }
-  if (!is_struck || harm.was_struck) return;
+  harm.least_mm = std::min(harm.least_mm, gap_mm);
+  if (!strikes) return;
   harm.was_struck = true;
   emit(EventKind::StructureStruck, now.held[hand], static_cast<std::int32_t>(structure), gap_mm);
 }

@@ -75,6 +75,19 @@ export const HELP: readonly HelpGroup[] = [
     ],
   },
   {
+    title: "On closed skin",
+    lines: [
+      { keys: "Drag, arrows", text: "lead finger, marker or blade over the skin" },
+      {
+        keys: "{KeyA} / {KeyD}",
+        text: "press, prick, go in / draw back: what is in deep goes by these alone",
+      },
+      { keys: "Shift + arrows", text: "the needle's direction, before it is in" },
+      { keys: "Space", text: "hold: open the clamp" },
+      { keys: "{KeyC}", text: "finger, marker, needle, blade, clamp, sheath" },
+    ],
+  },
+  {
     title: "At a scope",
     lines: [
       { keys: "{KeyA} / {KeyD}, wheel", text: "go in / draw back" },
