@@ -90,7 +90,7 @@ void print(const ProcedureValidity& validity, const std::vector<std::string>& na
     std::printf("%-34s%s%s\n", item.id.c_str(), in_columns(item.separation).c_str(),
                 item.counted ? "" : "  not counted");
   }
-  std::printf("%-32s %8s %8s %8s %6s   safe fixations\n", "mean total on", "novice", "middle",
+  std::printf("%-32s %8s %8s %8s %6s   all must-haves\n", "mean total on", "novice", "middle",
               "expert", "AUC");
   for (std::size_t c = 0; c < validity.cases.size(); ++c) {
     const trainee::CaseMeans& means = validity.cases[c];

@@ -18,11 +18,14 @@ using procedure::Situation;
 
 /// The least that opens a wrist [S79].
 constexpr double kLeastTractionN = 34.0;
+constexpr double kMostTractionN = 69.0;  // more strains nerves and skin
 constexpr int kCellsFelt = 5;  // of the landmark alone: a step that knew the spot would tell it
 /// The fingertip waits farther off the skin than a scope, from all of the radius [E].
 constexpr double kWaitsMm = 60.0;
 
-bool is_pulled(const Situation& now) noexcept { return now.wrist.traction_n >= kLeastTractionN; }
+bool is_pulled(const Situation& now) noexcept {
+  return now.wrist.traction_n >= kLeastTractionN && now.wrist.traction_n <= kMostTractionN;
+}
 template <std::size_t kWhich>
 bool is_made(const Situation& now) noexcept {
   return now.making.made > kWhich;

@@ -17,6 +17,7 @@ using procedure::Situation;
 
 /// The least that opens a wrist [S79].
 constexpr double kLeastTractionN = 34.0;
+constexpr double kMostTractionN = 69.0;  // more strains nerves and skin
 /// Where the hand waits, outside all tissue.
 constexpr double kWaitsMm = 60.0;
 /// In the order of the map's portals and joints, which opening() proves to be there.
@@ -60,7 +61,9 @@ bool has_seen(const Situation& now) noexcept {
   return (now.scope.points_seen & kBits) == kBits;
 }
 
-bool is_pulled(const Situation& now) noexcept { return now.wrist.traction_n >= kLeastTractionN; }
+bool is_pulled(const Situation& now) noexcept {
+  return now.wrist.traction_n >= kLeastTractionN && now.wrist.traction_n <= kMostTractionN;
+}
 bool is_scope_in(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, true, [](std::uint8_t by) { return by == kPortal34; });
 }

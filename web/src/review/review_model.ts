@@ -87,7 +87,7 @@ export function choicesOf(
   return [...found].sort((a, b) => a.localeCompare(b, "en"));
 }
 
-/** No points are earned without a safe fixation (docs/scoring.md). */
+/** No points are earned where a must-have is missing (docs/scoring.md). */
 export function hasFailed(attempt: Pick<AttemptSummary, "overall">): boolean {
   return (attempt.overall ?? 0) <= 0;
 }

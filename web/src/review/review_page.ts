@@ -268,7 +268,7 @@ class ReviewPage {
     return make(
       "p.secondary.curve-legend",
       {},
-      "● a safe fixation, ",
+      "● every must-have, ",
       make("span.harm", {}, "✕"),
       " none. The band is the middle half of the others by how many each had done before.",
     );
@@ -299,7 +299,7 @@ function standingText(points: readonly CusumPoint[]): string {
 }
 
 function comparisonTable(rows: readonly Comparison[]): HTMLElement {
-  const heads = ["Who", "Finished", "Score, median", "Safe fixation", "Time, median"];
+  const heads = ["Who", "Finished", "Score, median", "Every must-have", "Time, median"];
   const figure = (value: number | undefined, words: (value: number) => string): HTMLElement =>
     make("td.figure", {}, value === undefined ? "–" : words(value));
   return make(
