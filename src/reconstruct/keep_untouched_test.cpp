@@ -49,5 +49,17 @@ TEST(KeepUntouched, OnlyBonesWhoseVoxelsWereChangedAreMadeAnew) {
   EXPECT_THAT(lies_at, ElementsAre(1, 103, 107, 109));
 }
 
+TEST(KeepUntouched, ABoneIsLeftAloneWhereNothingChangedWithinOneAndAHalfMillimetres) {
+  // Voxels of 1 mm: the change of bone 9 reaches two of them.
+  const Grid<std::uint8_t> before = row_of({1, 0, 0, 9, 9, 9, 0, 3, 0, 0});
+  const auto alone = left_alone(before, row_of({1, 0, 0, 9, 9, 0, 0, 3, 0, 0}));
+  EXPECT_TRUE(alone[1]);
+  EXPECT_FALSE(alone[9]);
+  EXPECT_FALSE(alone[3]);
+  EXPECT_TRUE(left_alone(before, before)[9]);
+  // A bone that was not there before, over the border of the grid.
+  EXPECT_FALSE(left_alone(before, row_of({1, 0, 0, 9, 9, 9, 0, 3, 0, 7}))[7]);
+}
+
 }  // namespace
 }  // namespace carpus::reconstruct

@@ -166,6 +166,18 @@ void build_surfaces(BoneSegmentation s,
   data.labels = on_whole_scan(labels, offset, ct.geometry());
 }
 
+void keep_trust(const EarlierVersion& earlier,
+                const Grid<std::uint8_t>& labels,
+                Reconstruction& result) {
+  const std::array<bool, 256> is_alone = left_alone(earlier.labels, labels);
+  for (const EarlierBone& had : earlier.bones) {
+    if (!had.trust || !is_alone[had.label]) continue;
+    for (std::size_t i = 0; i < result.figures.size(); ++i) {
+      if (result.data.bones[i].label == had.label) result.figures[i].trust = *had.trust;
+    }
+  }
+}
+
 void warn_of_flagged(Reconstruction& result) {
   for (std::size_t i = 0; i < result.figures.size(); ++i) {
     const BoneTrust& trust = result.figures[i].trust;
@@ -284,7 +296,9 @@ Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
   GivenSegmentation given = describe_labels(ct, labels, options.segmentation);
   result.warnings = given.warnings;
   const auto keep = [&](cases::CaseData& data) {
-    if (earlier != nullptr) keep_untouched(*earlier, labels, data);
+    if (earlier == nullptr) return;
+    keep_untouched(*earlier, labels, data);
+    keep_trust(*earlier, labels, result);
   };
   build_case(std::move(ct), std::move(given.named), options, stage, keep, result);
   clock.end();
