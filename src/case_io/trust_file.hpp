@@ -20,6 +20,8 @@ struct TrustLine {
   double confidence = 0;  ///< 0 to 1
   bool flagged = false;
   std::string why;  ///< what was seen and what to do; empty where nothing is wrong
+
+  bool operator==(const TrustLine&) const = default;
 };
 
 /// @param made_by  program and version
