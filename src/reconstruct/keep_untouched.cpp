@@ -16,9 +16,9 @@ constexpr double kBesideMm = 1.5;  ///< of the profiles that bone_trust.cpp take
 
 }  // namespace
 
-void keep_untouched(const EarlierVersion& earlier,
-                    const Grid<std::uint8_t>& given,
-                    cases::CaseData& data) {
+std::array<bool, 256> keep_untouched(const EarlierVersion& earlier,
+                                     const Grid<std::uint8_t>& given,
+                                     cases::CaseData& data) {
   CARPUS_CHECK(earlier.labels.values().size() == given.values().size());
   CARPUS_CHECK(data.labels.values().size() == given.values().size());
   std::array<bool, 256> is_kept{};
@@ -46,6 +46,7 @@ void keep_untouched(const EarlierVersion& earlier,
       if (had.label == bone.label) bone.surface = MeshIn<frame::Bone>(had.surface);
     }
   }
+  return is_kept;
 }
 
 std::array<bool, 256> left_alone(const Grid<std::uint8_t>& before,

@@ -32,9 +32,10 @@ struct EarlierVersion {
 /// voxels that they had there; of the others what `data` has stays, but for voxels of the former.
 /// @param given  labels as a person left them, on the grid of both
 /// @param data  bones with labels and surfaces, and labels
-void keep_untouched(const EarlierVersion& earlier,
-                    const Grid<std::uint8_t>& given,
-                    cases::CaseData& data);
+/// @return by label: which have the surface of the earlier version
+std::array<bool, 256> keep_untouched(const EarlierVersion& earlier,
+                                     const Grid<std::uint8_t>& given,
+                                     cases::CaseData& data);
 
 /// By label: whether neither the bone nor anything within 1.5 mm of it was changed, which is as far
 /// as its measures look. What was said of such a bone is still so: measured again, on labels that

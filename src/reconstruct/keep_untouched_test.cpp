@@ -42,7 +42,9 @@ TEST(KeepUntouched, OnlyBonesWhoseVoxelsWereChangedAreMadeAnew) {
   }
   // As the surfaces made anew have it: bone 1 lost a voxel to 3 and won one at its side.
   data.labels = row_of({3, 1, 1, 3, 0, 9, 9, 7});
-  keep_untouched(earlier, given, data);
+  const auto kept = keep_untouched(earlier, given, data);
+  EXPECT_TRUE(kept[1]);
+  EXPECT_FALSE(kept[3] || kept[7] || kept[9]);
   EXPECT_THAT(data.labels.values(), ElementsAre(1, 1, 0, 3, 0, 9, 9, 7));
   std::vector<double> lies_at;
   for (const cases::Bone& bone : data.bones) lies_at.push_back(bone.surface.vertices[0].x);

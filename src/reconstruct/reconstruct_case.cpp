@@ -159,6 +159,7 @@ void build_surfaces(BoneSegmentation s,
   for (std::size_t i = 0; i < label_of.size(); ++i) {
     data.bones[i].surface = MeshIn<frame::Bone>(std::move(made.surfaces[i]));
     check_bone(data.bones[i]);
+    result.figures[i].simplification_error_mm = made.simplification_error_mm[i];
     for (const BoneEvidence& each : made.evidence) {
       if (each.label == label_of[i]) result.figures[i].trust = judge(each);
     }
@@ -297,7 +298,10 @@ Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
   result.warnings = given.warnings;
   const auto keep = [&](cases::CaseData& data) {
     if (earlier == nullptr) return;
-    keep_untouched(*earlier, labels, data);
+    const std::array<bool, 256> is_kept = keep_untouched(*earlier, labels, data);
+    for (std::size_t i = 0; i < data.bones.size(); ++i) {
+      if (is_kept[data.bones[i].label]) result.figures[i].simplification_error_mm.reset();
+    }
     keep_trust(*earlier, labels, result);
   };
   build_case(std::move(ct), std::move(given.named), options, stage, keep, result);

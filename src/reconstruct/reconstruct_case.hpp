@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct BoneFigures {
   double naming_cost = 0;  ///< see anatomy::BoneNaming
   double hull_seconds = 0;
   BoneTrust trust;
+  /// Measured (build_bone_surface); none where the surface is an earlier version's [mm].
+  std::optional<double> simplification_error_mm = {};
 };
 
 struct Reconstruction {
