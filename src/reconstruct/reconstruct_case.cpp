@@ -229,8 +229,8 @@ void build_case(Grid<std::int16_t> ct,
                 Reconstruction& result) {
   const BoneNaming& naming = named.naming;
   refuse_what_cannot_be_operated(naming, named.segmentation.region_count, ct.geometry());
-  const std::vector<std::string> warnings = warnings_of(naming);
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  result.of_scan = warnings_of(naming);
+  result.warnings.insert(result.warnings.end(), result.of_scan.begin(), result.of_scan.end());
   result.naming_cost = naming.cost;
   result.other_side_cost = naming.other_side_cost;
   result.size = naming.scale;

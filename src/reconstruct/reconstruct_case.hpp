@@ -44,6 +44,7 @@ struct Reconstruction {
   std::vector<BoneFigures> figures;  ///< in the order of data.bones
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;  ///< in words for the user; empty when all is well
+  std::vector<std::string> of_scan;   ///< those of them that are of the scan as a whole
   double naming_cost = 0;
   double other_side_cost = 0;          ///< the margin to naming_cost is the confidence in the side
   double size = 1;                     ///< relative to the model wrist
