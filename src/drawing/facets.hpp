@@ -50,6 +50,9 @@ struct SurfacePaint {
   std::function<Colour(std::size_t facet)> colour;
   std::string_view edges = "none";  ///< colour of the facets' edges
   double edge_width = 0.5;
+  /// By vertex, unit, outward: a facet is shaded from corner to corner [gouraud1971continuous].
+  /// Empty: each facet has the shade of its own plane.
+  std::span<const Vec3> normals = {};
 };
 
 /// Any surface, from far to near: what is nearer is painted over what is farther, by the middles of

@@ -15,6 +15,7 @@
 #include "drawing/view.hpp"
 #include "hull/fast_hull.hpp"
 #include "hull/merged_faces.hpp"
+#include "mesh/normals.hpp"
 #include "mesh/simplify.hpp"
 
 namespace carpus::figures {
@@ -173,6 +174,8 @@ std::string draw_wrist(const std::vector<DrawnBone>& bones,
   const drawing::View view(all.vertices, kScene, {0, side == WristSide::Dorsal ? -1.0 : 1.0, 0});
   drawing::SurfacePaint paint = paint_of(kBone, facets);
   paint.colour = [&](std::size_t facet) { return colours[facet]; };
+  std::vector<Vec3> normals;
+  if (facets != Facets::Outlined) paint.normals = normals = mesh::vertex_normals(all);
   std::string svg = draw_surface(view, all, paint);
   if (!pointed_at.vertices.empty()) {
     Vec3 middle;
@@ -232,8 +235,10 @@ std::string draw_texture_mapping(const cases::Bone& bone, const GridView<const s
     on_bone.push_back(view(thinned.surface.vertices[atlas.sources[v]]));
   }
   const std::vector<Colour> colours = facet_colours(bitmap);
-  svg += draw_surface(view, thinned.surface,
-                      {[&](std::size_t f) { return product(kBone, colours[f]); }, kFacetEdge, 0.3});
+  const std::vector<Vec3> normals = mesh::vertex_normals(thinned.surface);
+  svg += draw_surface(
+      view, thinned.surface,
+      {[&](std::size_t f) { return product(kBone, colours[f]); }, kFacetEdge, 0.3, normals});
   for (std::size_t i = 0; i < 3; ++i) {
     svg += drawing::strokes(drawing::line_path(in_bitmap[i], on_bone[i]), {kArrow, 0.8, 0.7});
   }
