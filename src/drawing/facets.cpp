@@ -105,6 +105,7 @@ std::string draw_surface(const View& view, const TriangleMesh& surface, const Su
     std::array<double, 3> brightness{};
     for (std::size_t k = 0; k < 3; ++k) {
       brightness[k] = view.brightness(paint.normals.empty() ? normal : paint.normals[t[k]]);
+      if (!paint.factors.empty()) brightness[k] *= paint.factors[f][k];
     }
     facets.emplace_back(view.nearness(corners[0] + corners[1] + corners[2]),
                         filled_between(on_page, paint.colour(f), brightness));

@@ -73,6 +73,11 @@ TEST(Facets, NormalsOfVerticesShadeAFacetFromCornerToCorner) {
   const std::array<Vec3, 3> even{bright, bright, bright};
   paint.normals = even;
   EXPECT_EQ(draw_surface(view, one, paint).find("Gradient"), std::string::npos);
+  const std::vector<std::array<double, 3>> factors{{1, 0.5, 0.5}};
+  paint.factors = factors;
+  EXPECT_THAT(
+      draw_surface(view, one, paint),
+      testing::HasSubstr("stop-color=\"" + hex(shaded({1, 1, 1}, view.brightness(bright) / 2))));
 }
 
 TEST(Facets, TheOutlineIsBolderThanTheEdgesWithinIt) {
