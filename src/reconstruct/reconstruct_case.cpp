@@ -89,7 +89,10 @@ std::vector<std::string> warnings_of(const BoneNaming& naming) {
   if (!naming.missing.empty()) {
     warnings.push_back("not found: " + list_of(naming.missing) + "; the case goes without");
   }
-  if (naming.status == NamingStatus::Doubtful) {
+  if (naming.status == NamingStatus::Doubtful && naming.cost < anatomy::kDoubtfulNamingCost) {
+    warnings.push_back(
+        "one of the bones lies or is shaped as on no known wrist: check its name and outline");
+  } else if (naming.status == NamingStatus::Doubtful) {
     warnings.push_back("the names fit worse than on any known wrist (misfit " +
                        std::to_string(std::lround(naming.cost)) +
                        ", known up to 20): check them before use");
