@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +20,11 @@
 #include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/structures_json.hpp"
 #include "case_io/dicom_segmentation.hpp"
+#include "case_io/lesson_file.hpp"
 #include "case_io/small_case_test_support.hpp"
+#include "case_io/small_tissue_test_support.hpp"
+#include "case_io/soft_tissue_folder.hpp"
+#include "case_io/trust_file.hpp"
 #include "case_io/two_bones_test_support.hpp"
 #include "checksum.hpp"
 #include "protocol/bodies.hpp"
@@ -147,6 +152,31 @@ void write_journal(const fs::path& folder, const Recording& recording, const Byt
   write(folder / "blocks", listed);
 }
 
+cases::Lesson small_lesson() {
+  cases::Lesson lesson;
+  lesson.title = "A waist";
+  lesson.history = "fell";
+  lesson.goal = "fix it";
+  lesson.size = "average";
+  lesson.reason = "no corridor";
+  lesson.right_answer = cases::RightAnswer::Decline;
+  lesson.decline_for = {"no_corridor"};
+  lesson.expert = cases::ExpertProof{"dorsal_scaphoid_fixation", 3, true, 90};
+  return lesson;
+}
+
+/// As a case's folder has it.
+std::string small_tissue_text(const fs::path& beside) {
+  const fs::path folder = beside / "small_case";
+  fs::create_directories(folder);
+  std::ofstream(folder / "case.json") << "{}";
+  case_io::write_soft_tissue(case_io::test::small_tissue(), case_io::test::small_case(), folder);
+  std::ifstream file(folder / case_io::kSoftTissueFolder / "soft_tissue.json", std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  fs::remove_all(folder);
+  return text;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -161,6 +191,13 @@ int main(int argc, char** argv) {
         bytes_of(case_io::hand_motion_text(case_io::test::small_table())));
   write(corpus / "structures" / "whole",
         bytes_of(case_io::structures_text(case_io::test::small_structures())));
+  write(
+      corpus / "trust" / "whole",
+      bytes_of(case_io::trust_text(
+          {{"lunate", 0.98, false, ""}, {"scaphoid_distal", 0.31, true, "it is hollow"}}, "seed")));
+  write(corpus / "lesson" / "whole", bytes_of(case_io::lesson_text(small_lesson())));
+  write(corpus / "label_names" / "whole", bytes_of(R"({"radius": 1, "scaphoid_distal": 2})"));
+  write(corpus / "soft_tissue" / "whole", bytes_of(small_tissue_text(corpus)));
   fs::create_directories(corpus / "dicom_segmentation");
   case_io::write_dicom_segmentation(corpus / "dicom_segmentation" / "two_bones",
                                     case_io::test::two_bones().view(),

@@ -86,6 +86,12 @@ TEST_F(SoftTissueFolder, DamageIsNamed) {
   EXPECT_THAT(damaged("\"lining\":\"1", "\"lining\":\"9"), HasSubstr("lining"));
   EXPECT_THAT(damaged("\"point\":1", "\"point\":7"), HasSubstr("beyond its course"));
   EXPECT_THAT(damaged("\"fraction\":0.45", "\"fraction\":-3"), HasSubstr("impossible"));
+  for (const char* point : {"0.5", "-1", "1e300", "\"1\""}) {
+    EXPECT_THAT(damaged("\"point\":1", std::string("\"point\":") + point), HasSubstr("not whole"));
+  }
+  // A bone that is none would be held by the air, at the place where bone 0 is.
+  EXPECT_THAT(damaged("{\"label\":3", "{\"label\":0"), HasSubstr("impossible"));
+  EXPECT_THAT(damaged("{\"label\":3", "{\"label\":2.5"), HasSubstr("not whole"));
   write_soft_tissue(small_tissue(), data_, folder_);
   change("\"schema_version\":1", "\"schema_version\":2");
   EXPECT_THAT(refusal<SchemaError>(), HasSubstr("newer program"));

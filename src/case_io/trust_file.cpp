@@ -15,14 +15,18 @@ namespace {
 constexpr std::string_view kFormat = "carpus bone trust";
 constexpr std::size_t kLargestFile = 65536;
 constexpr std::size_t kLongestWhy = 2048;
+constexpr std::size_t kMostOfScan = 16;
 
 }  // namespace
 
-std::string trust_text(const std::vector<TrustLine>& lines, const std::string& made_by) {
+std::string trust_text(const std::vector<TrustLine>& lines,
+                       const std::string& made_by,
+                       const std::vector<std::string>& of_scan) {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
   json["schema_version"] = kTrustSchemaVersion;
   json["made_by"] = made_by;
+  if (!of_scan.empty()) json["of_scan"] = of_scan;
   json["bones"] = nlohmann::ordered_json::array();
   for (const TrustLine& line : lines) {
     json["bones"].push_back(
@@ -46,6 +50,11 @@ std::vector<TrustLine> parse_trust(const std::string& text, const std::string& f
                       "; update carpus");
   }
   (void)fields.text_or("made_by", "");
+  const std::vector<std::string> of_scan = fields.texts_or_none("of_scan");
+  if (of_scan.size() > kMostOfScan) fields.refuse("of_scan has too many texts");
+  for (const std::string& words : of_scan) {
+    if (words.empty() || words.size() > kLongestWhy) fields.refuse("of_scan is empty or too long");
+  }
   std::vector<TrustLine> lines;
   for (JsonFields& bone : fields.objects("bones")) {
     TrustLine line;

@@ -13,18 +13,23 @@
 namespace carpus::case_io {
 
 inline constexpr const char* kTrustFile = "trust.json";
-inline constexpr int kTrustSchemaVersion = 1;
+inline constexpr int kTrustSchemaVersion = 2;
 
 struct TrustLine {
   std::string name;       ///< of the bone or part
   double confidence = 0;  ///< 0 to 1
   bool flagged = false;
   std::string why;  ///< what was seen and what to do; empty where nothing is wrong
+
+  bool operator==(const TrustLine&) const = default;
 };
 
 /// @param made_by  program and version
+/// @param of_scan  what is to be known of the scan as a whole before it is used, in words; at most
+/// 16
 [[nodiscard]] std::string trust_text(const std::vector<TrustLine>& lines,
-                                     const std::string& made_by);
+                                     const std::string& made_by,
+                                     const std::vector<std::string>& of_scan = {});
 
 /// @throws InvalidInput naming `file` and field; SchemaError where a newer program wrote it.
 [[nodiscard]] std::vector<TrustLine> parse_trust(const std::string& text, const std::string& file);

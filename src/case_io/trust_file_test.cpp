@@ -25,6 +25,7 @@ TEST(TrustFile, ReadsWhatItWrote) {
   EXPECT_TRUE(lines[1].flagged);
   EXPECT_EQ(lines[1].why, "it is hollow: fill it");
   EXPECT_FALSE(lines[0].flagged);
+  EXPECT_EQ(parse_trust(trust_text(kLines, "carpus 1.0", {"a child's?"}), "trust.json"), lines);
 }
 
 TEST(TrustFile, RefusesWhatItDoesNotKnow) {
@@ -35,9 +36,14 @@ TEST(TrustFile, RefusesWhatItDoesNotKnow) {
   EXPECT_THROW((void)parse_trust(changed("pisiform", "femur"), "trust.json"), InvalidInput);
   EXPECT_THROW((void)parse_trust(changed("0.97", "1.97"), "trust.json"), InvalidInput);
   EXPECT_THROW((void)parse_trust(changed("carpus bone trust", "else"), "trust.json"), InvalidInput);
-  EXPECT_THROW((void)parse_trust(changed("\"schema_version\": 1", "\"schema_version\": 2"), "t"),
+  EXPECT_THROW((void)parse_trust(changed("\"schema_version\": 2", "\"schema_version\": 3"), "t"),
                SchemaError);
+  // As programs before 2 wrote it.
+  EXPECT_EQ(parse_trust(changed("\"schema_version\": 2", "\"schema_version\": 1"), "t"), kLines);
   EXPECT_THROW((void)parse_trust("{", "trust.json"), InvalidInput);
+  const std::vector<std::string> many(17, "a");
+  EXPECT_THROW((void)parse_trust(trust_text(kLines, "c", many), "trust.json"), InvalidInput);
+  EXPECT_THROW((void)parse_trust(trust_text(kLines, "c", {""}), "trust.json"), InvalidInput);
 }
 
 TEST(TrustFile, OfACaseThatIsAPipeIsRefusedWithoutWaiting) {

@@ -8,11 +8,14 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "anatomy/bone_id.hpp"
 #include "case_io/case_cover.hpp"
 #include "case_io/ply.hpp"
 #include "case_io/read_volume.hpp"
+#include "case_io/trust_file.hpp"
 #include "core/error.hpp"
 #include "core/json_fields.hpp"
 #include "core/text_format.hpp"
@@ -34,6 +37,16 @@ std::string plain_id_of(const fs::path& folder) {
     return std::isalnum(c) != 0 || c == '-' || c == '_';
   });
   return is_plain && id.size() <= kLongestId ? id : std::string();
+}
+
+std::optional<reconstruct::BoneTrust> trust_of(
+    const std::optional<std::vector<case_io::TrustLine>>& lines,
+    const std::string& bone) {
+  if (!lines) return std::nullopt;
+  for (const case_io::TrustLine& line : *lines) {
+    if (line.name == bone) return reconstruct::BoneTrust{line.confidence, line.flagged, line.why};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -75,12 +88,13 @@ EarlierCase read_earlier_case(const fs::path& folder) {
   const auto labels = earlier.version.labels.values();
   const bool is_broken =
       std::find(labels.begin(), labels.end(), kScaphoidDistalLabel) != labels.end();
+  const auto trusted = case_io::read_trust(folder);
   for (std::size_t label = 1; label <= kScaphoidDistalLabel; ++label) {
     // A bone of which there is none is none to be kept.
     const fs::path surface = folder / "bones" / (name_of_label(label, is_broken) + ".ply");
     if (!fs::is_regular_file(surface)) continue;
-    earlier.version.surfaces.push_back(
-        {static_cast<std::uint8_t>(label), case_io::read_ply(surface)});
+    earlier.version.bones.push_back({static_cast<std::uint8_t>(label), case_io::read_ply(surface),
+                                     trust_of(trusted, name_of_label(label, is_broken))});
   }
   return earlier;
 }

@@ -31,7 +31,8 @@ struct EarlierCase {
   reconstruct::EarlierVersion version;
 };
 
-/// @throws IoError, InvalidInput where its case.json, labels or surfaces cannot be read.
+/// @throws IoError, InvalidInput where its case.json, labels, surfaces or trust.json cannot be
+/// read.
 [[nodiscard]] EarlierCase read_earlier_case(const std::filesystem::path& folder);
 
 /// "scaphoid: 12 mm3 added, 3 mm3 taken away", for each bone that differs; by the numbers of

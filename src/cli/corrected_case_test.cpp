@@ -8,6 +8,8 @@
 
 #include <fstream>
 
+#include "case_io/ply.hpp"
+#include "case_io/trust_file.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/error.hpp"
 
@@ -57,6 +59,23 @@ TEST(CorrectedCase, KeepsWhereTheEarlierOneCameFrom) {
   EXPECT_EQ(earlier.provenance.source, "a CT");
   EXPECT_EQ(earlier.provenance.conventions.size(), 1U);
   EXPECT_EQ(earlier.version.labels[1], 2);
+  EXPECT_THAT(earlier.version.bones, IsEmpty());
+  fs::create_directory(folder / "bones");
+  for (const char* bone : {"radius", "ulna"}) {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.facets = {{0, 1, 2}};
+    case_io::write_ply(folder / "bones" / (std::string(bone) + ".ply"), mesh);
+  }
+  std::ofstream(folder / case_io::kTrustFile)
+      << case_io::trust_text({{"ulna", 0.25, true, "it is hollow"}}, "carpus");
+  const EarlierCase doubted = read_earlier_case(folder);
+  ASSERT_EQ(doubted.version.bones.size(), 2U);
+  EXPECT_FALSE(doubted.version.bones[0].trust);
+  ASSERT_TRUE(doubted.version.bones[1].trust);
+  EXPECT_TRUE(doubted.version.bones[1].trust->flagged);
+  EXPECT_EQ(doubted.version.bones[1].trust->confidence, 0.25);
+  EXPECT_EQ(doubted.version.bones[1].trust->why, "it is hollow");
   std::ofstream(folder / "case.json") << R"({"pseudonym": "demo", "provenance": {"simulated": 1}})";
   EXPECT_THROW((void)read_earlier_case(folder), InvalidInput);
   fs::remove_all(folder);

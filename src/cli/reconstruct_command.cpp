@@ -254,7 +254,7 @@ void run(const Arguments& a) {
                 [&] { picture = stock::case_picture(result.data); }});
   records::write_file_atomically(
       a.out / case_io::kTrustFile,
-      case_io::trust_text(trust_lines(result), result.data.provenance.made_by));
+      case_io::trust_text(trust_lines(result), result.data.provenance.made_by, result.of_scan));
   // After what is flagged: a disk that fills up costs the picture first.
   records::write_file_atomically(a.out / case_io::kPreviewFile, picture);
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});

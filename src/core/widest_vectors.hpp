@@ -15,3 +15,10 @@
 #else
 #define CARPUS_WIDEST_VECTORS
 #endif
+
+// Before a loop whose turns do not depend on each other: what one writes no other reads.
+#if defined(__GNUC__) && !defined(__clang__)
+#define CARPUS_INDEPENDENT_TURNS _Pragma("GCC ivdep")
+#else
+#define CARPUS_INDEPENDENT_TURNS
+#endif

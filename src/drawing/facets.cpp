@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
+#include "core/state_hash.hpp"
 #include "core/text_format.hpp"
 
 namespace carpus::drawing {
@@ -18,6 +20,39 @@ constexpr const char* kCrisp = "<g shape-rendering=\"crispEdges\" fill-opacity=\
 
 std::string filled(const std::string& path, const Colour& colour) {
   return "<path fill=\"" + hex(colour) + "\" d=\"" + path + "\"/>\n";
+}
+
+/// A step of fewer is not seen between neighbours.
+constexpr double kSeenStep = 1.0 / 128;
+
+/// A facet whose brightness goes straight from corner to corner, which is a linear gradient on the
+/// page. Its name is made of what it is: pictures that share a document may share it.
+std::string filled_between(const std::array<Vec2, 3>& corners,
+                           const Colour& colour,
+                           const std::array<double, 3>& brightness) {
+  const auto [least, most] = std::minmax_element(brightness.begin(), brightness.end());
+  const std::string path = polygon_path(corners);
+  const Colour flat = shaded(colour, (brightness[0] + brightness[1] + brightness[2]) / 3);
+  const Vec2 a{corners[1].x - corners[0].x, corners[1].y - corners[0].y};
+  const Vec2 b{corners[2].x - corners[0].x, corners[2].y - corners[0].y};
+  const double twice_area = a.x * b.y - a.y * b.x;
+  if (*most - *least < kSeenStep || std::abs(twice_area) < 1e-6) return filled(path, flat);
+  const double u = brightness[1] - brightness[0];
+  const double v = brightness[2] - brightness[0];
+  const Vec2 slope{(u * b.y - v * a.y) / twice_area, (v * a.x - u * b.x) / twice_area};
+  const double steep = slope.x * slope.x + slope.y * slope.y;
+  const Vec2& from = corners[static_cast<std::size_t>(least - brightness.begin())];
+  const double along = (*most - *least) / steep;
+  const std::string gradient = format(
+      "gradientUnits=\"userSpaceOnUse\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"><stop "
+      "stop-color=\"%s\"/><stop offset=\"1\" stop-color=\"%s\"/>",
+      from.x, from.y, from.x + slope.x * along, from.y + slope.y * along,
+      hex(shaded(colour, *least)).c_str(), hex(shaded(colour, *most)).c_str());
+  StateHash hash;
+  hash.add_bytes(std::as_bytes(std::span(gradient)));
+  const std::string id = format("g%llx", static_cast<unsigned long long>(hash.value()));
+  return "<linearGradient id=\"" + id + "\" " + gradient + "</linearGradient><path fill=\"url(#" +
+         id + ")\" d=\"" + path + "\"/>\n";
 }
 
 }  // namespace
@@ -67,9 +102,13 @@ std::string draw_surface(const View& view, const TriangleMesh& surface, const Su
       normal = -normal;
     }
     const std::array on_page{view(corners[0]), view(corners[1]), view(corners[2])};
-    facets.emplace_back(
-        view.nearness(corners[0] + corners[1] + corners[2]),
-        filled(polygon_path(on_page), shaded(paint.colour(f), view.brightness(normal))));
+    std::array<double, 3> brightness{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      brightness[k] = view.brightness(paint.normals.empty() ? normal : paint.normals[t[k]]);
+      if (!paint.factors.empty()) brightness[k] *= paint.factors[f][k];
+    }
+    facets.emplace_back(view.nearness(corners[0] + corners[1] + corners[2]),
+                        filled_between(on_page, paint.colour(f), brightness));
   }
   std::stable_sort(facets.begin(), facets.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

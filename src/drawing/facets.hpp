@@ -4,6 +4,7 @@
 // Surfaces on a page: facets that a lamp shades, edges whose outline is bolder.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,12 @@ struct SurfacePaint {
   std::function<Colour(std::size_t facet)> colour;
   std::string_view edges = "none";  ///< colour of the facets' edges
   double edge_width = 0.5;
+  /// By vertex, unit, outward: a facet is shaded from corner to corner [gouraud1971continuous].
+  /// Empty: each facet has the shade of its own plane.
+  std::span<const Vec3> normals = {};
+  /// By facet and corner: how much brighter its colour is there than in the middle. Empty: as
+  /// bright.
+  std::span<const std::array<double, 3>> factors = {};
 };
 
 /// Any surface, from far to near: what is nearer is painted over what is farther, by the middles of

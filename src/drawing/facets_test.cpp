@@ -50,6 +50,36 @@ TEST(Facets, AClosedSurfaceShowsOnlyWhatFacesTheViewer) {
   EXPECT_EQ(facets_drawn(), 3U);
 }
 
+/// Of a facet across the view, bright at its corner 0 and dark along the side from 1 to 2.
+TEST(Facets, NormalsOfVerticesShadeAFacetFromCornerToCorner) {
+  const TriangleMesh one{{{0, 0, 0}, {0, 2, 0}, {0, 2, 2}}, {{0, 1, 2}}};
+  const View view = view_along_x(one.vertices);
+  SurfacePaint paint{[](std::size_t) { return Colour{1, 1, 1}; }};
+  EXPECT_EQ(draw_surface(view, one, paint).find("Gradient"), std::string::npos);
+  const Vec3 bright{1, 0, 0};
+  const Vec3 dark{0, 1, 0};
+  const std::array<Vec3, 3> normals{bright, dark, dark};
+  paint.normals = normals;
+  const std::string svg = draw_surface(view, one, paint);
+  const auto stop = [&](const Vec3& normal) {
+    return "stop-color=\"" + hex(shaded({1, 1, 1}, view.brightness(normal)));
+  };
+  const std::size_t first = svg.find(stop(dark));
+  ASSERT_NE(first, std::string::npos) << svg;
+  EXPECT_GT(svg.find(stop(bright)), first) << svg;
+  // The facet fills the page, corner 0 at its lower left: the gradient lies along the page's x.
+  EXPECT_THAT(svg, testing::HasSubstr("x1=\"100.0\""));
+  EXPECT_THAT(svg, testing::HasSubstr("x2=\"0.0\""));
+  const std::array<Vec3, 3> even{bright, bright, bright};
+  paint.normals = even;
+  EXPECT_EQ(draw_surface(view, one, paint).find("Gradient"), std::string::npos);
+  const std::vector<std::array<double, 3>> factors{{1, 0.5, 0.5}};
+  paint.factors = factors;
+  EXPECT_THAT(
+      draw_surface(view, one, paint),
+      testing::HasSubstr("stop-color=\"" + hex(shaded({1, 1, 1}, view.brightness(bright) / 2))));
+}
+
 TEST(Facets, TheOutlineIsBolderThanTheEdgesWithinIt) {
   const std::array<std::array<std::uint32_t, 3>, 2> corners{{{0, 1, 2}, {0, 2, 3}}};
   const std::array<std::array<std::uint32_t, 3>, 2> beyond{{{2, 2, 1}, {0, 2, 2}}};

@@ -15,6 +15,7 @@
 #include "drawing/view.hpp"
 #include "hull/fast_hull.hpp"
 #include "hull/merged_faces.hpp"
+#include "mesh/normals.hpp"
 #include "mesh/simplify.hpp"
 
 namespace carpus::figures {
@@ -95,6 +96,38 @@ std::vector<Colour> facet_colours(const case_io::BoneBitmap& bitmap) {
   return colours;
 }
 
+double luminance(const Colour& c) { return 0.3 * c[0] + 0.6 * c[1] + 0.1 * c[2]; }
+
+/// A texture without borders between facets: colours of the corners, each the mean of the facets
+/// about it; of a facet the mean of its corners', and how much brighter each corner is.
+struct SmoothTexture {
+  std::vector<Colour> colours;
+  std::vector<std::array<double, 3>> factors;
+
+  SmoothTexture(const TriangleMesh& mesh, const std::vector<Colour>& of_facets) {
+    std::vector<Colour> sums(mesh.vertices.size(), Colour{});
+    std::vector<double> counts(mesh.vertices.size(), 0);
+    for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+      for (const std::uint32_t v : mesh.facets[f]) {
+        for (std::size_t c = 0; c < 3; ++c) sums[v][c] += of_facets[f][c];
+        counts[v] += 1;
+      }
+    }
+    for (const Triangle& t : mesh.facets) {
+      Colour mean{};
+      std::array<double, 3> bright{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double share = 1 / counts[t[k]];
+        for (std::size_t c = 0; c < 3; ++c) mean[c] += sums[t[k]][c] * share / 3;
+        bright[k] = luminance(sums[t[k]]) * share;
+      }
+      for (double& b : bright) b /= std::max(luminance(mean), 1e-3);
+      colours.push_back(mean);
+      factors.push_back(bright);
+    }
+  }
+};
+
 std::string name_in_words(BoneId bone) {
   std::string name(name_of(bone));
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
@@ -173,6 +206,13 @@ std::string draw_wrist(const std::vector<DrawnBone>& bones,
   const drawing::View view(all.vertices, kScene, {0, side == WristSide::Dorsal ? -1.0 : 1.0, 0});
   drawing::SurfacePaint paint = paint_of(kBone, facets);
   paint.colour = [&](std::size_t facet) { return colours[facet]; };
+  std::vector<Vec3> normals;
+  if (facets != Facets::Outlined) paint.normals = normals = mesh::vertex_normals(all);
+  const SmoothTexture smooth(all, colours);
+  if (facets == Facets::Textured) {
+    paint.colour = [&](std::size_t facet) { return smooth.colours[facet]; };
+    paint.factors = smooth.factors;
+  }
   std::string svg = draw_surface(view, all, paint);
   if (!pointed_at.vertices.empty()) {
     Vec3 middle;
@@ -232,8 +272,10 @@ std::string draw_texture_mapping(const cases::Bone& bone, const GridView<const s
     on_bone.push_back(view(thinned.surface.vertices[atlas.sources[v]]));
   }
   const std::vector<Colour> colours = facet_colours(bitmap);
-  svg += draw_surface(view, thinned.surface,
-                      {[&](std::size_t f) { return product(kBone, colours[f]); }, kFacetEdge, 0.3});
+  const std::vector<Vec3> normals = mesh::vertex_normals(thinned.surface);
+  svg += draw_surface(
+      view, thinned.surface,
+      {[&](std::size_t f) { return product(kBone, colours[f]); }, kFacetEdge, 0.3, normals});
   for (std::size_t i = 0; i < 3; ++i) {
     svg += drawing::strokes(drawing::line_path(in_bitmap[i], on_bone[i]), {kArrow, 0.8, 0.7});
   }

@@ -9,11 +9,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <vector>
 
+#include "fields/triangle_tree.hpp"
 #include "imaging/binary_mask.hpp"
 #include "imaging/gaussian.hpp"
 #include "mesh/marching_cubes.hpp"
@@ -106,6 +109,21 @@ TriangleMesh simplified(const TriangleMesh& mesh, const BoneSurfaceOptions& opti
   return best;
 }
 
+/// Of the vertices of `before` from the surface `after`. Its own vertices are some of those, so
+/// that nothing is farther the other way round but in the middle of a facet.
+double farthest_mm(const TriangleMesh& before, const TriangleMesh& after) {
+  const fields::TriangleTree tree(after);
+  double squared = 0;
+  std::optional<std::uint32_t> hint;
+  for (const Vec3& vertex : before.vertices) {
+    const auto found = tree.nearest(vertex, std::numeric_limits<double>::infinity(), hint);
+    if (!found) continue;
+    hint = found->facet;
+    squared = std::max(squared, found->squared_distance);
+  }
+  return std::sqrt(squared);
+}
+
 /// Piece number of each facet; pieces share no vertex.
 std::vector<std::uint32_t> pieces_of(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.vertices.size());
@@ -167,7 +185,10 @@ BoneField build_bone_field(const Labels& labels,
   return {imaging::gaussian_smooth(sharp.view(), options.field_sigma_mm), box.low};
 }
 
-MeshIn<frame::Bone> build_bone_surface(const BoneField& field, const BoneSurfaceOptions& options) {
+MeshIn<frame::Bone> build_bone_surface(const BoneField& field,
+                                       const BoneSurfaceOptions& options,
+                                       double* simplification_error_mm) {
+  if (simplification_error_mm != nullptr) *simplification_error_mm = 0;
   if (field.values.values().empty()) return {};
   TriangleMesh surface = largest_piece(mesh::extract_isosurface(field.values.view(), 0.0));
   if (surface.facets.empty()) return {};
@@ -178,7 +199,9 @@ MeshIn<frame::Bone> build_bone_surface(const BoneField& field, const BoneSurface
   // Marching cubes does not cross itself; what smoothing did to a thin place is not worth a
   // crossing.
   if (mesh::count_self_intersections(smoothed) > 0) smoothed = std::move(surface);
-  return MeshIn<frame::Bone>(simplified(smoothed, options));
+  TriangleMesh fewer = simplified(smoothed, options);
+  if (simplification_error_mm != nullptr) *simplification_error_mm = farthest_mm(smoothed, fewer);
+  return MeshIn<frame::Bone>(std::move(fewer));
 }
 
 void label_by_fields(std::span<const BoneField> fields,

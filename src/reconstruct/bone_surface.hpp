@@ -43,8 +43,11 @@ struct BoneField {
 
 /// Closed, outward surface of a bone [Patient, mm]: a closed, oriented 2-manifold of one piece; a
 /// bone that leaves the grid is closed flat half a voxel beyond it. Empty for an empty field.
+/// @param simplification_error_mm  where asked for: measured, how far the farthest vertex of the
+///     surface before its simplification lies from the one after [mm]
 [[nodiscard]] MeshIn<frame::Bone> build_bone_surface(const BoneField& field,
-                                                     const BoneSurfaceOptions& options = {});
+                                                     const BoneSurfaceOptions& options = {},
+                                                     double* simplification_error_mm = nullptr);
 
 /// Makes `labels` agree with the fields' surfaces: a voxel gets the bone inside whose surface its
 /// centre lies (the deepest, should two claim it), or 0. `fields[i]` belongs to `label_of[i]`.

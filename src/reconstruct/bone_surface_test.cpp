@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "fields/triangle_tree.hpp"
 #include "reconstruct/skin_surface.hpp"
 
 namespace carpus::reconstruct {
@@ -66,6 +67,36 @@ TEST(BoneSurface, ClosesABoneThatLeavesTheScan) {
   const TriangleMesh surface = build_bone_surface(field);
   EXPECT_EQ(check_surface(surface), SurfaceStatus::Ok);
   EXPECT_NEAR(volume_of(surface) / (2.0 / 3 * kPi * 216), 1.0, 0.08);
+}
+
+/// Against an oracle that asks every facet, on a ball of so few facets that they cut deep.
+TEST(BoneSurface, MeasuresHowFarItsSimplificationMovedIt) {
+  const GridGeometry g = grid_of(40, 0.5);
+  const Ball ball = make_ball(g.patient_from_voxel({20, 20, 20}), 7, g);
+  const BoneField field = build_bone_field(ball.labels.view(), 3, ball.excess.view());
+  BoneSurfaceOptions options;
+  options.least_facets = 200;
+  options.facets_per_mm2 = 0;
+  options.max_error_mm = 0.6;
+  double error_mm = -1;
+  const auto few = build_bone_surface(field, options, &error_mm);
+  options.least_facets = options.most_facets = 1000000;
+  double none_mm = -1;
+  const auto all = build_bone_surface(field, options, &none_mm);
+  EXPECT_EQ(none_mm, 0);
+  ASSERT_LT(few.facets.size(), all.facets.size() / 8);
+  double farthest = 0;
+  for (const Vec3& vertex : all.vertices) {
+    double nearest = 1e9;
+    for (const Triangle& t : few.facets) {
+      nearest = std::min(nearest, distance(vertex, fields::nearest_point_on_triangle(
+                                                       vertex, few.vertices[t[0]],
+                                                       few.vertices[t[1]], few.vertices[t[2]])));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_GT(error_mm, 0.02);
+  EXPECT_NEAR(error_mm, farthest, 1e-9);
 }
 
 TEST(BoneSurface, OfAMissingLabelIsEmpty) {

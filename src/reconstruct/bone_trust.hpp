@@ -34,10 +34,12 @@ struct BoneEvidence {
   double no_edge = 0;          ///< part of it that has no edge in the CT within 1.25 mm
   double faint = 0;            ///< part of it across which the CT hardly falls
   double off_edge = 0;  ///< mean distance from it to the CT's edge, times area over volume: a share
-  double blur = 0;      ///< mean width of the CT's edge, likewise
+  double blur = 0;      ///< mean width of the CT's edge, where it has one within 1.25 mm, likewise
+  double edge_mm = 0;   ///< that width itself [mm]
   double coarseness = 0;  ///< the voxels' width across it, likewise
   double dark = 0;        ///< part of the bone no denser than soft tissue
   double severed = 0;     ///< volume of nameless bodies that grow on it without a gap, over its own
+  double metal_mm3 = 0;   ///< denser than any bone, in the bone and within 4 mm of its extent
   double noise_hu = 0;    ///< of the scan, in the soft tissue around
   double wrist_misfit = 0;  ///< of the scan's naming as a whole
 };

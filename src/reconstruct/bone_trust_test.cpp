@@ -207,6 +207,64 @@ TEST(BoneTrust, FlagsEachFaultAndSaysWhatToDo) {
   expect_said(e, "voxels are coarse");
 }
 
+TEST(BoneTrust, WhereMetalIsTheReasonNoOtherScannerIsAskedFor) {
+  EXPECT_EQ(TwoBalls().lunate().metal_mm3, 0);
+  TwoBalls pinned;  // a wire of 1.4 x 1.4 mm along the slices' normal, through the first ball
+  const GridGeometry& g = pinned.labels.geometry();
+  for (int z = 0; z < g.size[2]; ++z) {
+    for (int y = 12; y < 14; ++y) {
+      for (int x = 12; x < 14; ++x) pinned.hu[VoxelIndex{x, y, z}] = 3071;
+    }
+  }
+  EXPECT_NEAR(pinned.lunate().metal_mm3, 26 * 0.7 * 1.4 * 1.4, 0.1);
+  BoneEvidence e = sound();
+  e.solidity = 0.6;
+  e.coarseness = 1.6;
+  e.blur = 2.5;
+  e.edge_mm = 1;
+  e.off_edge = 0.4;
+  e.no_edge = 0.3;
+  e.noise_hu = 100;
+  e.metal_mm3 = 12;
+  const std::string why = judge(e).why;
+  EXPECT_THAT(why, HasSubstr("metal in it or beside it"));
+  for (const char* wrong : {"thinner", "kernel", "dose", "still"}) {
+    EXPECT_THAT(why, testing::Not(HasSubstr(wrong)));
+  }
+}
+
+TEST(BoneTrust, WhatWasErasedIsNotTheScannersFault) {
+  TwoBalls erased;  // a side of the first ball; the CT is as sharp as before
+  const GridGeometry& g = erased.labels.geometry();
+  for (std::size_t i = 0; i < erased.labels.values().size(); ++i) {
+    if (g.index_of(i).x < 13 && erased.labels[i] == kLunate) erased.labels[i] = 0;
+  }
+  const BoneEvidence e = erased.lunate();
+  EXPECT_GT(e.no_edge, 0.1);
+  // Half a ball has more surface for its volume; at the surface itself it would be ten times that.
+  EXPECT_LT(e.blur, 1.6 * TwoBalls().lunate().blur);
+  BoneEvidence hollow = sound();
+  hollow.solidity = 0.5;
+  hollow.coarseness = 1.2;  // its inner wall counts, too
+  hollow.blur = 1.2;
+  hollow.edge_mm = 0.5;
+  hollow.no_edge = 0.3;
+  hollow.off_edge = 0.4;
+  for (const BoneEvidence& bone : {e, hollow}) {
+    const BoneTrust trust = judge(bone);
+    EXPECT_TRUE(trust.flagged);
+    EXPECT_THAT(trust.why, HasSubstr("no edge in the CT: draw it there"));
+    for (const char* wrong : {"thinner", "kernel", "still"}) {
+      EXPECT_THAT(trust.why, testing::Not(HasSubstr(wrong)));
+    }
+  }
+  BoneEvidence blurred = sound();
+  blurred.blur = 0.7;
+  blurred.edge_mm = 0.8;
+  blurred.off_edge = 0.4;
+  EXPECT_THAT(judge(blurred).why, HasSubstr("sharper kernel"));
+}
+
 TEST(BoneTrust, MoreOfAnyConcernNeverMeansMoreConfidence) {
   const double best = judge(sound()).confidence;
   for (const auto field :

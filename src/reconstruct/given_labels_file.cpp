@@ -3,11 +3,9 @@
 #include "reconstruct/given_labels_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
@@ -15,7 +13,7 @@
 #include "case_io/read_dicom_segmentation.hpp"
 #include "case_io/read_volume.hpp"
 #include "core/error.hpp"
-#include "core/json_fields.hpp"
+#include "reconstruct/label_names.hpp"
 
 namespace carpus::reconstruct {
 namespace {
@@ -24,15 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestNames = 65536;
 
-/// Number in the file -> number here; 0 = left out.
-using LabelMap = std::array<std::uint8_t, 256>;
-
-std::optional<std::uint8_t> label_of(const std::string& name) {
-  const std::optional<NamedBone> bone = bone_of(name);
-  if (!bone) return std::nullopt;
-  return bone->part == BonePart::Distal ? std::uint8_t{kScaphoidDistalLabel}
-                                        : static_cast<std::uint8_t>(bone->bone);
-}
+using LabelMap = LabelNumbers;
 
 LabelMap read_names(const fs::path& file) {
   if (!fs::is_regular_file(file)) {  // a pipe would wait for whoever writes into it
@@ -42,28 +32,7 @@ LabelMap read_names(const fs::path& file) {
     throw InvalidInput(file.string() + ": is larger than any list of names");
   }
   std::ifstream stream(file, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  const nlohmann::json json = parse_json_text(text, file.string());
-  if (!json.is_object() || json.empty()) {
-    throw InvalidInput(file.string() + ": is no list of names such as {\"radius\": 1}");
-  }
-  LabelMap map{};
-  for (const auto& [name, value] : json.items()) {
-    const auto label = label_of(name);
-    if (!label) {
-      throw InvalidInput(file.string() + ": there is no bone '" + name +
-                         "'; bones are called radius, ulna, scaphoid, scaphoid_proximal, "
-                         "scaphoid_distal, lunate, ... metacarpal5");
-    }
-    const bool is_number = value.is_number_integer() && value >= 1 && value <= 255;
-    if (!is_number) {
-      throw InvalidInput(file.string() + ": the number of " + name + " is not one from 1 to 255");
-    }
-    std::uint8_t& to = map[value.get<std::size_t>()];
-    if (to != 0) throw InvalidInput(file.string() + ": two bones have the number of " + name);
-    to = *label;
-  }
-  return map;
+  return parse_label_names(std::string(std::istreambuf_iterator<char>(stream), {}), file.string());
 }
 
 LabelMap own_numbers() {
@@ -81,7 +50,7 @@ LabelMap names_of_segments(const std::vector<std::string>& segments) {
       if (c == ' ' && name.starts_with("metacarpal")) continue;
       name += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
-    map[i + 1] = label_of(name).value_or(0);
+    map[i + 1] = label_of_bone(name).value_or(0);
   }
   return map;
 }

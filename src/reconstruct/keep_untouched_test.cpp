@@ -42,11 +42,25 @@ TEST(KeepUntouched, OnlyBonesWhoseVoxelsWereChangedAreMadeAnew) {
   }
   // As the surfaces made anew have it: bone 1 lost a voxel to 3 and won one at its side.
   data.labels = row_of({3, 1, 1, 3, 0, 9, 9, 7});
-  keep_untouched(earlier, given, data);
+  const auto kept = keep_untouched(earlier, given, data);
+  EXPECT_TRUE(kept[1]);
+  EXPECT_FALSE(kept[3] || kept[7] || kept[9]);
   EXPECT_THAT(data.labels.values(), ElementsAre(1, 1, 0, 3, 0, 9, 9, 7));
   std::vector<double> lies_at;
   for (const cases::Bone& bone : data.bones) lies_at.push_back(bone.surface.vertices[0].x);
   EXPECT_THAT(lies_at, ElementsAre(1, 103, 107, 109));
+}
+
+TEST(KeepUntouched, ABoneIsLeftAloneWhereNothingChangedWithinOneAndAHalfMillimetres) {
+  // Voxels of 1 mm: the change of bone 9 reaches two of them.
+  const Grid<std::uint8_t> before = row_of({1, 0, 0, 9, 9, 9, 0, 3, 0, 0});
+  const auto alone = left_alone(before, row_of({1, 0, 0, 9, 9, 0, 0, 3, 0, 0}));
+  EXPECT_TRUE(alone[1]);
+  EXPECT_FALSE(alone[9]);
+  EXPECT_FALSE(alone[3]);
+  EXPECT_TRUE(left_alone(before, before)[9]);
+  // A bone that was not there before, over the border of the grid.
+  EXPECT_FALSE(left_alone(before, row_of({1, 0, 0, 9, 9, 9, 0, 3, 0, 7}))[7]);
 }
 
 }  // namespace

@@ -89,7 +89,10 @@ std::vector<std::string> warnings_of(const BoneNaming& naming) {
   if (!naming.missing.empty()) {
     warnings.push_back("not found: " + list_of(naming.missing) + "; the case goes without");
   }
-  if (naming.status == NamingStatus::Doubtful) {
+  if (naming.status == NamingStatus::Doubtful && naming.cost < anatomy::kDoubtfulNamingCost) {
+    warnings.push_back(
+        "one of the bones lies or is shaped as on no known wrist: check its name and outline");
+  } else if (naming.status == NamingStatus::Doubtful) {
     warnings.push_back("the names fit worse than on any known wrist (misfit " +
                        std::to_string(std::lround(naming.cost)) +
                        ", known up to 20): check them before use");
@@ -159,11 +162,24 @@ void build_surfaces(BoneSegmentation s,
   for (std::size_t i = 0; i < label_of.size(); ++i) {
     data.bones[i].surface = MeshIn<frame::Bone>(std::move(made.surfaces[i]));
     check_bone(data.bones[i]);
+    result.figures[i].simplification_error_mm = made.simplification_error_mm[i];
     for (const BoneEvidence& each : made.evidence) {
       if (each.label == label_of[i]) result.figures[i].trust = judge(each);
     }
   }
   data.labels = on_whole_scan(labels, offset, ct.geometry());
+}
+
+void keep_trust(const EarlierVersion& earlier,
+                const Grid<std::uint8_t>& labels,
+                Reconstruction& result) {
+  const std::array<bool, 256> is_alone = left_alone(earlier.labels, labels);
+  for (const EarlierBone& had : earlier.bones) {
+    if (!had.trust || !is_alone[had.label]) continue;
+    for (std::size_t i = 0; i < result.figures.size(); ++i) {
+      if (result.data.bones[i].label == had.label) result.figures[i].trust = *had.trust;
+    }
+  }
 }
 
 void warn_of_flagged(Reconstruction& result) {
@@ -216,8 +232,8 @@ void build_case(Grid<std::int16_t> ct,
                 Reconstruction& result) {
   const BoneNaming& naming = named.naming;
   refuse_what_cannot_be_operated(naming, named.segmentation.region_count, ct.geometry());
-  const std::vector<std::string> warnings = warnings_of(naming);
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  result.of_scan = warnings_of(naming);
+  result.warnings.insert(result.warnings.end(), result.of_scan.begin(), result.of_scan.end());
   result.naming_cost = naming.cost;
   result.other_side_cost = naming.other_side_cost;
   result.size = naming.scale;
@@ -284,7 +300,12 @@ Reconstruction reconstruct_labelled(Grid<std::int16_t> ct,
   GivenSegmentation given = describe_labels(ct, labels, options.segmentation);
   result.warnings = given.warnings;
   const auto keep = [&](cases::CaseData& data) {
-    if (earlier != nullptr) keep_untouched(*earlier, labels, data);
+    if (earlier == nullptr) return;
+    const std::array<bool, 256> is_kept = keep_untouched(*earlier, labels, data);
+    for (std::size_t i = 0; i < data.bones.size(); ++i) {
+      if (is_kept[data.bones[i].label]) result.figures[i].simplification_error_mm.reset();
+    }
+    keep_trust(*earlier, labels, result);
   };
   build_case(std::move(ct), std::move(given.named), options, stage, keep, result);
   clock.end();

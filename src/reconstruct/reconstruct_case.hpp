@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct BoneFigures {
   double naming_cost = 0;  ///< see anatomy::BoneNaming
   double hull_seconds = 0;
   BoneTrust trust;
+  /// Measured (build_bone_surface); none where the surface is an earlier version's [mm].
+  std::optional<double> simplification_error_mm = {};
 };
 
 struct Reconstruction {
@@ -41,6 +44,7 @@ struct Reconstruction {
   std::vector<BoneFigures> figures;  ///< in the order of data.bones
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;  ///< in words for the user; empty when all is well
+  std::vector<std::string> of_scan;   ///< those of them that are of the scan as a whole
   double naming_cost = 0;
   double other_side_cost = 0;          ///< the margin to naming_cost is the confidence in the side
   double size = 1;                     ///< relative to the model wrist

@@ -203,7 +203,10 @@ TEST(ReconstructCase, SaysWhereAWristIsAsSmallAsAChilds) {
     std::string all;
     const std::vector<std::int16_t> values(adult.ct.values().begin(), adult.ct.values().end());
     const Reconstruction r = reconstruct_case(Grid<std::int16_t>(g, values), {});
-    for (const std::string& text : r.warnings) all += text + "\n";
+    for (const std::string& text : r.of_scan) {
+      all += text + "\n";
+      EXPECT_THAT(r.warnings, testing::Contains(text));
+    }
     return all;
   };
   EXPECT_THAT(warnings(0.7), testing::HasSubstr("a child's, do not use"));

@@ -114,6 +114,23 @@ void append_bones(const ReconstructionReport& report, std::string& text) {
   }
 }
 
+/// The worst bone's.
+void append_simplification(const ReconstructionReport& report, std::string& text) {
+  const BoneLine* worst = nullptr;
+  for (const BoneLine& b : report.bones) {
+    if (!b.simplification_error_mm) continue;
+    if (worst == nullptr || *b.simplification_error_mm > *worst->simplification_error_mm) {
+      worst = &b;
+    }
+  }
+  if (worst == nullptr) return;
+  append(
+      text,
+      "\nSimplified surfaces lie within %.3f mm of what they were made of (%s; measured at every "
+      "vertex)\n",
+      *worst->simplification_error_mm, worst->name.c_str());
+}
+
 /// What no CT shows, and how near its nerves lie to portals, beside what is published.
 void append_structures(const ReconstructionReport& report, std::string& text) {
   const cases::StructureFigures& f = report.structure_figures;
@@ -173,6 +190,7 @@ ReconstructionReport make_report(const Reconstruction& reconstruction,
     line.hull_seconds = reconstruction.figures[i].hull_seconds;
     line.naming_cost = reconstruction.figures[i].naming_cost;
     line.trust = reconstruction.figures[i].trust;
+    line.simplification_error_mm = reconstruction.figures[i].simplification_error_mm;
     line.genus = mesh::genus_of(bone.surface);
     line.self_intersections = mesh::count_self_intersections(bone.surface);
     report.bones.push_back(line);
@@ -189,6 +207,7 @@ std::string text_of(const ReconstructionReport& report) {
   for (const std::string& words : report.conventions) text += "by convention: " + words + "\n";
   if (!report.conventions.empty()) text += '\n';
   append_bones(report, text);
+  append_simplification(report, text);
   if (report.dice_mean && report.dice_min) {
     append(text, "\nDice: mean %.4f, worst bone %.4f\n", *report.dice_mean, *report.dice_min);
   }
@@ -232,6 +251,7 @@ std::string json_of(const ReconstructionReport& report) {
                              {"confidence", b.trust.confidence},
                              {"flagged", b.trust.flagged},
                              {"why", b.trust.why},
+                             {"simplification_error_mm", number_or_null(b.simplification_error_mm)},
                              {"genus", b.genus},
                              {"self_intersections", b.self_intersections}});
     if (!b.surface) continue;

@@ -27,6 +27,8 @@ struct BoneLine {
   double hull_seconds = 0;
   double naming_cost = 0;
   BoneTrust trust;
+  /// How far simplification moved the surface at most, measured [mm]; none where it was not.
+  std::optional<double> simplification_error_mm;
   int genus = 0;                       ///< handles of the surface; a bone has none
   std::size_t self_intersections = 0;  ///< pairs of its facets that cross
 };
@@ -60,7 +62,7 @@ struct ReconstructionReport {
 [[nodiscard]] std::string text_of(const ReconstructionReport& report);
 
 /// {"side", "bones": [{"name", "dice", "vertices", "facets", "hull_vertices", "hull_facets",
-/// "confidence", "flagged", "why", "genus",
+/// "confidence", "flagged", "why", "simplification_error_mm", "genus",
 /// "self_intersections"}],
 /// "dice_mean", "dice_min", "stages": [{"name", "seconds"}], "conventions": [], "structures":
 /// {"generated": true, "count", "in_bone_mm", "in_another_mm", "under_skin_mm", "portals":

@@ -67,6 +67,17 @@ TEST(ReconstructionReport, SaysWhichBonesToCheckAndWhy) {
   EXPECT_THAT(text_of(report), HasSubstr("! scaphoid: it is hollow"));
 }
 
+TEST(ReconstructionReport, SaysHowFarSimplificationMovedEachSurface) {
+  Reconstruction r = two_bones();
+  EXPECT_THAT(text_of(make_report(r, {})), testing::Not(HasSubstr("Simplified")));
+  r.figures[1].simplification_error_mm = 0.0625;
+  const auto report = make_report(r, {});
+  const auto json = nlohmann::json::parse(json_of(report));
+  EXPECT_TRUE(json["bones"][0]["simplification_error_mm"].is_null());
+  EXPECT_EQ(json["bones"][1]["simplification_error_mm"], 0.0625);
+  EXPECT_THAT(text_of(report), HasSubstr("within 0.062 mm of what they were made of (scaphoid"));
+}
+
 TEST(ReconstructionReport, SaysNothingAboutDiceWithoutATruth) {
   const auto json = nlohmann::json::parse(json_of(make_report(two_bones(), {})));
   EXPECT_TRUE(json["dice_mean"].is_null());

@@ -22,12 +22,13 @@ SurfacedBones surface_bones(imaging::BoneSegmentation s,
       imaging::measure_regions(s.regions.view(), s.edge_excess.view());
   s.regions = {};  // each volume goes when nobody asks for it any more
   SurfacedBones result;
+  result.simplification_error_mm.resize(label_of.size());
   std::vector<BoneField> fields(label_of.size());
   std::vector<MeshIn<frame::Bone>> meshes(label_of.size());
   parallel_for(fields.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       fields[i] = build_bone_field(labels, label_of[i], s.edge_excess.view(), options);
-      meshes[i] = build_bone_surface(fields[i], options);
+      meshes[i] = build_bone_surface(fields[i], options, &result.simplification_error_mm[i]);
     }
   });
   label_by_fields(fields, {label_of.begin(), label_of.end()}, labels);

@@ -21,6 +21,8 @@ namespace carpus::reconstruct {
 struct SurfacedBones {
   std::vector<TriangleMesh> surfaces;  ///< [Patient, mm], in the order of the labels asked for
   std::vector<BoneEvidence> evidence;  ///< of the bones as they were segmented
+  /// As build_bone_surface measures it, in the order of the surfaces [mm].
+  std::vector<double> simplification_error_mm;
 };
 
 /// Trust is measured on the surfaces before they are moved onto the edge: its weights were fitted

@@ -1,9 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a scan to a case and on to a mended one, all on the page: a zip is brought, the bone to be checked is found,
-// painted, taken back and painted again, run again as a new version, reopened and operated on. A station of its own,
-// whose cases end with it. Needs CARPUS_CT, a folder with a simulated CT.
+// From a scan to a case and on to a mended one, all on the page: a zip of a blurred scan is brought, the bones to be
+// checked are found with their reasons, one is painted, taken back and painted again, run again as a new version, which
+// is reopened and operated on. What nobody touched stays to be checked. A station of its own, whose cases end with it.
 import { execFileSync } from "node:child_process";
 import {
   mkdirSync,
@@ -19,9 +19,8 @@ import { expectAccessible } from "./accessibility.mjs";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { Operator } from "./operator.mjs";
-import { root, startStation } from "./station.mjs";
+import { program, startStation } from "./station.mjs";
 
-const CT = process.env.CARPUS_CT ?? join(root, "build/system/demo_ct");
 /** A case takes ten seconds where the machine is free, and minutes where it is not. */
 const MADE_MS = 540_000;
 
@@ -42,12 +41,35 @@ function anotherSeries(from, to) {
   }
 }
 
-/** As a person has it who was given a disc: two series, of which one is the scan. */
+/** As a person has it who was given a disc: two series, of which one is the scan. Its kernel was so smooth that some
+ * bones are doubtful. */
 function zipped(folder) {
   const file = join(folder, "disc.zip");
-  anotherSeries(join(CT, "dicom"), join(folder, "other"));
-  execFileSync("python3", ["-m", "zipfile", "-c", file, join(CT, "dicom"), join(folder, "other")]);
+  const simulated = ["phantom", "--out", join(folder, "ct"), "--seed", "1", "--fracture", "waist"];
+  execFileSync(program(), [...simulated, "--with", "smooth_kernel", "--severity", "1"], { stdio: "ignore" });
+  const dicom = join(folder, "ct", "dicom");
+  anotherSeries(dicom, join(folder, "other"));
+  execFileSync("python3", ["-m", "zipfile", "-c", file, dicom, join(folder, "other")]);
   return file;
+}
+
+/** The bones of the case on the page that are to be checked, by name: why. */
+async function doubtful(page, station) {
+  const id = decodeURIComponent(page.url().split("/").at(-1));
+  const told = await (await fetch(`${station.url}/api/cases/${id}/scan/trust.json`)).json();
+  return new Map(told.bones.filter((bone) => bone.flagged).map((bone) => [bone.name, bone.why]));
+}
+
+/** As the page says it: only those that are to be checked, each with its reason. */
+async function saysWhy(page, doubts) {
+  const badges = page.locator(".scan-bone:has(.badge)");
+  await badges.nth(doubts.size - 1).waitFor();
+  const names = await badges.evaluateAll((all) => all.map((one) => one.dataset.bone));
+  expect(names.sort().join() === [...doubts.keys()].sort().join(), `it is said of ${names}, not ${[...doubts.keys()]}`);
+  for (const [name, why] of doubts) {
+    const said = await page.locator(`li:has(> [data-bone=${name}]) .scan-why`).innerText();
+    expect(said === why && why.length > 20, `of ${name} it says '${said}', not '${why}'`);
+  }
 }
 
 async function shot(page, name) {
@@ -83,6 +105,17 @@ async function bringAndMend(page, station, zip) {
     await page.locator(".scan-heading", { hasText: "From the disc" }).waitFor({ timeout: 30_000 });
   });
   if (!brought) return;
+  let doubts = new Map();
+  await check(page, "the bones to be checked are found, each with its reason", async () => {
+    doubts = await doubtful(page, station);
+    expect(doubts.size >= 2 && doubts.size <= 8, `${doubts.size} bones are to be checked`);
+    expect(doubts.has("capitate"), `the capitate is not among ${[...doubts.keys()]}`);
+    await saysWhy(page, doubts);
+    await page.locator(".scan-bone:has(.badge)[data-bone=capitate]").click();
+    await page.locator(".scan-reading", { hasText: "Capitate" }).waitFor();
+    await expectAccessible(page, 10);
+    await shot(page, "scan_doubtful");
+  });
   await check(page, "bringing can be given up, and leaves nothing", async () => {
     await page.getByRole("button", { name: "Add a scan…" }).click();
     await dialog.locator('input[type=file]:not([webkitdirectory])').setInputFiles(zip);
@@ -147,6 +180,13 @@ async function bringAndMend(page, station, zip) {
     expect(said.length === 1, `it says ${JSON.stringify(told.provenance.conventions)}`);
   });
   if (!mended) return;
+  await check(page, "of bones that nobody touched the new version says the same", async () => {
+    const now = await doubtful(page, station);
+    await saysWhy(page, now);
+    for (const doubt of [doubts, now]) doubt.delete("capitate");
+    expect(doubts.size >= 1, "there is no other bone");
+    expect(JSON.stringify([...now]) === JSON.stringify([...doubts]), `it says ${JSON.stringify([...now])}`);
+  });
   await check(page, "one press leads back to the version before, and to this one", async () => {
     const id = decodeURIComponent(page.url().split("/").at(-1));
     await page.getByRole("link", { name: "Back to the version before" }).click();
@@ -160,6 +200,10 @@ async function bringAndMend(page, station, zip) {
     await page.getByRole("link", { name: "Operate" }).click();
     await page.locator("dialog.start button[type=submit]:not([disabled])").waitFor();
     await shot(page, "new_case_list");
+    const { cases } = await (await fetch(`${station.url}/api/cases`)).json();
+    const flagged = cases.find((one) => one.id === id).flagged;
+    expect(flagged.length > 0, "its card knows of nothing to be checked");
+    await page.locator(`.case-card[data-case="${id}"]`, { hasText: /Check .* on its scan/ }).waitFor();
     const picture = page.locator(`.case-card[data-case="${id}"] img`);
     await picture.waitFor();
     const pixels = await picture.evaluate((image) => image.decode().then(() => image.naturalWidth));

@@ -131,7 +131,7 @@ template <typename Judge>
   const auto pz = static_cast<float>(q.z);
   const std::size_t count = lower_.size();
   for (std::size_t first = 0; first < count; first += kTogether) {
-#pragma GCC ivdep
+    CARPUS_INDEPENDENT_TURNS
     for (std::size_t i = first; i < first + kTogether; ++i) {
       const float x = px - x_[i];
       const float y = py - y_[i];

@@ -72,7 +72,7 @@ void largest_eigenvalues(std::span<const float* const> rows, float* out, std::si
   const float* xy = rows[3];
   const float* xz = rows[4];
   const float* yz = rows[5];
-#pragma GCC ivdep
+  CARPUS_INDEPENDENT_TURNS
   for (std::size_t i = 0; i < count; ++i) {
     out[i] = static_cast<float>(largest_of({xx[i], yy[i], zz[i], xy[i], xz[i], yz[i]}, series));
   }

@@ -25,6 +25,8 @@ export interface ScannedCase {
   /** Rows of a rotation. */
   readonly wristFromPatient: readonly [Vec3, Vec3, Vec3];
   readonly bones: readonly ScannedBone[];
+  /** What is to be known of the scan as a whole, in whole sentences. */
+  readonly warnings: readonly string[];
 }
 
 type Fields = Readonly<Record<string, unknown>>;
@@ -72,6 +74,7 @@ export function parseScannedCase(text: string): ScannedCase {
     side: json["side"] === "right" ? "right" : "left",
     wristFromPatient: [vector(rows[0]), vector(rows[1]), vector(rows[2])],
     bones: bones.map(bone),
+    warnings: [],
   };
 }
 
@@ -97,7 +100,15 @@ export function withTrust(scanned: ScannedCase, text: string): ScannedCase {
       why: typeof why === "string" ? why : "",
     };
   });
-  return { ...scanned, bones: trusted };
+  const ofScan: unknown[] = Array.isArray(json["of_scan"]) ? (json["of_scan"] as unknown[]) : [];
+  const warnings = ofScan.filter((text) => typeof text === "string").map(sentence);
+  return { ...scanned, bones: trusted, warnings };
+}
+
+/** "the wrist is small": "The wrist is small." */
+function sentence(words: string): string {
+  const text = words.charAt(0).toUpperCase() + words.slice(1);
+  return /[.!?]$/.test(text) ? text : `${text}.`;
 }
 
 /** Labels and names as a case has them (src/anatomy/bone_id.hpp). */

@@ -224,7 +224,8 @@ export class ScanDesk {
     const { scanned } = this.data;
     const patient = make("p", {}, scanned.pseudonym, ` · ${scanned.side} wrist`);
     if (scanned.simulated) patient.append(" ", make("span.badge", {}, "simulated"));
-    return make("header.scan-heading", {}, make("h1", {}, "Scan"), patient);
+    const warnings = scanned.warnings.map((text) => make("p.scan-warning", { role: "note" }, text));
+    return make("header.scan-heading", {}, make("h1", {}, "Scan"), patient, ...warnings);
   }
 
   private slider(panel: SlicePanel): HTMLInputElement {

@@ -219,6 +219,18 @@ describe("what the case tells", () => {
     });
     expect(parsed.bones[1]?.why).toBe("Volume is low.");
   });
+  it("has warnings of the whole scan as sentences", () => {
+    const told = parseScannedCase(JSON.stringify(json));
+    expect(told.warnings).toEqual([]);
+    expect(withTrust(told, JSON.stringify(trust)).warnings).toEqual([]);
+    const small = {
+      ...trust,
+      of_scan: ["the wrist is 70 % of an adult's size. If …, do not use it", 3],
+    };
+    expect(withTrust(told, JSON.stringify(small)).warnings).toEqual([
+      "The wrist is 70 % of an adult's size. If …, do not use it.",
+    ]);
+  });
   it("is refused where it is no case", () => {
     for (const bad of [
       {},
