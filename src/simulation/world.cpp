@@ -144,7 +144,7 @@ World::State::State(const Model& model)
   }
   loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
   shaving_state = detail::untouched(model.pieces());
-  cut_disc_as_shaved(model);
+  cut_disc_as_left(model);
   if (model.procedure.fluid) fluid = detail::fluid_at_first(detail::FluidTable::generic());
 }
 
@@ -271,7 +271,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   if (model.map != nullptr) yield_sheets(model);
   watch_structures(model);
   watch_scopes(model);
-  run_shavers(model);
+  take_tissue_away(model);
   run_fluid(model);
   move_loose_bodies(model);
   tick_off_steps(model);

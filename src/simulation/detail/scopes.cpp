@@ -422,6 +422,7 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.line_share = drill_state.line_share;
   view.is_probe_seen = drill_state.is_probe_seen;
   publish_loose(model);
+  publish_pieces(model);
   publish_shaving(model);
   publish_fluid(model);
   for (std::uint8_t h = 0; h < kHands; ++h) {

@@ -181,7 +181,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->screw_state = screw;
   next->making = making;
   if (model_->map != nullptr) next->sheets = sheets;
-  next->cut_disc_as_shaved(*model_);
+  next->cut_disc_as_left(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);

@@ -381,27 +381,18 @@ struct World::State {
   [[nodiscard]] Vec3 lesion_middle(const Model& model, std::size_t lesion) const noexcept;
   [[nodiscard]] procedure::LooseFacts loose_facts(const Model& model) const noexcept;
 
-  // shavers.cpp
+  // tissue_pieces.cpp
   struct PieceNow {
     Vec3 at;  ///< Patient, on the joint's wall
     Vec3 inwards;
     double height_mm = 0.0;
   };
-  void run_shavers(const Model& model) noexcept;
-  void run_shaver(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void take_tissue_away(const Model& model) noexcept;
   void look_at_patches(const Model& model) noexcept;
   [[nodiscard]] bool is_patch_seen(const Model& model,
                                    std::uint8_t hand,
                                    std::uint8_t patch) const noexcept;
-  void note_shaver_harm(const Model& model,
-                        std::uint8_t hand,
-                        std::uint8_t joint,
-                        const detail::MouthPlace& mouth) noexcept;
   [[nodiscard]] PieceNow piece_now(const Model& model, std::size_t i) const noexcept;
-  [[nodiscard]] std::size_t piece_in_mouth(const Model& model,
-                                           std::uint8_t joint,
-                                           const detail::MouthPlace& mouth,
-                                           double reach_mm) const noexcept;
   [[nodiscard]] bool is_behind_tuft(const Model& model,
                                     std::uint8_t joint,
                                     const Vec3& eye,
@@ -410,8 +401,21 @@ struct World::State {
                                     std::uint8_t joint,
                                     const Vec3& at,
                                     double radius_mm) const noexcept;
+  void piece_came_off(const Model& model, std::uint8_t hand, std::size_t which) noexcept;
+  void cut_disc_as_left(const Model& model) noexcept;
+  void publish_pieces(const Model& model) noexcept;
+
+  // shavers.cpp
+  void run_shaver(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void note_shaver_harm(const Model& model,
+                        std::uint8_t hand,
+                        std::uint8_t joint,
+                        const detail::MouthPlace& mouth) noexcept;
+  [[nodiscard]] std::size_t piece_in_mouth(const Model& model,
+                                           std::uint8_t joint,
+                                           const detail::MouthPlace& mouth,
+                                           double reach_mm) const noexcept;
   [[nodiscard]] bool is_running(const Model& model, std::uint8_t hand) const noexcept;
-  void cut_disc_as_shaved(const Model& model) noexcept;
   void publish_shaving(const Model& model) noexcept;
 
   // fluid_in_joint.cpp
