@@ -101,7 +101,10 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
   }
   const std::size_t piece = piece_in_mouth(model, joint, mouth, kind.mouth->reach_mm);
   if (piece >= model.pieces().size()) return note_shaver_harm(model, hand, joint, mouth);
-  if (detail::cut_piece(shaving_state, model.pieces(), piece)) piece_came_off(model, hand, piece);
+  if (!detail::cut_piece(shaving_state, model.pieces(), piece)) return;
+  piece_came_off(model, piece);
+  const TissuePiece& cut = model.pieces()[piece];
+  if (!cut.is_ill) emit(EventKind::SoundTissueShaved, now.held[hand], cut.is_rim ? 1 : 0, 0.0);
 }
 
 bool World::State::is_running(const Model& model, std::uint8_t hand) const noexcept {

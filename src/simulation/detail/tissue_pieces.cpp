@@ -125,17 +125,14 @@ void World::State::look_at_patches(const Model& model) noexcept {
   }
 }
 
-/// What follows: the sheet is without it, or it bleeds; what was to stay is told.
-void World::State::piece_came_off(const Model& model,
-                                  std::uint8_t hand,
-                                  std::size_t which) noexcept {
+/// What follows: the sheet is without it, or it bleeds.
+void World::State::piece_came_off(const Model& model, std::size_t which) noexcept {
   const TissuePiece& piece = model.pieces()[which];
   if (piece.kind == TissueKind::Disc) {
     sheets[kDiscSheet].cut(model.sheets[kDiscSheet].net, which);
   } else if (model.procedure.fluid && piece.joint == fluid.joint) {  // the disc has no vessels
     bleed_into_joint(model, detail::FluidTable::generic().bleeding.tuft_ml_per_s);
   }
-  if (!piece.is_ill) emit(EventKind::SoundTissueShaved, now.held[hand], piece.is_rim ? 1 : 0, 0.0);
 }
 
 void World::State::take_tissue_away(const Model& model) noexcept {
@@ -146,6 +143,7 @@ void World::State::take_tissue_away(const Model& model) noexcept {
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item != nullptr && is_running(model, h)) run_shaver(model, h, *item);
+    if (model.has_punch) watch_punch(model, h);
   }
   if (done.ticks_since_cut < detail::kSeenTicks) return;
   for (std::size_t i = 0; i < model.map->points.size(); ++i) {
