@@ -73,6 +73,8 @@ describe("what works beside the scope", () => {
     const look = (closed: number): string =>
       punch.rod(item("punch_2_0"), { ...told(0, 0), jaws_closed: [0, closed] }, LEVEL, 0).look;
     expect([look(0), look(1)]).toEqual(["punch_open", "punch_closed"]);
+    // However a shaver's mouth was turned before in that hand: upwards.
+    expectWay(punch.rod(item("punch_2_0"), told(0, 90), LEVEL, 0).mouth, [0, 0, 1]);
   });
 
   it("runs while a pedal is down; jaws know no pedal, and a probe has neither", () => {

@@ -23,7 +23,7 @@ export interface Rod {
   readonly tipMm: Vec3;
   readonly shaft: Vec3;
   readonly look: RodLook;
-  /** Unit: where a shaver's mouth looks. */
+  /** Unit: where a shaver's mouth looks, or a punch's jaw opens to. */
   readonly mouth: Vec3 | undefined;
 }
 
@@ -90,9 +90,15 @@ export class ScopeTools {
     const look = this.hasMouth(item.instrument)
       ? shaverLook(runs, nowMs)
       : rodLook(this.kindOf(item.instrument), scope.jaws_closed[hand] === 1);
-    const mouth = this.hasMouth(item.instrument)
-      ? mouthTowards(item.shaft, level, scope.mouth_deg[hand] ?? 0)
-      : undefined;
+    // A punch is held so that its jaw opens upwards in a level picture.
+    const turnDeg = {
+      shaver: scope.mouth_deg[hand] ?? 0,
+      punch: 0,
+      grasper: undefined,
+      probe: undefined,
+    };
+    const deg = turnDeg[this.kindOf(item.instrument)];
+    const mouth = deg === undefined ? undefined : mouthTowards(item.shaft, level, deg);
     return { tipMm: item.tip_mm, shaft: item.shaft, look, mouth };
   }
 }
