@@ -13,6 +13,7 @@ std::string_view instruments();
 std::string_view screws();
 std::string_view arthroscopes();
 std::string_view portal_instruments();
+std::string_view punches();
 }  // namespace carpus::data
 
 namespace carpus::instruments {
@@ -27,13 +28,17 @@ std::vector<Instrument> built_in() {
   std::vector<Instrument> of_portals =
       read_instruments(data::portal_instruments(), "portal_instruments.json");
   std::move(of_portals.begin(), of_portals.end(), std::back_inserter(all));
+  // Last: states name an instrument by its place here.
+  std::vector<Instrument> punches = read_instruments(data::punches(), "punches.json");
+  std::move(punches.begin(), punches.end(), std::back_inserter(all));
   if (all.size() >= kNoInstrument)
     throw InvalidInput("instruments.json: more than 254 instruments");
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (all[i].id == all[j].id) {
         throw InvalidInput(
-            "instruments.json, screws.json, arthroscopes.json, portal_instruments.json: " +
+            "instruments.json, screws.json, arthroscopes.json, portal_instruments.json, "
+            "punches.json: " +
             all[i].id + ": there are two of it");
       }
     }

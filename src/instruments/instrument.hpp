@@ -85,6 +85,13 @@ struct Mouth {
   double reach_mm = 1.0;   ///< so near to there it draws tissue in
 };
 
+/// Of a punch: what its jaws take at once as they close.
+struct Bite {
+  double behind_mm = 1.0;  ///< the middle of the open jaws behind the tip
+  double reach_mm = 1.0;   ///< so near to there what they close on lies between them
+  double width_mm = 2.0;   ///< across what one bite takes
+};
+
 /// What it does to closed skin and to what lies under it.
 enum class SkinWork : std::uint8_t {
   Palpate = 0,  ///< a fingertip
@@ -128,6 +135,7 @@ struct Instrument {
   bool enters_joints = false;       ///< through a portal, where it pivots; nowhere else
   bool has_jaws = false;            ///< which close driven forward, and open in reverse: it grasps
   std::optional<Mouth> mouth;       ///< of a shaver
+  std::optional<Bite> bite;         ///< of a punch, which has jaws
   std::optional<Optic> optic;       ///< of a scope
   std::optional<SkinTool> skin;     ///< of what works on closed skin
   bool is_double_pointed = false;   ///< may be held and drawn by either end
@@ -147,7 +155,8 @@ using InstrumentIndex = std::uint8_t;
 inline constexpr InstrumentIndex kNoInstrument = 255;
 
 /// All instruments, at most 255: data/instruments.json, then the screws of data/screws.json by
-/// family and length. Read once, on the first call.
+/// family and length, then what enters joints, works on skin, and bites. Read once, on the first
+/// call.
 /// @throws InvalidInput naming file and field when the built-in data are wrong.
 [[nodiscard]] std::span<const Instrument> catalogue();
 

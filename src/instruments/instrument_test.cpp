@@ -89,7 +89,7 @@ TEST(Catalogue, WhatRunsOnTheWireTakesIt) {
   EXPECT_LT(one("acutrak_2_mini_24").bore_radius_mm, one("joystick_wire").cut_tip_radius_mm);
 }
 
-TEST(Catalogue, ScrewsComeByFamilyAndLengthAsTrueSizesSayThenArthroscopyThenSkin) {
+TEST(Catalogue, ScrewsComeByFamilyAndLengthAsTrueSizesSayThenArthroscopyThenSkinThenPunches) {
   const auto all = catalogue();
   std::size_t first = 0;
   while (all[first].family.empty()) ++first;
@@ -100,7 +100,11 @@ TEST(Catalogue, ScrewsComeByFamilyAndLengthAsTrueSizesSayThenArthroscopyThenSkin
   while (skin < all.size() && !all[skin].skin) ++skin;
   EXPECT_LT(end, skin);
   for (std::size_t i = end; i < skin; ++i) EXPECT_TRUE(all[i].enters_joints) << all[i].id;
-  for (std::size_t i = skin; i < all.size(); ++i) EXPECT_TRUE(all[i].skin) << all[i].id;
+  std::size_t bites = skin;
+  while (bites < all.size() && !all[bites].bite) ++bites;
+  EXPECT_LT(bites, all.size());
+  for (std::size_t i = skin; i < bites; ++i) EXPECT_TRUE(all[i].skin) << all[i].id;
+  for (std::size_t i = bites; i < all.size(); ++i) EXPECT_TRUE(all[i].bite) << all[i].id;
   for (std::size_t i = first; i < end; ++i) {
     const Instrument& screw = all[i];
     EXPECT_EQ(screw.rods.front().to_mm, screw.length_mm);

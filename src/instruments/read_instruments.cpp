@@ -290,6 +290,13 @@ Instrument read_instrument(JsonFields& fields, const Holders& holders) {
     instrument.mouth = Mouth{mouth.number("behind_mm", 0, 10), mouth.number("reach_mm", 0.1, 5)};
     mouth.refuse_unknown_fields();
   }
+  if (fields.has("bite")) {
+    if (!instrument.has_jaws) fields.refuse("bite: nothing without jaws bites");
+    JsonFields bite = fields.object("bite");
+    instrument.bite = Bite{bite.number("behind_mm", 0, 10), bite.number("reach_mm", 0.1, 5),
+                           bite.number("width_mm", 0.1, 10)};
+    bite.refuse_unknown_fields();
+  }
   if (fields.has("skin")) instrument.skin = read_skin_tool(fields.object("skin"));
   if (fields.has("optic")) {
     JsonFields optic = fields.object("optic");

@@ -38,7 +38,7 @@ struct Shaving {
   [[nodiscard]] bool operator==(const Shaving&) const = default;
 };
 
-/// What was done with a shaver. A tick is a millisecond.
+/// What was taken away, by whatever did; and how a shaver ran. A tick is a millisecond.
 struct ShavingFacts {
   std::uint16_t ill = 0;            ///< pieces that were to be taken away
   std::uint16_t ill_removed = 0;    ///< of them

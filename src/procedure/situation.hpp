@@ -18,6 +18,7 @@
 #include "instruments/instrument.hpp"
 #include "procedure/loose_removal.hpp"
 #include "procedure/portal_making.hpp"
+#include "procedure/punching.hpp"
 #include "procedure/scope_drill.hpp"
 #include "procedure/screw_control.hpp"
 #include "procedure/shaving.hpp"
@@ -128,7 +129,8 @@ struct ScopeFacts {
   std::uint8_t unanswered = 0;      ///< of what an examination asks
   DrillFacts drill;                 ///< of exercises with a scope
   LooseFacts loose;                 ///< of what floats in the joints
-  ShavingFacts shaving;             ///< of what a shaver takes away
+  ShavingFacts shaving;             ///< of what a shaver, or a punch, takes away
+  PunchFacts punch;                 ///< of how a punch bit
   ScrewFacts screw;                 ///< of a screw that is controlled
   /// By hand: the number of that portal in data/portals.json, the same in every case.
   std::array<std::uint8_t, kHands> portal_number{kNoBody, kNoBody};

@@ -455,6 +455,7 @@ void read(FieldReader& in, Scope& out) {
   in.list("pieces_left", 0, 160, 0, 100, out.pieces_left);
   in.list("mouth_deg", 0, 2, -180, 180, out.mouth_deg);
   in.list("running", 0, 2, 0, 1, out.running);
+  in.records("scuffs", 0, 8, out.scuffs);
   if (in.has("fluid")) in.record("fluid", out.fluid.emplace());
 }
 
@@ -483,6 +484,7 @@ void write(FieldWriter& out, const Scope& in) {
   out.list("pieces_left", in.pieces_left);
   out.list("mouth_deg", in.mouth_deg);
   out.list("running", in.running);
+  out.records("scuffs", in.scuffs);
   if (in.fluid) {
     out.record("fluid", *in.fluid);
   } else {

@@ -403,6 +403,7 @@ struct Scope {
   std::vector<std::int64_t> mouth_deg;
   /// by hand: a shaver runs
   std::vector<std::int64_t> running;
+  std::vector<CartilageScuff> scuffs;
   /// where the procedure has any
   std::optional<JointFluid> fluid;
   bool operator==(const Scope&) const = default;

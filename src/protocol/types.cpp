@@ -305,6 +305,7 @@ void read(FieldReader& in, Instrument& out) {
   out.skin_work = static_cast<SkinWork>(in.choice("skin_work", kSkinWorkNames));
   out.has_mouth = in.boolean("has_mouth");
   out.has_jaws = in.boolean("has_jaws");
+  out.has_bite = in.boolean("has_bite");
   out.stays = in.boolean("stays");
   out.family = in.string("family", 64);
   out.tip_diameter_mm = in.number("tip_diameter_mm", 0.0, 100.0);
@@ -327,6 +328,7 @@ void write(FieldWriter& out, const Instrument& in) {
   out.name("skin_work", name_of(in.skin_work));
   out.value("has_mouth", in.has_mouth);
   out.value("has_jaws", in.has_jaws);
+  out.value("has_bite", in.has_bite);
   out.value("stays", in.stays);
   out.text("family", in.family, 64);
   out.value("tip_diameter_mm", in.tip_diameter_mm);
@@ -496,6 +498,16 @@ void read(FieldReader& in, LooseBody& out) {
 void write(FieldWriter& out, const LooseBody& in) {
   out.value("lesion", in.lesion);
   out.value("hand", in.hand);
+  out.vec3("at_mm", in.at_mm);
+}
+
+void read(FieldReader& in, CartilageScuff& out) {
+  out.joint = in.string("joint", 32);
+  out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
+}
+
+void write(FieldWriter& out, const CartilageScuff& in) {
+  out.text("joint", in.joint, 32);
   out.vec3("at_mm", in.at_mm);
 }
 

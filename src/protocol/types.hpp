@@ -510,6 +510,8 @@ struct Instrument {
   bool has_mouth = false;
   /// they close and lock driven forward, and open in reverse
   bool has_jaws = false;
+  /// of jaws: what they close on in a joint comes off, once
+  bool has_bite = false;
   /// let go in bone, it stays there
   bool stays = false;
   /// of a screw; else empty
@@ -660,7 +662,15 @@ struct LooseBody {
   bool operator==(const LooseBody&) const = default;
 };
 
-/// What a shaver takes away as one.
+/// Where a punch bit cartilage.
+struct CartilageScuff {
+  std::string joint;
+  /// on the bone, as scanned
+  Vec3 at_mm;
+  bool operator==(const CartilageScuff&) const = default;
+};
+
+/// What a shaver takes away as one, and a punch some of at once.
 struct TissuePiece {
   TissueKind kind = TissueKind::Synovium;
   std::string joint;
@@ -768,7 +778,7 @@ struct Arthroscopy {
   std::vector<Finding> findings;
   /// of a procedure of exercises
   std::optional<ScopeDrill> drill;
-  /// for a shaver, to be drawn and not to be told; see `scope`
+  /// for a shaver or a punch, to be drawn and not to be told; see `scope`
   std::vector<TissuePiece> pieces;
   /// of a procedure that controls one
   std::optional<ControlledScrew> screw;

@@ -55,6 +55,7 @@ protocol::Instrument message_of(const instruments::Instrument& instrument) {
   message.is_joystick = instrument.is_joystick;
   message.is_sleeve = instrument.is_sleeve;
   message.has_jaws = instrument.has_jaws;
+  message.has_bite = instrument.bite.has_value();
   if (instrument.skin) {
     // One more: none.
     message.skin_work =

@@ -120,7 +120,8 @@ class Sentence {
       case EventKind::ScrewProbed:
         return probed_of_screw();
       case EventKind::TissueBitten:
-        return subject() + " closed on what lines the joint";
+        return subject() + (event_.detail == 1 ? " bit cartilage: it is scuffed there"
+                                               : " closed on what lines the joint");
       case EventKind::ShaverHarmed:
         return subject() + kRanAgainst[std::min<std::size_t>(place(), kRanAgainst.size() - 1)];
       case EventKind::SoundTissueShaved:

@@ -78,6 +78,17 @@ TEST(EventText, AShaverThatHarmsIsToldAgainstWhat) {
   EXPECT_EQ(text(0).find("rim"), std::string::npos) << text(0);
 }
 
+TEST(EventText, APunchThatBitCartilageIsToldSo) {
+  Event event;
+  event.kind = EventKind::TissueBitten;
+  event.instrument = *instruments::instrument_of("punch_2_0");
+  event.detail = 0;
+  EXPECT_NE(described(event).text.find("lines the joint"), std::string::npos);
+  event.detail = 1;
+  EXPECT_NE(described(event).text.find("cartilage"), std::string::npos);
+  EXPECT_EQ(described(event).text.find("Basket punch"), 0U) << described(event).text;
+}
+
 TEST(EventText, AnAssessedOperationIsToldWhatAHandFeelsAlone) {
   const auto told = [](EventKind kind) {
     Event event;

@@ -275,6 +275,11 @@ std::optional<protocol::Scope> scope_message(const cases::CaseData& data,
                              rounded(body.at_in_patient)});
   }
   message.loose_out = scope.facts.loose.out;
+  for (std::size_t i = 0; i < scope.scuff_count; ++i) {
+    const simulation::ScuffView& scuff = scope.scuffs[i];
+    message.scuffs.push_back(
+        {data.arthroscopy->joints[scuff.joint].id, rounded(scuff.at_as_scanned)});
+  }
   add_shaving(message, scope);
   if (scope.fluid.is_there) message.fluid = fluid_of(scope.fluid);
   for (const std::uint8_t grade : scope.answers) {

@@ -110,6 +110,18 @@ TEST(ScopeMessage, TellsWhereFloatsWhatIsNotOut) {
   EXPECT_EQ(message->loose_out, 1);
 }
 
+TEST(ScopeMessage, TellsWhereCartilageWasBitten) {
+  simulation::Snapshot now = holding(procedure::Mode::Assessed);
+  EXPECT_TRUE(scope_message(with_places(), arthroscopy(), now)->scuffs.empty());
+  now.scope.scuffs[0] = {0, {1.23456, -2, 3}};
+  now.scope.scuff_count = 1;
+  const auto message = scope_message(with_places(), arthroscopy(), now);
+  ASSERT_TRUE(message);
+  ASSERT_EQ(message->scuffs.size(), 1U);
+  EXPECT_EQ(message->scuffs[0].joint, with_places().arthroscopy->joints.front().id);
+  EXPECT_DOUBLE_EQ(message->scuffs[0].at_mm.x, 1.23);
+}
+
 TEST(ScopeMessage, TellsOfFluidWhatPumpAndPictureShow) {
   simulation::Snapshot now = holding(procedure::Mode::Assessed);
   EXPECT_FALSE(scope_message(with_places(), arthroscopy(), now)->fluid) << "there is none";

@@ -66,6 +66,22 @@ TEST(Shaving, APieceComesOffTickByTickAndIsCountedOnce) {
   EXPECT_EQ(state.done.ill_removed, 1);
 }
 
+TEST(Shaving, APieceThatIsBittenOffGoesAtOnceHoweverMuchOfItWasLeft) {
+  const std::vector<TissuePiece> all = pieces();
+  ShavingState shaved = untouched(all);
+  ShavingState bitten = untouched(all);
+  for (const std::size_t i : {0, 1, 2, 3}) cut_off(shaved, i);
+  (void)cut_piece(bitten, all, 1);  // a little of it is gone before
+  bitten.done.ticks_since_cut = 7;
+  for (const std::size_t i : {0, 1, 2, 3}) take_piece(bitten, all, i);
+  EXPECT_EQ(bitten.cut_ticks, shaved.cut_ticks);
+  EXPECT_EQ(bitten.done, shaved.done) << "whatever takes it, it is counted alike";
+  take_piece(bitten, all, 3);
+  take_piece(bitten, all, 4);
+  EXPECT_EQ(bitten.done, shaved.done) << "what is gone is counted once";
+  EXPECT_TRUE(is_possible(bitten, all));
+}
+
 TEST(Shaving, WhatWasToStayIsCountedApartAndTheRimOfItToo) {
   const std::vector<TissuePiece> all = pieces();
   ShavingState state = untouched(all);

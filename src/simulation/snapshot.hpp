@@ -149,6 +149,14 @@ struct SheetView {
   bool is_still = true;
 };
 
+/// Where a punch bit cartilage.
+struct ScuffView {
+  std::uint8_t joint = 0;  ///< in ArthroscopicMap::joints
+  Vec3 at_as_scanned{};    ///< on the bone's surface, frame Patient as scanned [mm]
+  bool operator==(const ScuffView&) const = default;
+};
+inline constexpr std::size_t kMaxScuffs = 8;
+
 /// A scope's optics and what has been done with it (arthroscopy/optics.hpp).
 struct ScopeView {
   std::uint8_t hand = kNoHand;  ///< that holds one
@@ -174,6 +182,8 @@ struct ScopeView {
   std::uint8_t piece_count = 0;
   std::array<double, kHands> mouth_deg{};  ///< of a shaver, by hand
   std::array<bool, kHands> are_running{};
+  std::array<ScuffView, kMaxScuffs> scuffs{};
+  std::uint8_t scuff_count = 0;
   FluidView fluid;
   bool operator==(const ScopeView&) const = default;
 };
@@ -224,7 +234,7 @@ enum class EventKind : std::uint8_t {
   LooseCaught = 29,   ///< a loose body is in the jaws; detail: which
   LooseLost = 30,     ///< it sprang from them, or was stripped off in the way; detail: which
   LooseOut = 31,      ///< it is out of the skin; detail: which
-  TissueBitten = 32,  ///< jaws closed on what lines the joint
+  TissueBitten = 32,  ///< jaws closed on what lines the joint; detail: 1 on cartilage
   /// A shaver ran against what is to stay; detail: 0 lining, 1 cartilage, 2 the scope
   ShaverHarmed = 33,
   SoundTissueShaved = 34,  ///< a piece that was to stay came off; detail: 1 of the disc's rim

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "haptics/tissue_feel.hpp"
 #include "simulation/asked_portals.hpp"
 #include "simulation/c_arm_angles.hpp"
 #include "simulation/detail/world_state.hpp"
@@ -83,6 +84,11 @@ World::Model::Model(const cases::CaseData& case_data,
   }
   if (declared.making) open_skin();
   if (map != nullptr) lesions = lesions_of(case_data, declared, seed);
+  has_punch = !pieces().empty() && std::any_of(declared.tray.begin(), declared.tray.end(),
+                                               [&](instruments::InstrumentIndex index) {
+                                                 return catalogue[index].bite.has_value();
+                                               });
+  cartilage_mm = haptics::feel_table().cartilage.thickness_mm;
   if (lesions) {
     for (std::uint8_t b = 0; b < case_data.bones.size(); ++b) {
       if (squared_length(lesions->shifts[b]) > 0) loose[loose_count++] = b;
@@ -144,7 +150,7 @@ World::State::State(const Model& model)
   }
   loose_state.done.there = static_cast<std::uint8_t>(model.float_count);
   shaving_state = detail::untouched(model.pieces());
-  cut_disc_as_shaved(model);
+  cut_disc_as_left(model);
   if (model.procedure.fluid) fluid = detail::fluid_at_first(detail::FluidTable::generic());
 }
 
@@ -271,7 +277,7 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
   if (model.map != nullptr) yield_sheets(model);
   watch_structures(model);
   watch_scopes(model);
-  run_shavers(model);
+  take_tissue_away(model);
   run_fluid(model);
   move_loose_bodies(model);
   tick_off_steps(model);

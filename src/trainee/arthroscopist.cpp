@@ -76,7 +76,11 @@ ScriptedArthroscopist::ScriptedArthroscopist(const cases::CaseData& data,
       rng_(seed),
       tremor_(skill_.tremor_mm, Rng(seed + 1)),
       opening_(procedure.opening(data)),
-      asked_(simulation::questions_of(procedure)) {
+      asked_(simulation::questions_of(procedure)),
+      tool_(procedure.tray.back()) {
+  for (const instruments::InstrumentIndex each : procedure.tray) {
+    if (procedure.shaving && instruments::catalogue()[each].bite) punch_ = tool_ = each;
+  }
   const auto& optic = instruments::catalogue()[procedure.tray.front()].optic;
   lens_ = {optic->view_angle_deg, optic->field_deg};
   wrist_ = opening_.wrist;
@@ -345,6 +349,8 @@ void ScriptedArthroscopist::take_probe(std::uint8_t portal) {
   Task take;
   take.hand = kProbe;
   take.takes_probe = true;
+  take.takes = tool_;
+  if (tool_ == punch_) take.jaws = Jaws::Closed;  // so it goes in
   take.to = through(portal, in_portal(portal, -map_.portals[portal].capsule_mm - 60.0));
   take.dwell = ticks_of(0.5);
   tasks_.push_back(take);
@@ -460,6 +466,8 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
     using simulation::Driver;
     if (procedure_.removal) {
       input.hands[kProbe].driver = are_closed_ ? Driver::Forward : Driver::Reverse;
+    } else if (procedure_.shaving && in_hand_ == punch_ && punch_ != instruments::kNoInstrument) {
+      input.hands[kProbe].driver = are_closed_ ? Driver::Forward : Driver::Reverse;
     } else if (procedure_.shaving) {
       // In the way in only a hasty foot presses.
       const bool may = now.scope.facts.is_in_joint[kProbe] || skill_.hasty > 0.5;
@@ -502,7 +510,8 @@ simulation::Input ScriptedArthroscopist::next(const simulation::Snapshot& now) {
   if (task.takes_probe && in_task_ == 1) {
     input.command.kind = CommandKind::Take;
     input.command.hand = task.hand;
-    input.command.index = procedure_.tray.back();
+    input.command.index = task.takes;
+    in_hand_ = task.takes;
   } else if (task.answers) {
     answer(now, input);
     if (answered_ < asked_->findings.size()) return input;

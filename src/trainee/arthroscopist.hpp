@@ -84,6 +84,7 @@ class ScriptedArthroscopist {
     double camera_turn_deg = 0.0;
     Tick dwell = 0;
     bool takes_probe = false;
+    instruments::InstrumentIndex takes = instruments::kNoInstrument;  ///< which tool that is
     bool turns = false;
     bool answers = false;  ///< all that is asked, one a tick
     bool finishes = false;
@@ -159,6 +160,12 @@ class ScriptedArthroscopist {
   [[nodiscard]] Vec3 piece_at(std::size_t piece) const;
   [[nodiscard]] Vec3 out_of_joint(std::size_t piece) const;
   [[nodiscard]] double mouth_turn_deg(const HandPose& held, const Vec3& towards) const;
+
+  // punch_plan.cpp
+  bool seek_to_bite(const simulation::Snapshot& now);
+  [[nodiscard]] std::size_t next_to_bite(const simulation::Snapshot& now) const;
+  void plan_bite(std::size_t piece);
+  void change_tool(instruments::InstrumentIndex tool);
 
   // screw_plan.cpp
   void plan_screw_control();
@@ -238,6 +245,11 @@ class ScriptedArthroscopist {
   std::array<std::uint8_t, cases::kMaxPieces> cut_tries_{};
   std::uint8_t last_patch_ = cases::kMaxPatches;
   Vec3 last_cut_{};
+  /// What is taken in the working hand, and what is in it; of a punch where one is on the tray.
+  instruments::InstrumentIndex tool_;
+  instruments::InstrumentIndex in_hand_ = instruments::kNoInstrument;
+  instruments::InstrumentIndex punch_ = instruments::kNoInstrument;
+  std::array<std::uint8_t, cases::kMaxPieces> bite_tries_{};
   Vec3 watched_{};         ///< what the scope was led to
   bool is_over_ = false;   ///< the open jaws were brought over a body ...
   std::uint8_t over_ = 0;  ///< ... this one

@@ -140,7 +140,7 @@ bool ScriptedArthroscopist::waits_until_clear(const simulation::Snapshot& now) {
 
 void ScriptedArthroscopist::seek_to_cut(const simulation::Snapshot& now) {
   if (lesions_ == nullptr) return;
-  if (waits_until_clear(now)) return;
+  if (waits_until_clear(now) || seek_to_bite(now)) return;
   const std::size_t piece = next_to_cut(now);
   if (piece < lesions_->pieces.size()) return plan_cut(piece);
   // Nothing that was seen is left: another place may be where it was not looked.

@@ -24,7 +24,7 @@ import { followFromElsewhere, printedLink, traineesLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
 import { lookAtScan } from "./scan.mjs";
-import { arthroscopy, basics, examination, removal, shaving } from "./scope.mjs";
+import { arthroscopy, basics, biting, examination, removal, shaving } from "./scope.mjs";
 import { makesPortals } from "./portals.mjs";
 import { screwControl } from "./screw.mjs";
 import { startStation } from "./station.mjs";
@@ -657,6 +657,7 @@ try {
   await removal(browser, station);
   await screwControl(browser, station);
   await shaving(browser, station);
+  await biting(browser, station);
   await makesPortals(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score; the first exercises; a grasper; a shaver; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// a touch, the score; the first exercises; a grasper; a shaver; a punch; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
@@ -397,6 +397,50 @@ export async function shaving(browser, station) {
     await page.waitForURL(/#\/attempts\/\d+/);
     await page.getByText("Inflamed synovium removed").first().waitFor();
     await page.getByText(`of ${pieces.length} pieces.`).first().waitFor();
+  });
+  await page.context().close();
+}
+
+/** Punch and shaver are changed in the hand; each has its own control, and the punch closes and opens. */
+export async function biting(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  const button = (name) => page.locator(".scope-controls button", { hasText: name });
+  const status = (words) => page.locator(".scope-status", { hasText: words }).waitFor();
+  const take = async (id) => {
+    await page.keyboard.press("c");
+    await page.locator(`dialog.tray[open] input[value=${id}]`).check();
+    await page.keyboard.press("Enter");
+    await operator.until((s) => Operator.held(s, 1)?.instrument === id, id);
+  };
+  const shown = async () => [await button("Jaws").isVisible(), await button("Pedal").isVisible()];
+  await check(page, "punch and shaver are changed in the hand, and the punch bites", async () => {
+    await operator.start(station.url, TRAINEE, "arthroscopic_disc_debridement");
+    const { pieces } = (await operator.exercise()).arthroscopy;
+    expect(pieces.some((one) => one.kind === "disc" && one.is_loose), "no flap hangs loose");
+    await bringInScope(page, operator);
+    await page.keyboard.press("h");
+    await operator.until((s) => Operator.held(s, 1)?.instrument === "shaver_2_0", "the shaver");
+    await status("shaver outside");
+    expect((await shown()).join() === "false,true", "a shaver has a pedal and no jaws");
+    await take("punch_2_0");
+    await status("punch outside, open");
+    await holdUntil(page, "a", "punch in the joint by 4-5, open", "the punch");
+    expect((await shown()).join() === "true,false", "a punch has jaws and no pedal");
+    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "punch_open.png") });
+    await page.keyboard.press("g");
+    await status("by 4-5, closed");
+    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "punch_closed.png") });
+    await page.keyboard.press("g");
+    await status("by 4-5, open");
+    await take("shaver_2_0");
+    await status("shaver ");
+    await page.keyboard.press("f");
+    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
+    await page.waitForURL(/#\/attempts\/\d+/);
+    await page.getByText("Loose edges removed").first().waitFor();
+    await page.getByText("Bites on cartilage").first().waitFor();
   });
   await page.context().close();
 }

@@ -25,6 +25,7 @@ procedure::OperationRecord perfect() {
   done.running_ticks = 30'000;
   done.ticks_since_cut = 20'000;
   done.seen_since = 0b111110;
+  record.scope->facts.punch.bites = 6;
   return record;
 }
 
@@ -50,9 +51,10 @@ TEST(DebridementScore, NothingRemovedHasNoFaultsToBePraisedFor) {
   done.ill_removed = 0;
   done.running_ticks = done.ticks_since_cut = 0;
   done.seen_since = 0;
-  for (const char* id : {"ill_removed_share", "sound_removed_share", "rim_removed",
-                         "ran_unseen_share", "ran_on_cartilage_s", "ran_on_lining_s",
-                         "ran_against_scope_s", "ran_in_the_way_s", "looked_again"}) {
+  for (const char* id :
+       {"ill_removed_share", "sound_removed_share", "rim_removed", "ran_unseen_share",
+        "ran_on_cartilage_s", "ran_on_lining_s", "ran_against_scope_s", "ran_in_the_way_s",
+        "looked_again", "bitten_unseen", "bitten_empty", "bitten_cartilage", "bitten_lining"}) {
     EXPECT_DOUBLE_EQ(points(record, id), 0.0) << id;
   }
 }
@@ -86,6 +88,49 @@ TEST(DebridementScore, EachFaultCostsWhereItBelongsAndNowhereElse) {
   EXPECT_DOUBLE_EQ(after("ran_against_scope_s", [](auto& done) { done.scope_ticks = 2'000; }), 0.0);
   EXPECT_DOUBLE_EQ(after("ran_in_the_way_s", [](auto& done) { done.way_ticks = 2'000; }), 0.0);
   EXPECT_DOUBLE_EQ(after("looked_again", [](auto& done) { done.seen_since = 0; }), 0.0);
+}
+
+/// Of the perfect record's points what a fault of the punch leaves of the whole score.
+double overall_after(void (*change)(procedure::PunchFacts&)) {
+  procedure::OperationRecord record = perfect();
+  change(record.scope->facts.punch);
+  return score(record).overall;
+}
+
+TEST(DebridementScore, ABiteThatIsBlindOrOfWhatIsToStayCostsAndCostsNothingElse) {
+  const auto after = [](const char* id, auto change) {
+    procedure::OperationRecord record = perfect();
+    change(record.scope->facts.punch);
+    const procedure::ScoreReport whole = score(perfect());
+    const procedure::ScoreReport report = score(record);
+    for (std::size_t i = 0; i < report.items.size(); ++i) {
+      if (report.items[i].id == id) continue;
+      EXPECT_DOUBLE_EQ(report.items[i].points, whole.items[i].points) << report.items[i].id;
+    }
+    return points(record, id);
+  };
+  EXPECT_DOUBLE_EQ(after("bitten_unseen", [](auto& done) { done.unseen = 4; }), 0.0);
+  EXPECT_LT(after("bitten_unseen", [](auto& done) { done.unseen = 1; }),
+            points(perfect(), "bitten_unseen"))
+      << "each one";
+  EXPECT_DOUBLE_EQ(after("bitten_empty", [](auto& done) { done.empty = 2; }),
+                   points(perfect(), "bitten_empty"))
+      << "two are forgiven";
+  EXPECT_DOUBLE_EQ(after("bitten_empty", [](auto& done) { done.empty = 10; }), 0.0);
+  EXPECT_DOUBLE_EQ(after("bitten_cartilage", [](auto& done) { done.cartilage = 3; }), 0.0);
+  EXPECT_DOUBLE_EQ(after("bitten_lining", [](auto& done) { done.lining = 4; }), 0.0);
+  EXPECT_LT(overall_after([](auto& done) { done.cartilage = 1; }),
+            overall_after([](auto& done) { done.lining = 1; }))
+      << "cartilage before all";
+}
+
+TEST(DebridementScore, WhoTakesAllOfItWithOneOfTheTwoIsNotFinedForTheOther) {
+  procedure::OperationRecord record = perfect();
+  record.scope->facts.shaving.running_ticks = 0;
+  EXPECT_DOUBLE_EQ(score(record).overall, 100.0) << "bitten off";
+  record = perfect();
+  record.scope->facts.punch = {};
+  EXPECT_DOUBLE_EQ(score(record).overall, 100.0) << "shaved off";
 }
 
 }  // namespace

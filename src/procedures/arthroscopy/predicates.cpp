@@ -146,6 +146,7 @@ std::span<const NamedPredicate> named_predicates() {
       NamedPredicate{"is_probe_in", is_probe_in},
       NamedPredicate{"is_grasper_in", is_tool_in},
       NamedPredicate{"is_shaver_in", is_tool_in},
+      NamedPredicate{"is_tool_in", is_tool_in},
       NamedPredicate{"has_seen_radial", has_seen<1, 2, 3>},
       NamedPredicate{"has_seen_scapholunate", has_seen<7>},
       NamedPredicate{"has_seen_lunate", has_seen<8, 10>},

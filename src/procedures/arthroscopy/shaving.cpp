@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "procedures/arthroscopy/punching.hpp"
 
 namespace carpus::procedures::arthroscopy {
 namespace {
@@ -28,6 +29,10 @@ std::string of(std::uint32_t part, std::uint32_t whole) {
 
 }  // namespace
 
+bool has_worked(const procedure::ShavingFacts& done) noexcept {
+  return done.ill > 0 && 2 * done.ill_removed >= done.ill;
+}
+
 std::vector<Measure> shaving_measures(const procedure::ShavingFacts& done) {
   std::vector<Measure> measures;
   measures.push_back(share_of("ill_removed_share", done.ill_removed, done.ill));
@@ -37,13 +42,14 @@ std::vector<Measure> shaving_measures(const procedure::ShavingFacts& done) {
   const auto seconds = [](std::uint32_t ticks) { return ticks * kTickSeconds; };
   measures.push_back({"rim_removed", static_cast<double>(done.rim_removed), ""});
   measures.push_back(share_of("ran_unseen_share", done.unseen_ticks, done.running_ticks));
+  // All of it came off by a punch: a shaver that never ran never ran unseen.
+  if (done.running_ticks == 0) measures.back().value = 0.0;
   measures.push_back({"ran_on_cartilage_s", seconds(done.cartilage_ticks), ""});
   measures.push_back({"ran_on_lining_s", seconds(done.lining_ticks), ""});
   measures.push_back({"ran_against_scope_s", seconds(done.scope_ticks), ""});
   measures.push_back({"ran_in_the_way_s", seconds(done.way_ticks), ""});
   measures.push_back({"looked_again", static_cast<double>(std::popcount(done.seen_since)), ""});
-  // Who hardly ran it had hardly a chance of a fault: care is praised from half of the work on.
-  if (done.ill > 0 && 2 * done.ill_removed >= done.ill) return measures;
+  if (has_worked(done)) return measures;
   for (std::size_t i = 1; i < measures.size(); ++i) measures[i].value.reset();
   return measures;
 }
@@ -73,9 +79,11 @@ procedure::ScoreReport score_shaving(const cases::CaseData& data,
                                      const procedure::Procedure& procedure,
                                      const procedure::OperationRecord& record) {
   std::vector<Measure> measures = conduct_measures(data, procedure, record);
-  const procedure::ShavingFacts done =
-      record.scope ? record.scope->facts.shaving : procedure::ShavingFacts{};
-  for (Measure& each : shaving_measures(done)) measures.push_back(std::move(each));
+  const procedure::ScopeFacts facts = record.scope ? record.scope->facts : procedure::ScopeFacts{};
+  for (Measure& each : shaving_measures(facts.shaving)) measures.push_back(std::move(each));
+  for (Measure& each : punch_measures(facts.punch, has_worked(facts.shaving))) {
+    measures.push_back(std::move(each));
+  }
   if (procedure.fluid) add_fluid_measures(measures, record);
   procedure::ScoreReport report;
   procedure::grade(report, procedure.rules, measures);

@@ -86,6 +86,9 @@ void write(FieldWriter& out, const SkinCut& in);
 void read(FieldReader& in, LooseBody& out);
 void write(FieldWriter& out, const LooseBody& in);
 
+void read(FieldReader& in, CartilageScuff& out);
+void write(FieldWriter& out, const CartilageScuff& in);
+
 void read(FieldReader& in, TissuePiece& out);
 void write(FieldWriter& out, const TissuePiece& in);
 

@@ -57,8 +57,7 @@ void World::State::watch_jaws(const Model& model, std::uint8_t hand) noexcept {
   const Driver wished = spent.hands[hand].wish.driver;
   bool& is_closed = loose_state.are_closed[hand];
   // They lock: a hand that is not heard of for a while loses nothing.
-  const bool closes =
-      has_jaws && (wished == Driver::Forward || (is_closed && wished == Driver::Off));
+  const bool closes = detail::are_closed_after(is_closed, has_jaws, wished);
   if (closes == is_closed) return;
   is_closed = closes;
   if (closes && scope_state.is_in_joint[hand]) {

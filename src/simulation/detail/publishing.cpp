@@ -160,6 +160,7 @@ void World::State::update_hash(const Model& model) noexcept {
     if (model.procedure.drill) visit(drill_state, fields);
     if (model.float_count > 0) visit(loose_state, fields);
     if (!model.pieces().empty()) visit(shaving_state, fields);
+    if (model.has_punch) visit(punch_state, fields);
     if (model.procedure.fluid) visit(fluid, fields);
     if (model.procedure.controls_screw) visit(screw_state, fields);
     if (model.makes_portals()) visit(making, fields);

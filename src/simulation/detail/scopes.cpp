@@ -374,6 +374,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   facts.drill = drill_state.done;
   facts.loose = loose_facts(model);
   facts.shaving = shaving_state.done;
+  facts.punch = punch_state.done;
   facts.screw = screw_facts(model);
   return facts;
 }
@@ -422,7 +423,9 @@ void World::State::publish_scope(const Model& model) noexcept {
   view.line_share = drill_state.line_share;
   view.is_probe_seen = drill_state.is_probe_seen;
   publish_loose(model);
+  publish_pieces(model);
   publish_shaving(model);
+  publish_punches();
   publish_fluid(model);
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);

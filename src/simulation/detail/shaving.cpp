@@ -15,6 +15,13 @@ using cases::TissuePiece;
 constexpr std::array<std::uint16_t, cases::kTissueKinds> kTicksToCut{150, 450};  // [E]
 constexpr double kBehindMouthMm = 0.3;  // so far behind its plane tissue is still drawn in
 
+void count_gone(procedure::ShavingFacts& done, const TissuePiece& piece) noexcept {
+  ++(piece.is_ill ? done.ill_removed : done.sound_removed);
+  if (piece.is_rim && !piece.is_ill) ++done.rim_removed;
+  done.ticks_since_cut = 0;
+  done.seen_since = 0;
+}
+
 }  // namespace
 
 std::uint16_t ticks_to_cut(TissueKind kind) noexcept {
@@ -107,13 +114,14 @@ bool cut_piece(ShavingState& state, std::span<const TissuePiece> pieces, std::si
   if (is_gone(state, pieces, i)) return false;
   ++state.cut_ticks[i];
   if (!is_gone(state, pieces, i)) return false;
-  procedure::ShavingFacts& done = state.done;
-  const TissuePiece& piece = pieces[i];
-  ++(piece.is_ill ? done.ill_removed : done.sound_removed);
-  if (piece.is_rim && !piece.is_ill) ++done.rim_removed;
-  done.ticks_since_cut = 0;
-  done.seen_since = 0;
+  count_gone(state.done, pieces[i]);
   return true;
+}
+
+void take_piece(ShavingState& state, std::span<const TissuePiece> pieces, std::size_t i) noexcept {
+  if (is_gone(state, pieces, i)) return;
+  state.cut_ticks[i] = ticks_to_cut(pieces[i].kind);
+  count_gone(state.done, pieces[i]);
 }
 
 }  // namespace carpus::simulation::detail

@@ -91,5 +91,9 @@ inline constexpr double kNotBefore = 1e9;
 bool cut_piece(ShavingState& state,
                std::span<const cases::TissuePiece> pieces,
                std::size_t i) noexcept;
+/// All that is left of it at once; nothing where it is gone.
+void take_piece(ShavingState& state,
+                std::span<const cases::TissuePiece> pieces,
+                std::size_t i) noexcept;
 
 }  // namespace carpus::simulation::detail

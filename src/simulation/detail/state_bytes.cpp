@@ -79,6 +79,7 @@ std::vector<std::byte> World::write_state() const {
     if (model_->procedure.drill) visit(state.drill_state, fields);
     if (model_->float_count > 0) visit(state.loose_state, fields);
     if (!model_->pieces().empty()) visit(state.shaving_state, fields);
+    if (model_->has_punch) visit(state.punch_state, fields);
     if (model_->procedure.fluid) visit(state.fluid, fields);
     if (model_->procedure.controls_screw) visit(state.screw_state, fields);
     if (model_->makes_portals()) visit(state.making, fields);
@@ -118,6 +119,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::DrillState drill;
   detail::LooseState loose;
   detail::ShavingState shaving;
+  detail::PunchState punch;
   detail::JointFluid fluid;
   detail::ScrewState screw;
   detail::MakingState making;
@@ -143,6 +145,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
     if (!model_->pieces().empty()) {
       visit(shaving, fields);
       is_sound = is_sound && detail::is_possible(shaving, model_->pieces());
+    }
+    if (model_->has_punch) {
+      visit(punch, fields);
+      is_sound = is_sound && detail::is_possible(punch, model_->map->joints.size());
     }
     if (model_->procedure.fluid) {
       visit(fluid, fields);
@@ -177,11 +183,12 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->drill_state = drill;
   next->loose_state = loose;
   next->shaving_state = shaving;
+  next->punch_state = punch;
   next->fluid = fluid;
   next->screw_state = screw;
   next->making = making;
   if (model_->map != nullptr) next->sheets = sheets;
-  next->cut_disc_as_shaved(*model_);
+  next->cut_disc_as_left(*model_);
   std::copy(looks.begin(), looks.end(), next->looks.begin());
   for (std::size_t i = 0; i < next->spent.shot_count; ++i) {
     detail::visit_shot(next->shots[i], fields);

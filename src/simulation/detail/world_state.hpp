@@ -25,6 +25,7 @@
 #include "simulation/detail/loose_bodies.hpp"
 #include "simulation/detail/operation_state.hpp"
 #include "simulation/detail/portal_making.hpp"
+#include "simulation/detail/punches.hpp"
 #include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
 #include "simulation/detail/screw_watch.hpp"
@@ -78,8 +79,10 @@ struct World::Model {
   };
   std::array<LandmarkPlace, procedure::kPortalsMade> felt_first{};
   [[nodiscard]] bool makes_portals() const noexcept { return skin.has_value(); }
-  detail::DrillPlan drill;  ///< of a procedure that declares one
-  /// What a shaver takes away; none of most procedures.
+  detail::DrillPlan drill;    ///< of a procedure that declares one
+  bool has_punch = false;     ///< on the tray, and there is tissue to be taken away
+  double cartilage_mm = 0.0;  ///< over bone (data/tissue_feel.json), of what has jaws that bite
+  /// What a shaver or a punch takes away; none of most procedures.
   [[nodiscard]] std::span<const cases::TissuePiece> pieces() const noexcept;
 };
 
@@ -94,6 +97,7 @@ struct World::State {
   detail::DrillState drill_state;
   detail::LooseState loose_state;
   detail::ShavingState shaving_state;
+  detail::PunchState punch_state;
   detail::JointFluid fluid;
   double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
   detail::ScrewState screw_state;
@@ -381,27 +385,18 @@ struct World::State {
   [[nodiscard]] Vec3 lesion_middle(const Model& model, std::size_t lesion) const noexcept;
   [[nodiscard]] procedure::LooseFacts loose_facts(const Model& model) const noexcept;
 
-  // shavers.cpp
+  // tissue_pieces.cpp
   struct PieceNow {
     Vec3 at;  ///< Patient, on the joint's wall
     Vec3 inwards;
     double height_mm = 0.0;
   };
-  void run_shavers(const Model& model) noexcept;
-  void run_shaver(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void take_tissue_away(const Model& model) noexcept;
   void look_at_patches(const Model& model) noexcept;
   [[nodiscard]] bool is_patch_seen(const Model& model,
                                    std::uint8_t hand,
                                    std::uint8_t patch) const noexcept;
-  void note_shaver_harm(const Model& model,
-                        std::uint8_t hand,
-                        std::uint8_t joint,
-                        const detail::MouthPlace& mouth) noexcept;
   [[nodiscard]] PieceNow piece_now(const Model& model, std::size_t i) const noexcept;
-  [[nodiscard]] std::size_t piece_in_mouth(const Model& model,
-                                           std::uint8_t joint,
-                                           const detail::MouthPlace& mouth,
-                                           double reach_mm) const noexcept;
   [[nodiscard]] bool is_behind_tuft(const Model& model,
                                     std::uint8_t joint,
                                     const Vec3& eye,
@@ -410,9 +405,35 @@ struct World::State {
                                     std::uint8_t joint,
                                     const Vec3& at,
                                     double radius_mm) const noexcept;
+  void piece_came_off(const Model& model, std::size_t which) noexcept;
+  void cut_disc_as_left(const Model& model) noexcept;
+  void publish_pieces(const Model& model) noexcept;
+
+  // shavers.cpp
+  void run_shaver(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void note_shaver_harm(const Model& model,
+                        std::uint8_t hand,
+                        std::uint8_t joint,
+                        const detail::MouthPlace& mouth) noexcept;
+  [[nodiscard]] std::size_t piece_in_mouth(const Model& model,
+                                           std::uint8_t joint,
+                                           const detail::MouthPlace& mouth,
+                                           double reach_mm) const noexcept;
   [[nodiscard]] bool is_running(const Model& model, std::uint8_t hand) const noexcept;
-  void cut_disc_as_shaved(const Model& model) noexcept;
   void publish_shaving(const Model& model) noexcept;
+
+  // punches_in_joint.cpp
+  struct NearPiece {
+    std::size_t which = 0;
+    double distance_mm = 0.0;  ///< from the jaws' middle
+  };
+  void watch_punch(const Model& model, std::uint8_t hand) noexcept;
+  void close_punch(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void bite_off(const Model& model, std::uint8_t hand, std::size_t which, double width_mm) noexcept;
+  [[nodiscard]] NearPiece piece_by_jaws(const Model& model,
+                                        std::uint8_t joint,
+                                        const Vec3& middle) const noexcept;
+  void publish_punches() noexcept;
 
   // fluid_in_joint.cpp
   void run_fluid(const Model& model) noexcept;

@@ -96,7 +96,10 @@ export const HELP: readonly HelpGroup[] = [
         keys: "{Comma} / {Period}",
         text: "turn the shaft, or the mouth of a shaver; with Shift: the camera head",
       },
-      { keys: "{KeyG}", text: "close the jaws, or open them; hold: a shaver's pedal" },
+      {
+        keys: "{KeyG}",
+        text: "close the jaws, or open them: a punch bites as they close; hold: a shaver's pedal",
+      },
       { keys: "{KeyV}", text: "the next portal" },
       { keys: "7 / 8 / 9", text: "panorama / level / findings" },
     ],

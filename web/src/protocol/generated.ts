@@ -334,6 +334,8 @@ export interface Instrument {
   readonly has_mouth: boolean;
   /** they close and lock driven forward, and open in reverse */
   readonly has_jaws: boolean;
+  /** of jaws: what they close on in a joint comes off, once */
+  readonly has_bite: boolean;
   /** let go in bone, it stays there */
   readonly stays: boolean;
   /** of a screw; else empty */
@@ -473,7 +475,14 @@ export interface LooseBody {
   readonly at_mm: Vec3;
 }
 
-/** What a shaver takes away as one. */
+/** Where a punch bit cartilage. */
+export interface CartilageScuff {
+  readonly joint: string;
+  /** on the bone, as scanned */
+  readonly at_mm: Vec3;
+}
+
+/** What a shaver takes away as one, and a punch some of at once. */
 export interface TissuePiece {
   readonly kind: TissueKind;
   readonly joint: string;
@@ -574,7 +583,7 @@ export interface Arthroscopy {
   readonly findings: readonly Finding[];
   /** of a procedure of exercises */
   readonly drill: ScopeDrill | null;
-  /** for a shaver, to be drawn and not to be told; see `scope` */
+  /** for a shaver or a punch, to be drawn and not to be told; see `scope` */
   readonly pieces: readonly TissuePiece[];
   /** of a procedure that controls one */
   readonly screw: ControlledScrew | null;
@@ -1340,6 +1349,7 @@ export interface ScopeMessage {
   readonly mouth_deg: readonly number[];
   /** by hand: a shaver runs */
   readonly running: readonly number[];
+  readonly scuffs: readonly CartilageScuff[];
   /** where the procedure has any */
   readonly fluid: JointFluid | null;
 }

@@ -168,6 +168,7 @@ export const SCHEMA: Schema = {
       skin_work: {"type": "skin_work"},
       has_mouth: {"type": "boolean"},
       has_jaws: {"type": "boolean"},
+      has_bite: {"type": "boolean"},
       stays: {"type": "boolean"},
       family: {"type": "string", "max_length": 64},
       tip_diameter_mm: {"type": "number", "min": 0, "max": 100},
@@ -246,6 +247,10 @@ export const SCHEMA: Schema = {
     loose_body: { fields: {
       lesion: {"type": "integer", "min": 0, "max": 23},
       hand: {"type": "integer", "min": -1, "max": 1},
+      at_mm: {"type": "vec3", "limit": 10000},
+    } },
+    cartilage_scuff: { fields: {
+      joint: {"type": "string", "max_length": 32},
       at_mm: {"type": "vec3", "limit": 10000},
     } },
     tissue_piece: { fields: {
@@ -710,6 +715,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     pieces_left: {"type": "array", "of": {"type": "integer", "min": 0, "max": 100}, "max_items": 160},
     mouth_deg: {"type": "array", "of": {"type": "integer", "min": -180, "max": 180}, "max_items": 2},
     running: {"type": "array", "of": {"type": "integer", "min": 0, "max": 1}, "max_items": 2},
+    scuffs: {"type": "array", "of": {"type": "cartilage_scuff"}, "max_items": 8},
     fluid: {"type": "joint_fluid", "optional": true},
   },
   skin: {

@@ -27,7 +27,7 @@ import { listenForScope, type ScopeAsked } from "./scope_listening";
 import { ScopePicture } from "./scope_picture";
 import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
-import { ScopeTools, type ToolKind } from "./scope_tools";
+import { hasJaws, ScopeTools, type ToolKind } from "./scope_tools";
 import "./scope.css";
 
 export interface ScopeRoom {
@@ -160,11 +160,25 @@ export class ScopeDesk {
     this.findings.set(this.plan.findings, this.plan.screw);
     for (const wall of this.walls) wall.setSheets(this.plan.sheets, bodies);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
-    this.controls.classList.toggle("grasps", this.tools.kind === "grasper");
-    this.controls.classList.toggle("shaves", this.tools.kind === "shaver");
+    this.showTool();
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.showPoints();
+  }
+
+  /** Of what works beside the scope, or will. */
+  private get tool(): ToolKind {
+    return this.tools.kindOf(this.heldIn(this.scope?.hand === 1 ? 0 : 1));
+  }
+
+  private heldIn(hand: HandIndex): string | undefined {
+    return this.snapshot?.items.find((one) => one.hand === hand)?.instrument;
+  }
+
+  /** The controls that it has. */
+  private showTool(): void {
+    this.controls.classList.toggle("grasps", hasJaws(this.tool));
+    this.controls.classList.toggle("shaves", this.tool === "shaver");
   }
 
   private get moved(): HandIndex {
@@ -229,7 +243,7 @@ export class ScopeDesk {
       this.turned = false;
       this.room.turn(this.shaftDeg, this.cameraDeg);
     }
-    const runs = this.tools.kind === "shaver" && this.driverNow() === "forward";
+    const runs = this.tool === "shaver" && this.driverNow() === "forward";
     const repeatMs = runs ? PEDAL_REPEAT_MS : REPEAT_MS;
     if (!this.isPlaced || (!this.changed && nowMs - this.lastSentMs < repeatMs)) return;
     this.changed = false;
@@ -293,7 +307,8 @@ export class ScopeDesk {
     const { scope, snapshot, plan } = this;
     if (plan === undefined) return;
     const wanted = this.hands.portalOf(0)?.name ?? "";
-    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, tool: this.tools.kind });
+    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, tool: this.tool });
+    this.showTool();
     this.showDrill(plan, scope);
     this.fluid.show(scope?.fluid ?? null);
     const budget = this.picture?.budget;
@@ -323,7 +338,7 @@ export class ScopeDesk {
 
   private driverNow(): HandMessage["driver"] {
     const pedalIsDown = [...this.keys.values()].some((motion) => motion.kind === "run");
-    return this.tools.driver(this.moved, pedalIsDown);
+    return this.tools.driver(this.moved, this.heldIn(this.moved), pedalIsDown);
   }
 
   /** The hand begins where the host has the scope. */
@@ -394,7 +409,7 @@ export class ScopeDesk {
       case "jaws": {
         const held = snapshot?.items.find((one) => one.hand === this.moved);
         if (held === undefined || !this.tools.hasJaws(held.instrument)) {
-          this.room.say("This hand holds no grasper: take it in the other hand first.");
+          this.room.say("This hand holds nothing with jaws: take it in the other hand first.");
           return;
         }
         this.tools.turnJaws(this.moved);
@@ -434,7 +449,10 @@ export class ScopeDesk {
           this.room.take(probe, 1);
           const portal = this.hands.portalOf(1);
           const name = this.exercise?.instruments.find((one) => one.id === probe)?.name ?? "";
-          this.room.say(`${name} at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.`);
+          const others = (this.exercise?.tray.length ?? 0) > 2 ? " Other tools: {KeyC}." : "";
+          this.room.say(
+            `${name} at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.${others}`,
+          );
         }
       }
     }
@@ -443,7 +461,7 @@ export class ScopeDesk {
   /** Of keys and mouse. */
   private asked(): ScopeAsked {
     const takesKeys = (): boolean => this.plan !== undefined && this.room.operates();
-    const tool = (): ToolKind => this.tools.kind;
+    const tool = (): ToolKind => this.tool;
     const hasFluid = (): boolean => (this.scope?.fluid ?? null) !== null;
     return {
       takesKeys,

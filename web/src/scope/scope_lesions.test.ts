@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { lesionUniforms, MOST_PAINTED, setLesions, type Lesion } from "./scope_lesions";
+import { lesionUniforms, MOST_PAINTED, scuffed, setLesions, type Lesion } from "./scope_lesions";
 
 const lesion = (look: Lesion["look"], joint: string): Lesion => ({
   look,
@@ -25,6 +25,18 @@ describe("what is wrong in a joint", () => {
     expect(uniforms.lesionFrom.value[0]?.w).toBe(0.5);
     setLesions(uniforms, [], "radiocarpal");
     expect(uniforms.lesionCount.value).toBe(0);
+  });
+
+  it("has cartilage hang in fronds where a punch bit it", () => {
+    const uniforms = lesionUniforms();
+    const scuffs = scuffed([
+      { joint: "midcarpal", at_mm: [7, 8, 9] },
+      { joint: "radiocarpal", at_mm: [1, 2, 3] },
+    ]);
+    setLesions(uniforms, scuffs, "radiocarpal");
+    expect(uniforms.lesionCount.value).toBe(1);
+    expect(uniforms.lesionFrom.value[0]?.toArray().slice(0, 3)).toEqual([1, 2, 3]);
+    expect(uniforms.lesionTo.value[0]?.w).toBe(5);
   });
 
   it("is painted as far as there is room", () => {

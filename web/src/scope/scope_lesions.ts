@@ -4,9 +4,15 @@
 // What is wrong in a joint, as the host says it (generated), for the scope's picture: painted on the wall by
 // where each place of it was as scanned, so that it goes with the tissue.
 import * as THREE from "three";
+import type { ScopeMessage } from "../protocol";
 import type { Plan } from "./scope_plan";
 
 export type Lesion = Plan["lesions"][number];
+/** What is painted of one. */
+export type Painted = Pick<Lesion, "look" | "joint" | "from_mm" | "to_mm" | "radius_mm">;
+
+/** Of cartilage that was bitten [mm]: about a punch's width. */
+const SCUFF_MM = 0.9;
 
 /** Of one joint; more are not painted. */
 export const MOST_PAINTED = 12;
@@ -42,7 +48,7 @@ export function lesionUniforms(): LesionUniforms {
 /** Those of one joint. */
 export function setLesions(
   uniforms: LesionUniforms,
-  lesions: readonly Lesion[],
+  lesions: readonly Painted[],
   joint: string,
 ): void {
   let count = 0;
@@ -54,6 +60,17 @@ export function setLesions(
     ++count;
   }
   uniforms.lesionCount.value = count;
+}
+
+/** Bitten cartilage hangs in fronds. */
+export function scuffed(scuffs: ScopeMessage["scuffs"]): readonly Painted[] {
+  return scuffs.map(({ joint, at_mm: at }) => ({
+    look: "frayed",
+    joint,
+    from_mm: at,
+    to_mm: at,
+    radius_mm: SCUFF_MM,
+  }));
 }
 
 /** Changes colour, roughness and wetness (1 wet, 0 a hole that nothing shines from). */

@@ -5,7 +5,7 @@
 import { fluidAct } from "./fluid_controls";
 import type { FluidAct } from "./fluid_model";
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
-import type { ToolKind } from "./scope_tools";
+import { hasJaws, type ToolKind } from "./scope_tools";
 
 const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
 const WHEEL_MM = 0.6;
@@ -35,7 +35,7 @@ export function listenForScope(picture: HTMLElement, asked: ScopeAsked, signal: 
 /** One key: jaws go by one press, a pedal is held down. */
 function actOf(code: string, tool: ToolKind): ScopeAct | undefined {
   const act = scopeAct(code);
-  return act === "jaws" && tool !== "grasper" ? undefined : act;
+  return act === "jaws" && !hasJaws(tool) ? undefined : act;
 }
 
 function motionOf(code: string, shift: boolean, tool: ToolKind): ScopeMotion | undefined {

@@ -11,7 +11,7 @@ import { ScopeBackdrop } from "./scope_backdrop";
 import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
 import { ScopeFluid } from "./scope_fluid";
-import { lesionUniforms, setLesions, type Lesion } from "./scope_lesions";
+import { lesionUniforms, scuffed, setLesions, type Lesion, type Painted } from "./scope_lesions";
 import { rodGeometries } from "./scope_rod";
 import { ScopeScrew } from "./scope_screw";
 import { holeUniforms, setHole } from "./screw_hole";
@@ -45,6 +45,7 @@ export class ScopePicture {
   private readonly walls: ReadonlyMap<string, THREE.Mesh>;
   private readonly lesions = lesionUniforms();
   private wrong: readonly Lesion[] = [];
+  private scuffs: readonly Painted[] = [];
   private readonly loose: LooseBodies;
   private readonly beads: ScopeBeads;
   private readonly pieces: TissuePieces;
@@ -111,6 +112,7 @@ export class ScopePicture {
     bodies: readonly string[],
   ): void {
     this.wrong = lesions;
+    this.scuffs = [];
     this.loose.set(lesions);
     this.pieces.set(pieces, bodies);
     this.beads.setBodies(bodies);
@@ -135,22 +137,26 @@ export class ScopePicture {
 
   /** The bones have moved, or the scope has gone to another joint. */
   lay(joint: string, poses: readonly BodyPose[]): void {
-    setLesions(this.lesions, this.wrong, joint);
+    this.paint(joint);
     this.beads.lay(poses);
     this.pieces.lay(poses);
     this.screw.lay(poses);
   }
 
+  private paint(joint: string): void {
+    setLesions(this.lesions, [...this.scuffs, ...this.wrong], joint);
+  }
+
   /**
    * @param joint  id of the one that the scope's portal leads into
-   * @param scope  what floats, and what a shaver has left
+   * @param scope  what floats, what was left of what can be taken away, where cartilage was bitten
    * @param skin  the portal that the lens is before; undefined once it is under the skin
    */
   draw(
     joint: string,
     sight: ScopeSight,
     rod: Rod | undefined,
-    scope: Pick<ScopeMessage, "loose" | "pieces_left" | "running">,
+    scope: Pick<ScopeMessage, "loose" | "pieces_left" | "running" | "scuffs">,
     sizePx: number,
     skin: { readonly skinMm: Vec3; readonly inwards: Vec3 } | undefined,
   ): void {
@@ -172,6 +178,10 @@ export class ScopePicture {
     this.screw.group.visible = skin === undefined;
     this.rod.visible = rod !== undefined;
     this.loose.lay(joint, scope.loose);
+    if (scope.scuffs.length !== this.scuffs.length) {
+      this.scuffs = scuffed(scope.scuffs);
+      this.paint(joint);
+    }
     this.pieces.show(
       joint,
       scope.pieces_left,

@@ -80,6 +80,7 @@ export class ScopeReadings {
     const state = {
       probe: "",
       grasper: isClosed ? ", closed" : ", open",
+      punch: isClosed ? ", closed" : ", open",
       shaver: scope?.running[1] === 1 ? ", running" : "",
     }[tool];
     setText(

@@ -6,13 +6,18 @@
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-export type RodLook = "probe" | "open" | "closed" | "shaver" | "blade";
+import type { ToolKind } from "./scope_tools";
+
+export type RodLook =
+  "probe" | "open" | "closed" | "punch_open" | "punch_closed" | "shaver" | "blade";
 
 const LENGTH_MM = 40;
 const PROBE_MM = 0.5;
 const FORCEPS_MM = 1;
 const JAW_MM = 3.2;
 const OPEN_RAD = 0.34;
+/** Of a punch one jaw stays; the other opens wider. */
+const PUNCH_OPEN_RAD = 0.62;
 const SHAVER_MM = 1;
 /** Its window: from, to, and how far from the axis it is cut [mm]. */
 const WINDOW_MM = [0.25, 2.6, 0.3] as const;
@@ -31,15 +36,30 @@ function turned(profile: readonly (readonly [number, number])[], sides = 12): TH
   return geometry;
 }
 
-/** One of two spoons, about its hinge: the half of a cone, flat towards the other. */
-function jaw(side: 1 | -1, openRad: number): THREE.BufferGeometry {
-  const shape = turned([
-    [0, 0],
-    [0.45, 0.25],
-    [0.8, 1],
-    [0.95, 2],
-    [1, JAW_MM],
-  ]);
+/** From its end to its hinge. A punch's is square: it bites up to its end. */
+const SPOON = [
+  [0, 0],
+  [0.45, 0.25],
+  [0.8, 1],
+  [0.95, 2],
+  [1, JAW_MM],
+] as const;
+const BASKET = [
+  [0, 0],
+  [0.78, 0.05],
+  [0.95, 0.35],
+  [1, 1],
+  [1, 2],
+  [1, JAW_MM],
+] as const;
+
+/** One of two, about its hinge: half of a round, flat towards the other. */
+function jaw(
+  side: 1 | -1,
+  openRad: number,
+  profile: readonly (readonly [number, number])[],
+): THREE.BufferGeometry {
+  const shape = turned(profile);
   const place = shape.getAttribute("position");
   for (let i = 0; i < place.count; ++i) place.setX(i, side * Math.max(0.06, side * place.getX(i)));
   shape.translate(0, 0, -JAW_MM);
@@ -57,12 +77,20 @@ function finished(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   return geometry;
 }
 
+function punch(openRad: number): THREE.BufferGeometry {
+  return withShaft(jaw(1, openRad, BASKET), jaw(-1, 0, BASKET));
+}
+
 function forceps(openRad: number): THREE.BufferGeometry {
+  return withShaft(jaw(1, openRad, SPOON), jaw(-1, openRad, SPOON));
+}
+
+function withShaft(...jaws: readonly THREE.BufferGeometry[]): THREE.BufferGeometry {
   const shaft = turned([
     [0, JAW_MM - 0.4],
     ...ringsFrom(JAW_MM).map((z) => [FORCEPS_MM, z] as const),
   ]);
-  return finished(mergeGeometries([jaw(1, openRad), jaw(-1, openRad), shaft]));
+  return finished(mergeGeometries([...jaws, shaft]));
 }
 
 /** A tube whose window is on the side of +x, and the blade in it: turned away it leaves the window open. */
@@ -113,13 +141,16 @@ export function rodGeometries(): Readonly<Record<RodLook, THREE.BufferGeometry>>
     ),
     open: forceps(OPEN_RAD),
     closed: forceps(0),
+    punch_open: punch(PUNCH_OPEN_RAD),
+    punch_closed: punch(0),
     shaver: shaver(false),
     blade: shaver(true),
   };
 }
 
-/** Of what a hand holds. */
-export function rodLook(hasJaws: boolean, isClosed: boolean): RodLook {
-  if (!hasJaws) return "probe";
+/** Of what a hand holds that has no mouth. */
+export function rodLook(kind: ToolKind, isClosed: boolean): RodLook {
+  if (kind === "punch") return isClosed ? "punch_closed" : "punch_open";
+  if (kind !== "grasper") return "probe";
   return isClosed ? "closed" : "open";
 }

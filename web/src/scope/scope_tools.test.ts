@@ -4,21 +4,23 @@ import { describe, expect, it } from "vitest";
 import type { ExerciseMessage, Item, ScopeMessage, Vec3 } from "../protocol";
 import { mouthTowards, ScopeTools } from "./scope_tools";
 
-const instrument = (id: string, has: "has_jaws" | "has_mouth" | undefined) => ({
+const instrument = (id: string, ...has: ("has_jaws" | "has_bite" | "has_mouth")[]) => ({
   id,
-  has_jaws: has === "has_jaws",
-  has_mouth: has === "has_mouth",
+  has_jaws: has.includes("has_jaws"),
+  has_bite: has.includes("has_bite"),
+  has_mouth: has.includes("has_mouth"),
 });
 
 function tools(...held: ReturnType<typeof instrument>[]): ScopeTools {
   const made = new ScopeTools();
-  const instruments = [instrument("arthroscope_1_9_30", undefined), ...held];
+  const instruments = [instrument("arthroscope_1_9_30"), ...held];
   made.begin({ instruments } as unknown as ExerciseMessage);
   return made;
 }
 
 const SHAVER = instrument("shaver_2_0", "has_mouth");
 const GRASPER = instrument("grasper_2_0", "has_jaws");
+const PUNCH = instrument("punch_2_0", "has_jaws", "has_bite");
 const told = (running: number, mouthDeg: number): ScopeMessage =>
   ({
     running: [0, running],
@@ -42,22 +44,52 @@ function expectWay(got: Vec3 | undefined, wanted: Vec3): void {
 }
 
 describe("what works beside the scope", () => {
-  it("is of the kind that the exercise has", () => {
-    expect(tools().kind).toBe("probe");
-    expect(tools(GRASPER).kind).toBe("grasper");
-    expect(tools(SHAVER).kind).toBe("shaver");
+  it("is of the kind that an empty hand will take: the tray's last", () => {
+    const kind = (one: ScopeTools): string => one.kindOf(undefined);
+    expect(kind(tools())).toBe("probe");
+    expect(kind(tools(GRASPER))).toBe("grasper");
+    expect(kind(tools(SHAVER))).toBe("shaver");
+    expect(kind(tools(PUNCH, SHAVER))).toBe("shaver");
     const twice = tools(SHAVER);
     twice.begin({ instruments: [] } as unknown as ExerciseMessage);
-    expect(twice.kind).toBe("probe");
+    expect(kind(twice)).toBe("probe");
+  });
+
+  it("is of the kind of what a hand holds, where the tray has more than one", () => {
+    const both = tools(PUNCH, SHAVER);
+    expect(both.kindOf("punch_2_0")).toBe("punch");
+    expect(both.kindOf("shaver_2_0")).toBe("shaver");
+    expect(both.kindOf("arthroscope_1_9_30")).toBe("probe");
+    expect([both.hasJaws("punch_2_0"), both.hasMouth("punch_2_0")]).toEqual([true, false]);
+    expect([both.hasJaws("shaver_2_0"), both.hasMouth("shaver_2_0")]).toEqual([false, true]);
+    expect(both.driver(1, "punch_2_0", true)).toBe("reverse");
+    both.turnJaws(1);
+    expect(both.driver(1, "punch_2_0", false)).toBe("forward");
+    expect(both.driver(1, "shaver_2_0", false)).toBe("off");
+  });
+
+  it("is drawn as a punch, open and closed as the host has it", () => {
+    const punch = tools(PUNCH, SHAVER);
+    const look = (closed: number): string =>
+      punch.rod(item("punch_2_0"), { ...told(0, 0), jaws_closed: [0, closed] }, LEVEL, 0).look;
+    expect([look(0), look(1)]).toEqual(["punch_open", "punch_closed"]);
+    // However a shaver's mouth was turned before in that hand: upwards.
+    expectWay(punch.rod(item("punch_2_0"), told(0, 90), LEVEL, 0).mouth, [0, 0, 1]);
   });
 
   it("runs while a pedal is down; jaws know no pedal, and a probe has neither", () => {
-    expect([true, false].map((down) => tools(SHAVER).driver(1, down))).toEqual(["forward", "off"]);
-    expect([true, false].map((down) => tools().driver(1, down))).toEqual(["off", "off"]);
+    expect([true, false].map((down) => tools(SHAVER).driver(1, "shaver_2_0", down))).toEqual([
+      "forward",
+      "off",
+    ]);
+    expect([true, false].map((down) => tools().driver(1, "arthroscope_1_9_30", down))).toEqual([
+      "off",
+      "off",
+    ]);
     const grasper = tools(GRASPER);
-    expect(grasper.driver(1, true)).toBe("reverse");
+    expect(grasper.driver(1, "grasper_2_0", true)).toBe("reverse");
     grasper.turnJaws(1);
-    expect(grasper.driver(1, false)).toBe("forward");
+    expect(grasper.driver(1, "grasper_2_0", false)).toBe("forward");
   });
 
   it("turns its mouth from where the host has it, round and round", () => {

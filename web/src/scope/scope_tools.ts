@@ -1,43 +1,49 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What works beside the scope: a probe, forceps whose jaws lock, or a shaver with pedal and mouth, by hand.
-import type { ExerciseMessage, HandMessage, Item, ScopeMessage, Vec3 } from "../protocol";
+// What works beside the scope: a probe, forceps whose jaws lock, a punch whose jaws bite, or a shaver with pedal
+// and mouth, by hand.
+import type {
+  ExerciseMessage,
+  HandMessage,
+  Instrument,
+  Item,
+  ScopeMessage,
+  Vec3,
+} from "../protocol";
 import { cross, dot, normalized, rotated, scaled, subtract } from "../tool_placement";
 import { wrappedDeg } from "./scope_hand_model";
 import type { HandIndex } from "./scope_hands";
 import { rodLook, type RodLook } from "./scope_rod";
 
-export type ToolKind = "probe" | "grasper" | "shaver";
+export type ToolKind = "probe" | "grasper" | "punch" | "shaver";
 
 /** As the picture draws it. */
 export interface Rod {
   readonly tipMm: Vec3;
   readonly shaft: Vec3;
   readonly look: RodLook;
-  /** Unit: where a shaver's mouth looks. */
+  /** Unit: where a shaver's mouth looks, or a punch's jaw opens to. */
   readonly mouth: Vec3 | undefined;
 }
 
 export class ScopeTools {
   private readonly areClosed: [boolean, boolean] = [false, false];
   private readonly mouthDeg: [number, number] = [0, 0];
-  private jaws: ReadonlySet<string> = new Set();
-  private mouths: ReadonlySet<string> = new Set();
+  /** By instrument; and that of the tray's last one. */
+  private kinds: ReadonlyMap<string, ToolKind> = new Map();
+  private usual: ToolKind = "probe";
 
   begin(exercise: ExerciseMessage): void {
-    const ids = (has: "has_jaws" | "has_mouth"): ReadonlySet<string> =>
-      new Set(exercise.instruments.filter((one) => one[has]).map((one) => one.id));
-    this.jaws = ids("has_jaws");
-    this.mouths = ids("has_mouth");
+    this.kinds = new Map(exercise.instruments.map((one) => [one.id, kindOf(one)]));
+    this.usual = this.kindOf(exercise.instruments.at(-1)?.id ?? "");
     this.areClosed.fill(false);
     this.mouthDeg.fill(0);
   }
 
-  /** Of the exercise. */
-  get kind(): ToolKind {
-    if (this.jaws.size > 0) return "grasper";
-    return this.mouths.size > 0 ? "shaver" : "probe";
+  /** Of what a hand holds; an empty hand stands for what it will take by itself. */
+  kindOf(instrument: string | undefined): ToolKind {
+    return instrument === undefined ? this.usual : (this.kinds.get(instrument) ?? "probe");
   }
 
   /** As the host has them: a page that comes back must not open what holds something. */
@@ -49,11 +55,11 @@ export class ScopeTools {
   }
 
   hasJaws(instrument: string): boolean {
-    return this.jaws.has(instrument);
+    return hasJaws(this.kindOf(instrument));
   }
 
   hasMouth(instrument: string | undefined): boolean {
-    return instrument !== undefined && this.mouths.has(instrument);
+    return instrument !== undefined && this.kindOf(instrument) === "shaver";
   }
 
   /** Close, or open again. */
@@ -67,10 +73,14 @@ export class ScopeTools {
     return this.mouthDeg[hand];
   }
 
-  /** Jaws lock: they close by one way of the driver, and open by the other. A shaver runs by the pedal. */
-  driver(hand: HandIndex, pedalIsDown: boolean): HandMessage["driver"] {
-    if (this.kind === "grasper") return this.areClosed[hand] ? "forward" : "reverse";
-    return this.kind === "shaver" && pedalIsDown ? "forward" : "off";
+  /**
+   * Jaws lock: they close by one way of the driver, and open by the other. A shaver runs by the pedal.
+   * @param held  what is in that hand
+   */
+  driver(hand: HandIndex, held: string | undefined, pedalIsDown: boolean): HandMessage["driver"] {
+    const kind = this.kindOf(held);
+    if (hasJaws(kind)) return this.areClosed[hand] ? "forward" : "reverse";
+    return kind === "shaver" && pedalIsDown ? "forward" : "off";
   }
 
   /** @param level  up in a level picture. @param nowMs  a running blade turns by it; the same where nothing is to move */
@@ -79,12 +89,29 @@ export class ScopeTools {
     const runs = scope.running[hand] === 1;
     const look = this.hasMouth(item.instrument)
       ? shaverLook(runs, nowMs)
-      : rodLook(this.hasJaws(item.instrument), scope.jaws_closed[hand] === 1);
-    const mouth = this.hasMouth(item.instrument)
-      ? mouthTowards(item.shaft, level, scope.mouth_deg[hand] ?? 0)
-      : undefined;
+      : rodLook(this.kindOf(item.instrument), scope.jaws_closed[hand] === 1);
+    // A punch is held so that its jaw opens upwards in a level picture.
+    const turnDeg = {
+      shaver: scope.mouth_deg[hand] ?? 0,
+      punch: 0,
+      grasper: undefined,
+      probe: undefined,
+    };
+    const deg = turnDeg[this.kindOf(item.instrument)];
+    const mouth = deg === undefined ? undefined : mouthTowards(item.shaft, level, deg);
     return { tipMm: item.tip_mm, shaft: item.shaft, look, mouth };
   }
+}
+
+function kindOf(one: Pick<Instrument, "has_bite" | "has_jaws" | "has_mouth">): ToolKind {
+  if (one.has_mouth) return "shaver";
+  if (!one.has_jaws) return "probe";
+  return one.has_bite ? "punch" : "grasper";
+}
+
+/** Closed and opened by one key. */
+export function hasJaws(kind: ToolKind): boolean {
+  return kind === "grasper" || kind === "punch";
 }
 
 /** The blade oscillates: it opens and shuts the window. */

@@ -321,7 +321,8 @@ export class TrainPage {
           this.panels.notice.say(text);
         },
         showHand: (hand) => {
-          this.theatre.setActiveHand(hand);
+          // The tray, too, is this hand's.
+          if (hand !== this.hand.active) this.hand.switchHand();
         },
       },
       walls,
