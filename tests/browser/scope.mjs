@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score; the first exercises; a grasper; a shaver; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// both hands at once by mouse and gamepad, a touch, the score; the first exercises; a grasper; a shaver; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { PAD } from "./fake_pad.mjs";
 import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
 
@@ -63,8 +64,48 @@ export async function bringInProbe(page, operator) {
   await holdUntil(page, "a", "probe in the joint by 4-5", "the probe");
 }
 
+/** Mouse and keys lead the scope, a gamepad that is plugged in the probe, at the same time; its stick exchanges them: the keys have the probe then. */
+async function leadBoth(page, operator) {
+  const press = (button, value) =>
+    page.evaluate(([b, v]) => window.pressPad(b, v), [button, value]);
+  const tilt = (...axes) => page.evaluate((a) => window.tiltPad(...a), axes);
+  const status = (words) => page.locator(".scope-status", { hasText: words }).waitFor();
+  const tips = async () => {
+    const s = await operator.snapshot();
+    return [0, 1].map((hand) => Operator.held(s, hand).tip_mm);
+  };
+  await page.evaluate(() => window.plugPad(true));
+  await status("moving the scope, gamepad the probe");
+  const before = await tips();
+  const box = await page.locator(".scope-picture").boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await tilt(-0.8, 0, 0, 0);
+  await page.mouse.wheel(0, 100); // back from what it may lie against
+  await page.mouse.move(x - 60, y + 40, { steps: 3 });
+  await page.waitForTimeout(500);
+  const after = await tips();
+  await tilt(0, 0, 0, 0);
+  await page.mouse.up();
+  for (const hand of [0, 1]) {
+    const moved = Math.hypot(...after[hand].map((v, i) => v - before[hand][i]));
+    expect(moved > 0.5, `hand ${hand} was led by ${moved.toFixed(2)} mm`);
+  }
+  await press(10, 1);
+  await status("moving the probe, gamepad the scope");
+  await press(10, 0);
+  const from = await page.evaluate(() => window.carpus.scope().shaft_deg);
+  await tilt(0, 0, 0.9, 0);
+  await page.waitForFunction((deg) => Math.abs(window.carpus.scope().shaft_deg - deg) > 10, from);
+  await tilt(0, 0, 0, 0);
+  await page.evaluate(() => window.plugPad(false));
+}
+
 export async function arthroscopy(browser, station) {
   const page = await newPage(browser);
+  await page.addInitScript(PAD);
+  await page.addInitScript(() => window.plugPad(false));
   const operator = new Operator(page);
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
   let shown = 0;
@@ -96,8 +137,10 @@ export async function arthroscopy(browser, station) {
     expect(seen >= 2, `${seen} places were seen`);
     await expectDrawnInTime(page, "radiocarpal");
   });
+  await check(page, "mouse and gamepad lead a hand each, at once", async () => {
+    await leadBoth(page, operator);
+  });
   await check(page, "the probe presses, and the end is scored", async () => {
-    await page.keyboard.press("h");
     await page.keyboard.down("a");
     await operator.until(
       (s) => Math.hypot(...(s.hands[1].force_n ?? [0])) > 0.3,

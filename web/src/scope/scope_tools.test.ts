@@ -56,7 +56,7 @@ describe("what works beside the scope", () => {
     expect([true, false].map((down) => tools().driver(1, down))).toEqual(["off", "off"]);
     const grasper = tools(GRASPER);
     expect(grasper.driver(1, true)).toBe("reverse");
-    grasper.turnJaws(1);
+    grasper.setJaws(1, undefined);
     expect(grasper.driver(1, false)).toBe("forward");
   });
 
