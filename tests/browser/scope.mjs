@@ -316,6 +316,18 @@ export async function basics(browser, station) {
   const callsInRound = async (mode) => {
     await operator.start(station.url, TRAINEE, "arthroscopic_basics", mode);
     expect(!(await words.isVisible()), "an exercise is asked for outside");
+    const panorama = page.locator(".stage");
+    await page.keyboard.press("7");
+    if (mode === "assessed") {
+      await page.locator(".notice", { hasText: "no panorama when you are assessed" }).waitFor();
+      expect(!(await panorama.isVisible()), "a panorama helps who is assessed");
+      await page.keyboard.press("8");
+      await page.locator(".notice", { hasText: "The horizon is yours" }).waitFor();
+    } else {
+      expect(!(await panorama.isVisible()), "the panorama cannot be taken away");
+      await page.keyboard.press("7");
+      expect(await panorama.isVisible(), "the panorama does not come back");
+    }
     await bringInScope(page, operator);
     await words.waitFor();
     expect(/^1 of 3/.test(await words.innerText()), await words.innerText());

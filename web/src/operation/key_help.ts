@@ -85,7 +85,7 @@ export const HELP: readonly HelpGroup[] = [
       },
       { keys: "{KeyG}", text: "close the jaws, or open them; hold: a shaver's pedal" },
       { keys: "{KeyV}", text: "the next portal" },
-      { keys: "7 / 8 / 9", text: "panorama / level / findings" },
+      { keys: "7 / 8 / 9", text: "panorama / level, both in practice alone / findings" },
     ],
   },
   {

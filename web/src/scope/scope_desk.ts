@@ -12,7 +12,7 @@ import { FluidControls } from "./fluid_controls";
 import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
-import { makeScopeControls } from "./scope_controls";
+import { makeScopeControls, offerScopeAids, WHY_NO_AID } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import type { HandIndex } from "./scope_hands";
 import type { ScopeAct } from "./scope_keys";
@@ -118,7 +118,8 @@ export class ScopeDesk {
     const isOn = this.plan !== undefined && this.walls.length > 0;
     this.element.hidden = this.controls.hidden = !isOn;
     this.room.stage.classList.toggle("is-panorama", isOn);
-    this.room.stage.hidden = isOn && !this.hasPanorama;
+    this.room.stage.hidden = isOn && (this.isAssessed || !this.hasPanorama);
+    offerScopeAids(this.controls, this.isAssessed);
     if (!isOn || this.plan === undefined) return;
     if (this.picture === undefined) {
       this.picture = new ScopePicture(this.walls);
@@ -137,6 +138,11 @@ export class ScopeDesk {
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
     this.showPoints();
+  }
+
+  /** Without aids. */
+  private get isAssessed(): boolean {
+    return this.exercise?.mode === "assessed";
   }
 
   private get moved(): HandIndex {
@@ -272,6 +278,10 @@ export class ScopeDesk {
 
   private act(act: ScopeAct): void {
     if (this.plan === undefined) return;
+    if (this.isAssessed && (act === "panorama" || act === "level")) {
+      this.room.say(WHY_NO_AID[act]);
+      return;
+    }
     switch (act) {
       case "panorama":
         this.hasPanorama = !this.hasPanorama;
