@@ -137,6 +137,21 @@ export async function arthroscopy(browser, station) {
     expect(seen >= 2, `${seen} places were seen`);
     await expectDrawnInTime(page, "radiocarpal");
   });
+  await check(page, "on a low page the picture keeps two thirds of its height", async () => {
+    const usual = page.viewportSize();
+    await page.setViewportSize({ width: 640, height: 360 });
+    await operator.settle();
+    const { width, height } = await page.locator(".scope-picture").boundingBox();
+    const least = Math.min(width, height);
+    expect(least >= 240, `${least} pixels of 360`);
+    for (const what of [".scope-status", ".bottom-bar", ".scope-controls button"]) {
+      const box = await page.locator(what).first().boundingBox();
+      const isIn = box.y >= 0 && box.y + 24 <= 360 && box.x >= 0 && box.x + 24 <= 640;
+      expect(isIn, `${what} at ${JSON.stringify(box)}`);
+    }
+    await page.setViewportSize(usual);
+    await operator.settle();
+  });
   await check(page, "mouse and gamepad lead a hand each, at once", async () => {
     await leadBoth(page, operator);
   });

@@ -24,6 +24,7 @@ import { ScopeReadings } from "./scope_readings";
 import type { ToolKind } from "./scope_tools";
 import type { SecondLead } from "./second_lead";
 import "./scope.css";
+import "./scope_small.css";
 
 export interface ScopeRoom extends LeadingRoom {
   /** Where the picture goes: over the theatre. */
