@@ -5,25 +5,9 @@
 import { expectAccessible } from "./accessibility.mjs";
 import { newcomersPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { PAD } from "./fake_pad.mjs";
 import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
-
-/** A gamepad of the standard mapping that the test holds. */
-const PAD = () => {
-  const pad = {
-    connected: true,
-    mapping: "standard",
-    axes: [0, 0, 0, 0],
-    buttons: Array.from({ length: 17 }, () => ({ value: 0, pressed: false })),
-  };
-  window.pressPad = (button, value) => {
-    pad.buttons[button] = { value, pressed: value > 0.5 };
-  };
-  window.tiltPad = (...axes) => {
-    pad.axes = axes;
-  };
-  navigator.getGamepads = () => [pad];
-};
 
 /** Two frames have been drawn. */
 const frames = (page) =>

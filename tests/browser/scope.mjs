@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A diagnostic arthroscopy by keys: traction, the scope by 3-4, the probe by 4-5, two places of the tour,
-// a touch, the score; the first exercises; a grasper; a shaver; a punch; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
+// both hands at once by mouse and gamepad, a touch, the score; the first exercises; a grasper; a shaver; a punch; and an examination through both joints with its report. With CARPUS_SCOPE_PICTURES a folder for what the scope shows on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { PAD } from "./fake_pad.mjs";
 import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
 
@@ -21,9 +22,14 @@ async function expectDrawnInTime(page, joint, most = MOST_CALLS) {
   const [calls, triangles] = await page
     .locator(".scope")
     .evaluate((e) => [Number(e.dataset.calls), Number(e.dataset.triangles)]);
-  process.stdout.write(`  scope, ${joint}: ${calls} calls, ${triangles} triangles\n`);
+  process.stdout.write(
+    `  scope, ${joint}: ${calls} calls, ${triangles} triangles\n`,
+  );
   expect(calls > 0 && calls <= most, `${joint}: ${calls} draw calls`);
-  expect(triangles > 1000 && triangles <= MOST_TRIANGLES, `${joint}: ${triangles} triangles`);
+  expect(
+    triangles > 1000 && triangles <= MOST_TRIANGLES,
+    `${joint}: ${triangles} triangles`,
+  );
 }
 
 async function hold(page, key, ms) {
@@ -63,8 +69,52 @@ export async function bringInProbe(page, operator) {
   await holdUntil(page, "a", "probe in the joint by 4-5", "the probe");
 }
 
+/** Mouse and keys lead the scope, a gamepad that is plugged in the probe, at the same time; its stick exchanges them: the keys have the probe then. */
+async function leadBoth(page, operator) {
+  const press = (button, value) =>
+    page.evaluate(([b, v]) => window.pressPad(b, v), [button, value]);
+  const tilt = (...axes) => page.evaluate((a) => window.tiltPad(...a), axes);
+  const status = (words) =>
+    page.locator(".scope-status", { hasText: words }).waitFor();
+  const tips = async () => {
+    const s = await operator.snapshot();
+    return [0, 1].map((hand) => Operator.held(s, hand).tip_mm);
+  };
+  await page.evaluate(() => window.plugPad(true));
+  await status("moving the scope, gamepad the probe");
+  const before = await tips();
+  const box = await page.locator(".scope-picture").boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await tilt(-0.8, 0, 0, 0);
+  await page.mouse.wheel(0, 100); // back from what it may lie against
+  await page.mouse.move(x - 60, y + 40, { steps: 3 });
+  await page.waitForTimeout(500);
+  const after = await tips();
+  await tilt(0, 0, 0, 0);
+  await page.mouse.up();
+  for (const hand of [0, 1]) {
+    const moved = Math.hypot(...after[hand].map((v, i) => v - before[hand][i]));
+    expect(moved > 0.5, `hand ${hand} was led by ${moved.toFixed(2)} mm`);
+  }
+  await press(10, 1);
+  await status("moving the probe, gamepad the scope");
+  await press(10, 0);
+  const from = await page.evaluate(() => window.carpus.scope().shaft_deg);
+  await tilt(0, 0, 0.9, 0);
+  await page.waitForFunction(
+    (deg) => Math.abs(window.carpus.scope().shaft_deg - deg) > 10,
+    from,
+  );
+  await tilt(0, 0, 0, 0);
+  await page.evaluate(() => window.plugPad(false));
+}
+
 export async function arthroscopy(browser, station) {
   const page = await newPage(browser);
+  await page.addInitScript(PAD);
+  await page.addInitScript(() => window.plugPad(false));
   const operator = new Operator(page);
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
   let shown = 0;
@@ -96,8 +146,36 @@ export async function arthroscopy(browser, station) {
     expect(seen >= 2, `${seen} places were seen`);
     await expectDrawnInTime(page, "radiocarpal");
   });
+  await check(
+    page,
+    "on a low page the picture keeps two thirds of its height",
+    async () => {
+      const usual = page.viewportSize();
+      await page.setViewportSize({ width: 640, height: 360 });
+      await operator.settle();
+      const { width, height } = await page
+        .locator(".scope-picture")
+        .boundingBox();
+      const least = Math.min(width, height);
+      expect(least >= 240, `${least} pixels of 360`);
+      for (const what of [
+        ".scope-status",
+        ".bottom-bar",
+        ".scope-controls button",
+      ]) {
+        const box = await page.locator(what).first().boundingBox();
+        const isIn =
+          box.y >= 0 && box.y + 24 <= 360 && box.x >= 0 && box.x + 24 <= 640;
+        expect(isIn, `${what} at ${JSON.stringify(box)}`);
+      }
+      await page.setViewportSize(usual);
+      await operator.settle();
+    },
+  );
+  await check(page, "mouse and gamepad lead a hand each, at once", async () => {
+    await leadBoth(page, operator);
+  });
   await check(page, "the probe presses, and the end is scored", async () => {
-    await page.keyboard.press("h");
     await page.keyboard.down("a");
     await operator.until(
       (s) => Math.hypot(...(s.hands[1].force_n ?? [0])) > 0.3,
@@ -113,17 +191,28 @@ export async function arthroscopy(browser, station) {
     await page.getByText("Cartilage seen").first().waitFor();
     await picture("score");
   });
-  await check(page, "what was seen of the cartilage is painted on the bones, as it was scored", async () => {
-    const shares = page.locator(".cartilage-shares tr");
-    await shares.first().waitFor();
-    await page.locator(".cartilage canvas").waitFor();
-    const told = await shares.first().locator("td").innerText();
-    const id = /attempts\/(\d+)/.exec(page.url())[1];
-    const { score } = await (await fetch(`${station.url}/api/attempts/${id}`)).json();
-    const scored = score.items.find((item) => item.id === "cartilage_seen_share").value;
-    expect(told === `${Math.round(scored)} %`, `${told} are told, ${scored} were scored`);
-    expect((await shares.count()) >= 6, `${await shares.count()} shares`);
-  });
+  await check(
+    page,
+    "what was seen of the cartilage is painted on the bones, as it was scored",
+    async () => {
+      const shares = page.locator(".cartilage-shares tr");
+      await shares.first().waitFor();
+      await page.locator(".cartilage canvas").waitFor();
+      const told = await shares.first().locator("td").innerText();
+      const id = /attempts\/(\d+)/.exec(page.url())[1];
+      const { score } = await (
+        await fetch(`${station.url}/api/attempts/${id}`)
+      ).json();
+      const scored = score.items.find(
+        (item) => item.id === "cartilage_seen_share",
+      ).value;
+      expect(
+        told === `${Math.round(scored)} %`,
+        `${told} are told, ${scored} were scored`,
+      );
+      expect((await shares.count()) >= 6, `${await shares.count()} shares`);
+    },
+  );
   await page.context().close();
 }
 
@@ -173,7 +262,10 @@ export async function examination(browser, station) {
       await page.keyboard.press("v");
       if (/Midcarpal/.test(await title.innerText())) break;
     }
-    expect(/Midcarpal/.test(await title.innerText()), "V did not go on to the midcarpal joint");
+    expect(
+      /Midcarpal/.test(await title.innerText()),
+      "V did not go on to the midcarpal joint",
+    );
     await holdUntil(
       page,
       "a",
@@ -273,6 +365,25 @@ export async function basics(browser, station) {
   const callsInRound = async (mode) => {
     await operator.start(station.url, TRAINEE, "arthroscopic_basics", mode);
     expect(!(await words.isVisible()), "an exercise is asked for outside");
+    const panorama = page.locator(".stage");
+    await page.keyboard.press("7");
+    if (mode === "assessed") {
+      await page
+        .locator(".notice", { hasText: "no panorama when you are assessed" })
+        .waitFor();
+      expect(!(await panorama.isVisible()), "a panorama helps who is assessed");
+      await page.keyboard.press("8");
+      await page
+        .locator(".notice", { hasText: "The horizon is yours" })
+        .waitFor();
+    } else {
+      expect(
+        !(await panorama.isVisible()),
+        "the panorama cannot be taken away",
+      );
+      await page.keyboard.press("7");
+      expect(await panorama.isVisible(), "the panorama does not come back");
+    }
     await bringInScope(page, operator);
     await words.waitFor();
     expect(/^1 of 3/.test(await words.innerText()), await words.innerText());
@@ -286,7 +397,9 @@ export async function basics(browser, station) {
         .evaluate((e) => Number(e.dataset.calls));
       most = Math.max(most, calls);
       if (pictures !== undefined)
-        await page.screenshot({ path: join(pictures, `basics_${mode}_${turn}.png`) });
+        await page.screenshot({
+          path: join(pictures, `basics_${mode}_${turn}.png`),
+        });
     }
     const isJudged = mode === "practice"; // once is enough
     if (isJudged) await page.waitForTimeout(8500); // with the turns the least look that is judged
@@ -295,14 +408,22 @@ export async function basics(browser, station) {
       "dialog[open] button[value=finish], dialog[open] .primary",
     );
     await page.waitForURL(/#\/attempts\/\d+/);
-    if (isJudged) await page.getByText("Places centred and held").first().waitFor();
+    if (isJudged)
+      await page.getByText("Places centred and held").first().waitFor();
     return most;
   };
-  await check(page, "an exercise asks, and marks its place in practice alone", async () => {
-    const marked = await callsInRound("practice");
-    const unmarked = await callsInRound("assessed");
-    expect(marked === unmarked + 1, `${marked} draw calls, without the mark ${unmarked}`);
-  });
+  await check(
+    page,
+    "an exercise asks, and marks its place in practice alone",
+    async () => {
+      const marked = await callsInRound("practice");
+      const unmarked = await callsInRound("assessed");
+      expect(
+        marked === unmarked + 1,
+        `${marked} draw calls, without the mark ${unmarked}`,
+      );
+    },
+  );
   await page.context().close();
 }
 
@@ -311,32 +432,56 @@ export async function removal(browser, station) {
   const page = await newPage(browser);
   const operator = new Operator(page);
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
-  const status = (words) => page.locator(".scope-status", { hasText: words }).waitFor();
-  await check(page, "a grasper locks its jaws, and loose bodies lie in the joint", async () => {
-    await operator.start(station.url, TRAINEE, "arthroscopic_loose_body_removal");
-    const { lesions } = (await operator.exercise()).arthroscopy;
-    expect(lesions.length > 0 && lesions.every((one) => one.look === "loose"), "nothing is loose");
-    await bringInScope(page, operator);
-    await page.waitForFunction(
-      (calls) => Number(document.querySelector(".scope").dataset.calls) === calls,
-      2 + lesions.length, // the wall, what lies about it, a ball each
-    );
-    await page.keyboard.press("h");
-    await operator.until((s) => Operator.held(s, 1) !== undefined, "the grasper");
-    await holdUntil(page, "a", "grasper in the joint by 4-5, open", "the grasper");
-    await page.keyboard.press("g");
-    await status("by 4-5, closed");
-    await page.waitForTimeout(2000); // longer than a driver runs unheard
-    await status("by 4-5, closed");
-    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "removal.png") });
-    await page.keyboard.press("g");
-    await status("by 4-5, open");
-    await page.keyboard.press("f");
-    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
-    await page.waitForURL(/#\/attempts\/\d+/);
-    await page.getByText("Loose bodies brought out").first().waitFor();
-    await page.getByText(`0 of ${lesions.length}.`).first().waitFor();
-  });
+  const status = (words) =>
+    page.locator(".scope-status", { hasText: words }).waitFor();
+  await check(
+    page,
+    "a grasper locks its jaws, and loose bodies lie in the joint",
+    async () => {
+      await operator.start(
+        station.url,
+        TRAINEE,
+        "arthroscopic_loose_body_removal",
+      );
+      const { lesions } = (await operator.exercise()).arthroscopy;
+      expect(
+        lesions.length > 0 && lesions.every((one) => one.look === "loose"),
+        "nothing is loose",
+      );
+      await bringInScope(page, operator);
+      await page.waitForFunction(
+        (calls) =>
+          Number(document.querySelector(".scope").dataset.calls) === calls,
+        2 + lesions.length, // the wall, what lies about it, a ball each
+      );
+      await page.keyboard.press("h");
+      await operator.until(
+        (s) => Operator.held(s, 1) !== undefined,
+        "the grasper",
+      );
+      await holdUntil(
+        page,
+        "a",
+        "grasper in the joint by 4-5, open",
+        "the grasper",
+      );
+      await page.keyboard.press("g");
+      await status("by 4-5, closed");
+      await page.waitForTimeout(2000); // longer than a driver runs unheard
+      await status("by 4-5, closed");
+      if (pictures !== undefined)
+        await page.screenshot({ path: join(pictures, "removal.png") });
+      await page.keyboard.press("g");
+      await status("by 4-5, open");
+      await page.keyboard.press("f");
+      await page.click(
+        "dialog[open] button[value=finish], dialog[open] .primary",
+      );
+      await page.waitForURL(/#\/attempts\/\d+/);
+      await page.getByText("Loose bodies brought out").first().waitFor();
+      await page.getByText(`0 of ${lesions.length}.`).first().waitFor();
+    },
+  );
   await page.context().close();
 }
 
@@ -346,58 +491,82 @@ export async function shaving(browser, station) {
   const operator = new Operator(page);
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
   const told = () => page.evaluate(() => window.carpus.scope());
-  const button = (name) => page.locator(".scope-controls button", { hasText: name });
-  await check(page, "a shaver runs by its pedal, and its mouth turns", async () => {
-    await operator.start(station.url, TRAINEE, "arthroscopic_synovectomy");
-    const { pieces } = (await operator.exercise()).arthroscopy;
-    expect(pieces.length >= 20, `${pieces.length} tufts`);
-    expect(pieces.every((one) => one.kind === "synovium"), "not all of them are synovium");
-    expect(await button("Pedal").isVisible(), "no pedal");
-    expect(!(await button("Jaws").isVisible()), "jaws, and nothing has any");
-    await bringInScope(page, operator);
-    await page.waitForFunction(
-      () => [3, 4].includes(Number(document.querySelector(".scope").dataset.calls)),
-    ); // the wall, what lies about it, all tufts at once, what drifts in the fluid where it shows
-    const { shaft_deg: scopeDeg } = await told();
-    await page.keyboard.press("h");
-    await operator.until((s) => Operator.held(s, 1) !== undefined, "the shaver");
-    await holdUntil(page, "a", "shaver in the joint by 4-5", "the shaver");
-    const status = () => page.locator(".scope-status").innerText();
-    expect(!(await status()).includes("running"), "it runs by itself");
-    await holdUntil(page, "g", "by 4-5, running", "the pedal");
-    await page.locator(".scope-status", { hasText: "by 4-5 \u00b7" }).waitFor({ timeout: 3000 });
-    await page.keyboard.down("g");
-    await page.waitForFunction(() => window.carpus.scope().running[1] === 1);
-    const { stops, pictures: drawn } = await page.evaluate(async () => {
-      const counted = { stops: 0, pictures: 0 };
-      for (const end = performance.now() + 1200; performance.now() < end; ) {
-        await new Promise((next) => requestAnimationFrame(next));
-        ++counted.pictures;
-        if (window.carpus.scope().running[1] !== 1) ++counted.stops;
-      }
-      return counted;
-    });
-    await page.keyboard.up("g");
-    // A page that draws fewer than ten pictures a second tells the host too seldom, whatever it does.
-    expect(drawn < 12 || stops * 10 <= drawn, `a held pedal stood in ${stops} of ${drawn} pictures`);
-    const stopped = page.locator(".scope-status", { hasText: "by 4-5 \u00b7" });
-    await stopped.waitFor({ timeout: 3000 });
-    expect((await told()).running.every((runs) => runs === 0), "it runs on");
-    const from = (await told()).mouth_deg[1];
-    await hold(page, ",", 400);
-    await page.waitForFunction(
-      (deg) => Math.abs(window.carpus.scope().mouth_deg[1] - deg) >= 10,
-      from,
-    );
-    const { shaft_deg: after } = await told();
-    expect(after === scopeDeg, "the scope was turned with it");
-    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "shaving.png") });
-    await page.keyboard.press("f");
-    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
-    await page.waitForURL(/#\/attempts\/\d+/);
-    await page.getByText("Inflamed synovium removed").first().waitFor();
-    await page.getByText(`of ${pieces.length} pieces.`).first().waitFor();
-  });
+  const button = (name) =>
+    page.locator(".scope-controls button", { hasText: name });
+  await check(
+    page,
+    "a shaver runs by its pedal, and its mouth turns",
+    async () => {
+      await operator.start(station.url, TRAINEE, "arthroscopic_synovectomy");
+      const { pieces } = (await operator.exercise()).arthroscopy;
+      expect(pieces.length >= 20, `${pieces.length} tufts`);
+      expect(
+        pieces.every((one) => one.kind === "synovium"),
+        "not all of them are synovium",
+      );
+      expect(await button("Pedal").isVisible(), "no pedal");
+      expect(!(await button("Jaws").isVisible()), "jaws, and nothing has any");
+      await bringInScope(page, operator);
+      await page.waitForFunction(() =>
+        [3, 4].includes(Number(document.querySelector(".scope").dataset.calls)),
+      ); // the wall, what lies about it, all tufts at once, what drifts in the fluid where it shows
+      const { shaft_deg: scopeDeg } = await told();
+      await page.keyboard.press("h");
+      await operator.until(
+        (s) => Operator.held(s, 1) !== undefined,
+        "the shaver",
+      );
+      await holdUntil(page, "a", "shaver in the joint by 4-5", "the shaver");
+      const status = () => page.locator(".scope-status").innerText();
+      expect(!(await status()).includes("running"), "it runs by itself");
+      await holdUntil(page, "g", "by 4-5, running", "the pedal");
+      await page
+        .locator(".scope-status", { hasText: "by 4-5 \u00b7" })
+        .waitFor({ timeout: 3000 });
+      await page.keyboard.down("g");
+      await page.waitForFunction(() => window.carpus.scope().running[1] === 1);
+      const { stops, pictures: drawn } = await page.evaluate(async () => {
+        const counted = { stops: 0, pictures: 0 };
+        for (const end = performance.now() + 1200; performance.now() < end;) {
+          await new Promise((next) => requestAnimationFrame(next));
+          ++counted.pictures;
+          if (window.carpus.scope().running[1] !== 1) ++counted.stops;
+        }
+        return counted;
+      });
+      await page.keyboard.up("g");
+      // A page that draws fewer than ten pictures a second tells the host too seldom, whatever it does.
+      expect(
+        drawn < 12 || stops * 10 <= drawn,
+        `a held pedal stood in ${stops} of ${drawn} pictures`,
+      );
+      const stopped = page.locator(".scope-status", {
+        hasText: "by 4-5 \u00b7",
+      });
+      await stopped.waitFor({ timeout: 3000 });
+      expect(
+        (await told()).running.every((runs) => runs === 0),
+        "it runs on",
+      );
+      const from = (await told()).mouth_deg[1];
+      await hold(page, ",", 400);
+      await page.waitForFunction(
+        (deg) => Math.abs(window.carpus.scope().mouth_deg[1] - deg) >= 10,
+        from,
+      );
+      const { shaft_deg: after } = await told();
+      expect(after === scopeDeg, "the scope was turned with it");
+      if (pictures !== undefined)
+        await page.screenshot({ path: join(pictures, "shaving.png") });
+      await page.keyboard.press("f");
+      await page.click(
+        "dialog[open] button[value=finish], dialog[open] .primary",
+      );
+      await page.waitForURL(/#\/attempts\/\d+/);
+      await page.getByText("Inflamed synovium removed").first().waitFor();
+      await page.getByText(`of ${pieces.length} pieces.`).first().waitFor();
+    },
+  );
   await page.context().close();
 }
 
@@ -406,41 +575,75 @@ export async function biting(browser, station) {
   const page = await newPage(browser);
   const operator = new Operator(page);
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
-  const button = (name) => page.locator(".scope-controls button", { hasText: name });
-  const status = (words) => page.locator(".scope-status", { hasText: words }).waitFor();
+  const button = (name) =>
+    page.locator(".scope-controls button", { hasText: name });
+  const status = (words) =>
+    page.locator(".scope-status", { hasText: words }).waitFor();
   const take = async (id) => {
     await page.keyboard.press("c");
     await page.locator(`dialog.tray[open] input[value=${id}]`).check();
     await page.keyboard.press("Enter");
     await operator.until((s) => Operator.held(s, 1)?.instrument === id, id);
   };
-  const shown = async () => [await button("Jaws").isVisible(), await button("Pedal").isVisible()];
-  await check(page, "punch and shaver are changed in the hand, and the punch bites", async () => {
-    await operator.start(station.url, TRAINEE, "arthroscopic_disc_debridement");
-    const { pieces } = (await operator.exercise()).arthroscopy;
-    expect(pieces.some((one) => one.kind === "disc" && one.is_loose), "no flap hangs loose");
-    await bringInScope(page, operator);
-    await page.keyboard.press("h");
-    await operator.until((s) => Operator.held(s, 1)?.instrument === "shaver_2_0", "the shaver");
-    await status("shaver outside");
-    expect((await shown()).join() === "false,true", "a shaver has a pedal and no jaws");
-    await take("punch_2_0");
-    await status("punch outside, open");
-    await holdUntil(page, "a", "punch in the joint by 4-5, open", "the punch");
-    expect((await shown()).join() === "true,false", "a punch has jaws and no pedal");
-    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "punch_open.png") });
-    await page.keyboard.press("g");
-    await status("by 4-5, closed");
-    if (pictures !== undefined) await page.screenshot({ path: join(pictures, "punch_closed.png") });
-    await page.keyboard.press("g");
-    await status("by 4-5, open");
-    await take("shaver_2_0");
-    await status("shaver ");
-    await page.keyboard.press("f");
-    await page.click("dialog[open] button[value=finish], dialog[open] .primary");
-    await page.waitForURL(/#\/attempts\/\d+/);
-    await page.getByText("Loose edges removed").first().waitFor();
-    await page.getByText("Bites on cartilage").first().waitFor();
-  });
+  const shown = async () => [
+    await button("Jaws").isVisible(),
+    await button("Pedal").isVisible(),
+  ];
+  await check(
+    page,
+    "punch and shaver are changed in the hand, and the punch bites",
+    async () => {
+      await operator.start(
+        station.url,
+        TRAINEE,
+        "arthroscopic_disc_debridement",
+      );
+      const { pieces } = (await operator.exercise()).arthroscopy;
+      expect(
+        pieces.some((one) => one.kind === "disc" && one.is_loose),
+        "no flap hangs loose",
+      );
+      await bringInScope(page, operator);
+      await page.keyboard.press("h");
+      await operator.until(
+        (s) => Operator.held(s, 1)?.instrument === "shaver_2_0",
+        "the shaver",
+      );
+      await status("shaver outside");
+      expect(
+        (await shown()).join() === "false,true",
+        "a shaver has a pedal and no jaws",
+      );
+      await take("punch_2_0");
+      await status("punch outside, open");
+      await holdUntil(
+        page,
+        "a",
+        "punch in the joint by 4-5, open",
+        "the punch",
+      );
+      expect(
+        (await shown()).join() === "true,false",
+        "a punch has jaws and no pedal",
+      );
+      if (pictures !== undefined)
+        await page.screenshot({ path: join(pictures, "punch_open.png") });
+      await page.keyboard.press("g");
+      await status("by 4-5, closed");
+      if (pictures !== undefined)
+        await page.screenshot({ path: join(pictures, "punch_closed.png") });
+      await page.keyboard.press("g");
+      await status("by 4-5, open");
+      await take("shaver_2_0");
+      await status("shaver ");
+      await page.keyboard.press("f");
+      await page.click(
+        "dialog[open] button[value=finish], dialog[open] .primary",
+      );
+      await page.waitForURL(/#\/attempts\/\d+/);
+      await page.getByText("Loose edges removed").first().waitFor();
+      await page.getByText("Bites on cartilage").first().waitFor();
+    },
+  );
   await page.context().close();
 }

@@ -101,7 +101,7 @@ export const HELP: readonly HelpGroup[] = [
         text: "close the jaws, or open them: a punch bites as they close; hold: a shaver's pedal",
       },
       { keys: "{KeyV}", text: "the next portal" },
-      { keys: "7 / 8 / 9", text: "panorama / level / findings" },
+      { keys: "7 / 8 / 9", text: "panorama / level, both in practice alone / findings" },
     ],
   },
   {
@@ -167,6 +167,20 @@ export const GAMEPAD_HELP: HelpGroup = {
     { keys: "Back held, cross", text: "left: aligned, right: displaced" },
     { keys: "Back held, Start", text: "finish (asks first)" },
     { keys: "In a dialog", text: "cross: go through it, A: choose, B: close" },
+    {
+      keys: "At a scope, sticks",
+      text: "lead the hand that mouse and keys do not: left leans, right turns scope and camera head, or a shaver",
+    },
+    { keys: "At a scope, LB / RB", text: "draw back / go in" },
+    {
+      keys: "At a scope, triggers",
+      text: "right: close the jaws, or hold: a shaver's pedal; left: open the jaws",
+    },
+    {
+      keys: "At a scope, B / cross",
+      text: "the next portal / up, down: pull more, less at the fingers",
+    },
+    { keys: "At a scope, left stick pressed", text: "exchange the hands" },
   ],
 };
 
@@ -181,6 +195,11 @@ export const TOUCH_HELP: HelpGroup = {
     { keys: "Two fingers", text: "turn the view and bring it nearer" },
     { keys: "View chosen", text: "one finger turns it, two shift it" },
     { keys: "Drive, Reverse", text: "for as long as they are held" },
+    {
+      keys: "At a scope",
+      text: "one finger leans the hand that is led; a second, on the other half of the picture, the other hand",
+    },
+    { keys: "Two on one half", text: "spread: go in; pinch: draw back" },
   ],
 };
 

@@ -5,3 +5,4 @@
 export { ScopeDesk, type ScopeRoom } from "./scope_desk";
 export { jointWallOf, type JointWall } from "./joint_wall";
 export { ScopeReplay, type ScopeMoment } from "./scope_replay";
+export { PadAtScope } from "./second_lead";

@@ -24,6 +24,21 @@ const TURNS: readonly (readonly [string, string, string, ScopeMotion])[] = [
   ["Camera ↻", "Shift + {Period}", "Turns the camera head", { kind: "turn_camera", by: -1 }],
 ];
 
+/** What helps a beginner and is not there when one is assessed: why, in words. */
+export const WHY_NO_AID = {
+  panorama: "There is no panorama when you are assessed: the scope's picture alone leads.",
+  level: "The horizon is yours to keep when you are assessed: turn the camera head.",
+} as const;
+
+/** @param isAssessed  its aids say so and do nothing */
+export function offerScopeAids(controls: HTMLElement, isAssessed: boolean): void {
+  for (const aid of ["panorama", "level"] as const) {
+    const b = controls.querySelector<HTMLButtonElement>(`.scope-${aid}`);
+    b?.setAttribute("aria-disabled", String(isAssessed));
+    if (b !== null) b.title = isAssessed ? WHY_NO_AID[aid] : "";
+  }
+}
+
 export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
   const act = (label: string, key: string, what: ScopeAct): HTMLButtonElement =>
     button(label, key, () => {
@@ -60,6 +75,10 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
     );
     return b;
   };
+  const level = act("Level", "8", "level");
+  level.classList.add("scope-level");
+  const panorama = act("Panorama", "7", "panorama");
+  panorama.classList.add("scope-panorama");
   const held = TURNS.map((turn) => whileDown(...turn));
   const pedal = whileDown("Pedal", "{KeyG}", "The shaver runs while it is held", { kind: "run" });
   pedal.classList.add("scope-pedal");
@@ -69,12 +88,12 @@ export function makeScopeControls(handlers: ScopeControlHandlers): HTMLElement {
     pull("Pull less", "{KeyS}", -PULL_N),
     pull("Pull more", "{KeyW}", PULL_N),
     ...held,
-    act("Level", "8", "level"),
+    level,
     act("Other hand", "{KeyH}", "switch_hand"),
     jaws,
     pedal,
     act("Portal", "{KeyV}", "next_portal"),
-    act("Panorama", "7", "panorama"),
+    panorama,
     findings,
   );
 }

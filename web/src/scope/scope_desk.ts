@@ -5,53 +5,36 @@
 // panorama, and keys and mouse that lead what is in the portals. The host owns the truth: where a tip
 // really is, where the scope looks and what was seen, it says.
 import { make } from "../dom";
-import type {
-  ExerciseMessage,
-  HandMessage,
-  ScopeMessage,
-  SheetMessage,
-  SnapshotMessage,
-} from "../protocol";
+import type { ExerciseMessage, ScopeMessage, SheetMessage, SnapshotMessage } from "../protocol";
 import { add, dot, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
 import { FluidControls } from "./fluid_controls";
 import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
-import { makeScopeControls } from "./scope_controls";
+import { makeScopeControls, offerScopeAids, WHY_NO_AID } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
-import { wrappedDeg } from "./scope_hand_model";
-import { ScopeHands, type HandIndex } from "./scope_hands";
-import type { ScopeAct, ScopeMotion } from "./scope_keys";
+import type { HandIndex } from "./scope_hands";
+import type { ScopeAct } from "./scope_keys";
+import { ScopeLeading, type LeadingRoom } from "./scope_leading";
 import { listenForScope, type ScopeAsked } from "./scope_listening";
 import { ScopePicture } from "./scope_picture";
 import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
-import { hasJaws, ScopeTools, type ToolKind } from "./scope_tools";
+import { hasJaws, type ToolKind } from "./scope_tools";
+import type { SecondLead } from "./second_lead";
 import "./scope.css";
+import "./scope_small.css";
 
-export interface ScopeRoom {
+export interface ScopeRoom extends LeadingRoom {
   /** Where the picture goes: over the theatre. */
   readonly stage: HTMLElement;
-  operates(): boolean;
-  send(hand: Omit<HandMessage, "type" | "sequence">): void;
-  turn(shaftDeg: number, cameraDeg: number): void;
-  turnMouth(hand: HandIndex, mouthDeg: number): void;
-  take(instrument: string, hand: HandIndex): void;
-  /** @param byN  more traction, or less */
-  pull(byN: number): void;
   answer(finding: string, grade: string): void;
   setFluid(setting: FluidSetting): void;
-  say(text: string): void;
-  /** Mouse and keys move this hand from now on. */
-  showHand(hand: HandIndex): void;
+  /** It leads the other hand. */
+  hasGamepad(): boolean;
 }
 
-const LEAN_RAD_PER_S = (28 * Math.PI) / 180;
-const TURN_DEG_PER_S = 75;
-const REPEAT_MS = 200;
-/** A pedal that is held is told again before the host takes it for let go. */
-const PEDAL_REPEAT_MS = 40;
 /** Within it the host answers what was asked of the fluid. */
 const ANSWERED_MS = 5000;
 
@@ -72,17 +55,8 @@ export class ScopeDesk {
   private snapshot: SnapshotMessage | undefined;
   /** Joints whose wall lies as the bones do now: only one that is looked at is laid. */
   private readonly posed = new Set<string>();
-  private readonly hands = new ScopeHands();
-  private readonly tools = new ScopeTools();
+  private readonly leading: ScopeLeading;
   private inflow = { mmhg: 0, askedMs: -Infinity };
-  private shaftDeg = 0;
-  private cameraDeg = 0;
-  private isPlaced = false;
-  private changed = true;
-  private turned = false;
-  private lastMs = 0;
-  private lastSentMs = -Infinity;
-  private readonly keys = new Map<string, ScopeMotion>();
   private hasPanorama = true;
   /** Of the scope's rounded tip. */
   private radiusMm = 1;
@@ -92,12 +66,15 @@ export class ScopeDesk {
     private readonly walls: readonly JointWall[],
     signal: AbortSignal,
   ) {
+    this.leading = new ScopeLeading(room, () => {
+      this.showPoints();
+    });
     this.controls = makeScopeControls({
       hold: (holder, motion) => {
-        if (this.room.operates()) this.press(holder, motion);
+        if (this.room.operates()) this.leading.press(holder, motion);
       },
       letGo: (holder) => {
-        this.letGo(holder);
+        this.leading.letGo(holder);
       },
       act: (act) => {
         this.act(act);
@@ -135,18 +112,15 @@ export class ScopeDesk {
   begin(exercise: ExerciseMessage): void {
     this.exercise = exercise;
     this.plan = exercise.arthroscopy ?? undefined;
-    this.isPlaced = false;
     this.scope = undefined;
     this.snapshot = undefined;
-    this.hands.begin(exercise);
-    this.tools.begin(exercise);
+    this.leading.begin(exercise);
     this.inflow = { mmhg: 0, askedMs: -Infinity };
-    this.shaftDeg = this.cameraDeg = 0;
-    this.keys.clear();
     const isOn = this.plan !== undefined && this.walls.length > 0;
     this.element.hidden = this.controls.hidden = !isOn;
     this.room.stage.classList.toggle("is-panorama", isOn);
-    this.room.stage.hidden = isOn && !this.hasPanorama;
+    this.room.stage.hidden = isOn && (this.isAssessed || !this.hasPanorama);
+    offerScopeAids(this.controls, this.isAssessed);
     if (!isOn || this.plan === undefined) return;
     if (this.picture === undefined) {
       this.picture = new ScopePicture(this.walls);
@@ -166,29 +140,25 @@ export class ScopeDesk {
     this.showPoints();
   }
 
-  /** Of what works beside the scope, or will. */
-  private get tool(): ToolKind {
-    return this.tools.kindOf(this.heldIn(this.scope?.hand === 1 ? 0 : 1));
-  }
-
-  private heldIn(hand: HandIndex): string | undefined {
-    return this.snapshot?.items.find((one) => one.hand === hand)?.instrument;
-  }
-
   /** The controls that it has. */
   private showTool(): void {
-    this.controls.classList.toggle("grasps", hasJaws(this.tool));
-    this.controls.classList.toggle("shaves", this.tool === "shaver");
+    this.controls.classList.toggle("grasps", hasJaws(this.leading.tool));
+    this.controls.classList.toggle("shaves", this.leading.tool === "shaver");
+  }
+
+  /** Without aids. */
+  private get isAssessed(): boolean {
+    return this.exercise?.mode === "assessed";
   }
 
   private get moved(): HandIndex {
-    return this.hands.moved;
+    return this.leading.hands.moved;
   }
 
   /** The joint that the scope's portal leads into. */
   private get joint(): string {
     const hand = this.scope?.hand === 1 ? 1 : 0;
-    return this.hands.portalOf(hand)?.joint ?? "";
+    return this.leading.hands.portalOf(hand)?.joint ?? "";
   }
 
   private showPoints(): void {
@@ -199,16 +169,16 @@ export class ScopeDesk {
     if (this.plan === undefined) return;
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) {
-      this.hands.poses = snapshot.bodies;
       this.posed.clear(); // the scope's joint is laid when it is drawn
     }
-    if (this.isPlaced) this.hands.holdBack(snapshot.items);
+    this.leading.see(snapshot);
   }
 
   seeScope(message: ScopeMessage): void {
     const before = this.scope?.points_seen.length;
     if (this.hasCutDisc(message)) this.cutDisc(message.pieces_left);
     this.scope = message;
+    this.leading.seeScope(message);
     if (before !== message.points_seen.length) this.showPoints();
   }
 
@@ -231,37 +201,14 @@ export class ScopeDesk {
     }
   }
 
-  /** Once per frame: what is held goes on, the newest wish is sent, the picture drawn. */
+  /** Once per frame: what is held goes on, the newest wishes are sent. */
   frame(nowMs: number): void {
-    const seconds = Math.min(0.1, Math.max(0, (nowMs - this.lastMs) / 1000));
-    this.lastMs = nowMs;
-    if (this.plan === undefined || !this.room.operates()) return;
-    this.place();
-    if (this.hands.goRound(this.snapshot?.items ?? [])) this.changed = true;
-    for (const motion of this.keys.values()) this.move(motion, seconds);
-    if (this.turned) {
-      this.turned = false;
-      this.room.turn(this.shaftDeg, this.cameraDeg);
-    }
-    const runs = this.tool === "shaver" && this.driverNow() === "forward";
-    const repeatMs = runs ? PEDAL_REPEAT_MS : REPEAT_MS;
-    if (!this.isPlaced || (!this.changed && nowMs - this.lastSentMs < repeatMs)) return;
-    this.changed = false;
-    this.lastSentMs = nowMs;
-    this.sendHand();
+    if (this.isOn) this.leading.frame(nowMs);
   }
 
-  private sendHand(): void {
-    const { wish } = this.hands;
-    if (wish === undefined) return;
-    this.room.send({
-      hand: this.moved,
-      tip_mm: wish.tipMm,
-      shaft: wish.shaft,
-      thrust_n: 0,
-      driver: this.driverNow(),
-      guidance: "planned",
-    });
+  /** Whoever leads the hand that mouse and keys do not. */
+  get second(): SecondLead {
+    return this.leading.second;
   }
 
   draw(): void {
@@ -273,15 +220,15 @@ export class ScopeDesk {
     // The lens lies in the middle of the rounded tip.
     const eyeMm = add(item.tip_mm, scaled(item.shaft, this.radiusMm));
     const hand: HandIndex = scope.hand === 1 ? 1 : 0;
-    const portal = this.hands.portalNowOf(hand);
+    const portal = this.leading.hands.portalNowOf(hand);
     const isOutside =
       portal !== undefined &&
       scope.in_joint[hand] !== 1 &&
       dot(subtract(eyeMm, portal.skinMm), portal.inwards) < 0;
     const { joint } = this;
     if (!this.posed.has(joint)) {
-      this.walls.find((wall) => wall.joint === joint)?.pose(this.hands.poses);
-      picture.lay(joint, this.hands.poses);
+      this.walls.find((wall) => wall.joint === joint)?.pose(this.leading.hands.poses);
+      picture.lay(joint, this.leading.hands.poses);
       this.posed.add(joint);
     }
     const box = picture.canvas.getBoundingClientRect();
@@ -295,7 +242,7 @@ export class ScopeDesk {
       },
       other === undefined
         ? undefined
-        : this.tools.rod(other, scope, portal?.up ?? plan.distal, picture.nowMs),
+        : this.leading.tools.rod(other, scope, portal?.up ?? plan.distal, picture.nowMs),
       scope,
       Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
       isOutside ? portal : undefined,
@@ -306,8 +253,16 @@ export class ScopeDesk {
   showReadings(): void {
     const { scope, snapshot, plan } = this;
     if (plan === undefined) return;
-    const wanted = this.hands.portalOf(0)?.name ?? "";
-    this.readings.show({ plan, scope, snapshot, moved: this.moved, wanted, tool: this.tool });
+    const wanted = this.leading.hands.portalOf(0)?.name ?? "";
+    this.readings.show({
+      plan,
+      scope,
+      snapshot,
+      moved: this.moved,
+      hasGamepad: this.room.hasGamepad(),
+      wanted,
+      tool: this.leading.tool,
+    });
     this.showTool();
     this.showDrill(plan, scope);
     this.fluid.show(scope?.fluid ?? null);
@@ -328,76 +283,12 @@ export class ScopeDesk {
     this.picture?.dispose();
   }
 
-  private takeTools(): void {
-    const { snapshot } = this;
-    this.tools.take(
-      this.scope,
-      (hand) => snapshot?.items.some((one) => one.hand === hand) ?? false,
-    );
-  }
-
-  private driverNow(): HandMessage["driver"] {
-    const pedalIsDown = [...this.keys.values()].some((motion) => motion.kind === "run");
-    return this.tools.driver(this.moved, this.heldIn(this.moved), pedalIsDown);
-  }
-
-  /** The hand begins where the host has the scope. */
-  private place(): void {
-    if (this.isPlaced || this.snapshot === undefined || this.hands.poses.length === 0) return;
-    this.hands.place(this.snapshot.items);
-    if (this.scope !== undefined) {
-      this.shaftDeg = this.scope.shaft_deg;
-      this.cameraDeg = this.scope.camera_deg;
-      this.takeTools();
-    }
-    this.isPlaced = true;
-  }
-
-  private move(motion: ScopeMotion, seconds: number): void {
-    switch (motion.kind) {
-      case "lean": {
-        // The hand goes the other way than the tip.
-        const by = LEAN_RAD_PER_S * seconds;
-        this.lean(motion.yaw * by, motion.pitch * by);
-        return;
-      }
-      case "advance":
-        if (this.hands.advanceFor(motion.by * seconds)) this.changed = true;
-        return;
-      case "turn_shaft":
-        this.turnHeld(motion.by * TURN_DEG_PER_S * seconds);
-        return;
-      case "turn_camera":
-        this.turnBy(0, motion.by * TURN_DEG_PER_S * seconds);
-        return;
-      case "run": // told with the hand
-    }
-  }
-
-  /** The scope's shaft; or the shaver, where that is in the hand that is led. */
-  private turnHeld(deg: number): void {
-    const held = this.snapshot?.items.find((one) => one.hand === this.moved);
-    if (!this.tools.hasMouth(held?.instrument)) {
-      this.turnBy(deg, 0);
+  private act(act: ScopeAct): void {
+    if (this.plan === undefined) return;
+    if (this.isAssessed && (act === "panorama" || act === "level")) {
+      this.room.say(WHY_NO_AID[act]);
       return;
     }
-    this.room.turnMouth(this.moved, this.tools.turnMouth(this.moved, deg));
-  }
-
-  private lean(yaw: number, pitch: number): void {
-    this.hands.lean(yaw, pitch);
-    this.changed = true;
-  }
-
-  private turnBy(shaftDeg: number, cameraDeg: number): void {
-    this.shaftDeg = wrappedDeg(this.shaftDeg + shaftDeg);
-    this.cameraDeg = wrappedDeg(this.cameraDeg + cameraDeg);
-    this.turned = true;
-  }
-
-  private act(act: ScopeAct): void {
-    const { plan, snapshot } = this;
-    if (plan === undefined) return;
     switch (act) {
       case "panorama":
         this.hasPanorama = !this.hasPanorama;
@@ -406,62 +297,24 @@ export class ScopeDesk {
       case "findings":
         this.findings.open(this.scope?.answers ?? []);
         return;
-      case "jaws": {
-        const held = snapshot?.items.find((one) => one.hand === this.moved);
-        if (held === undefined || !this.tools.hasJaws(held.instrument)) {
-          this.room.say("This hand holds nothing with jaws: take it in the other hand first.");
-          return;
-        }
-        this.tools.turnJaws(this.moved);
-        this.changed = true;
+      case "jaws":
+        this.leading.setJaws(this.moved, undefined);
         return;
-      }
       case "level":
-        // Up in the picture is distal where the camera head is not turned.
-        this.turnBy(0, -this.cameraDeg);
+        this.leading.level();
         return;
-      case "next_portal": {
-        // The host's word counts: it may have drawn the tip farther out than the page wished, or less.
-        const isIn = (this.scope?.portals[this.moved] ?? "") !== "";
-        if (isIn) {
-          this.room.say("Draw it out of this portal first.");
-          return;
-        }
-        this.hands.goToNextPortal();
-        this.changed = true;
-        this.showPoints();
-        const next = this.hands.portalOf(this.moved);
-        this.room.say(`${next?.name ?? ""}: ${next?.landmarks ?? ""}.`);
+      case "next_portal":
+        this.leading.goToNextPortal(this.moved);
         return;
-      }
-      case "switch_hand": {
-        this.keys.clear();
-        if (this.isPlaced) this.sendHand(); // a pedal that was down is let go with the hand
-        this.hands.moved = this.moved === 0 ? 1 : 0;
-        this.takeTools();
-        this.room.showHand(this.moved);
-        this.changed = true;
-        const isEmpty = !(snapshot?.items.some((one) => one.hand === this.moved) ?? false);
-        const probe = this.exercise?.tray.at(-1);
-        if (this.moved === 1 && isEmpty && probe !== undefined) {
-          // The hand is there before it takes anything: it comes in from behind, through no bone.
-          this.sendHand();
-          this.room.take(probe, 1);
-          const portal = this.hands.portalOf(1);
-          const name = this.exercise?.instruments.find((one) => one.id === probe)?.name ?? "";
-          const others = (this.exercise?.tray.length ?? 0) > 2 ? " Other tools: {KeyC}." : "";
-          this.room.say(
-            `${name} at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.${others}`,
-          );
-        }
-      }
+      case "switch_hand":
+        this.leading.switchHands();
     }
   }
 
   /** Of keys and mouse. */
   private asked(): ScopeAsked {
     const takesKeys = (): boolean => this.plan !== undefined && this.room.operates();
-    const tool = (): ToolKind => this.tool;
+    const tool = (): ToolKind => this.leading.tool;
     const hasFluid = (): boolean => (this.scope?.fluid ?? null) !== null;
     return {
       takesKeys,
@@ -472,14 +325,13 @@ export class ScopeDesk {
         return hasFluid();
       },
       press: (holder, motion) => {
-        this.press(holder, motion);
+        this.leading.press(holder, motion);
       },
       letGo: (holder) => {
-        this.letGo(holder);
+        this.leading.letGo(holder);
       },
       letGoOfAll: () => {
-        this.keys.clear();
-        this.changed = true;
+        this.leading.letGoOfAll();
       },
       act: (act) => {
         this.act(act);
@@ -487,26 +339,16 @@ export class ScopeDesk {
       actOnFluid: (act) => {
         this.actOnFluid(act);
       },
-      lean: (yawRad, pitchRad) => {
-        this.lean(yawRad, pitchRad);
+      lean: (lead, yawRad, pitchRad) => {
+        this.leading.leanBy(lead, yawRad, pitchRad);
       },
       turn: (deg) => {
-        this.turnHeld(deg);
+        this.leading.turnHeld(deg);
       },
       advance: (mm) => {
-        if (this.hands.advance(mm)) this.changed = true;
+        this.leading.advance(mm);
       },
     };
-  }
-
-  private press(holder: string, motion: ScopeMotion): void {
-    this.keys.set(holder, motion);
-    if (motion.kind === "run") this.changed = true;
-  }
-
-  private letGo(holder: string): void {
-    if (this.keys.get(holder)?.kind === "run") this.changed = true; // at once: a pedal is no pedal else
-    this.keys.delete(holder);
   }
 
   private actOnFluid(act: FluidAct): void {

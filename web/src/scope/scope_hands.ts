@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Where two hands are wanted: each before or in a portal, leant about its hole, or on its way round the wrist
-// to the next one. Mouse and keys move one of them.
+// to the next one. Mouse and keys lead one of them, a gamepad or a second finger the other.
 import type { BodyPose, ExerciseMessage, Item, Vec3 } from "../protocol";
 import { add, length, rotated, subtract } from "../tool_placement";
 import {
@@ -20,6 +20,8 @@ import {
 import type { Plan } from "./scope_plan";
 
 export type HandIndex = 0 | 1;
+/** Who leads a hand: mouse, keys and the first finger, or a gamepad and the second finger. */
+export type Lead = "first" | "second";
 
 const IN_JOINT_MM_PER_S = 6;
 const OUTSIDE_MM_PER_S = 25;
@@ -34,7 +36,7 @@ interface Held {
 }
 
 export class ScopeHands {
-  /** The hand that is led. */
+  /** The hand that mouse and keys lead. */
   moved: HandIndex = 0;
   /** The host's, in the exercise's order of bodies. */
   poses: readonly BodyPose[] = [];
@@ -52,6 +54,10 @@ export class ScopeHands {
     this.held[1] = { portal: 1, lean: OUTSIDE };
     this.rounds[0] = this.rounds[1] = [];
     this.moved = 0;
+  }
+
+  ledBy(lead: Lead): HandIndex {
+    return (lead === "first") === (this.moved === 0) ? 0 : 1;
   }
 
   private get plan(): Plan | undefined {
@@ -92,73 +98,74 @@ export class ScopeHands {
     }
   }
 
-  /** What the led hand holds came no deeper: the wish goes back to it. */
+  /** What a hand holds came no deeper: the wish goes back to it. */
   holdBack(items: readonly Item[]): void {
-    const item = items.find((one) => one.hand === this.moved);
-    const held = this.held[this.moved];
-    const portal = this.portalNowOf(this.moved);
-    if (item === undefined || portal === undefined || held.lean.depthMm < HELD_BACK_MM) return;
-    this.held[this.moved] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal) };
+    for (const hand of [0, 1] as const) {
+      const item = items.find((one) => one.hand === hand);
+      const held = this.held[hand];
+      const portal = this.portalNowOf(hand);
+      if (item === undefined || portal === undefined || held.lean.depthMm < HELD_BACK_MM) continue;
+      this.held[hand] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal) };
+    }
   }
 
-  /** @returns  whether the led hand is to go on to another place of its way round */
-  goRound(items: readonly Item[]): boolean {
-    const [next, ...rest] = this.rounds[this.moved];
+  /** @returns  whether the hand is to go on to another place of its way round */
+  goRound(hand: HandIndex, items: readonly Item[]): boolean {
+    const [next, ...rest] = this.rounds[hand];
     if (next === undefined) return false;
-    const item = items.find((one) => one.hand === this.moved);
+    const item = items.find((one) => one.hand === hand);
     // An empty hand passes through nothing.
     const isThere = item === undefined || length(subtract(item.tip_mm, next.tipMm)) < ROUNDED_MM;
     if (!isThere) return false;
-    this.rounds[this.moved] = item === undefined ? [] : rest;
+    this.rounds[hand] = item === undefined ? [] : rest;
     return true;
   }
 
-  /** Of the led hand. */
-  get wish(): Wish | undefined {
-    const portal = this.portalNowOf(this.moved);
+  wishOf(hand: HandIndex): Wish | undefined {
+    const portal = this.portalNowOf(hand);
     if (portal === undefined) return undefined;
-    return this.rounds[this.moved][0] ?? wishOf(this.held[this.moved].lean, portal);
+    return this.rounds[hand][0] ?? wishOf(this.held[hand].lean, portal);
   }
 
-  lean(yawRad: number, pitchRad: number): void {
-    this.rounds[this.moved] = []; // a hand that is led goes by itself no longer
-    const held = this.held[this.moved];
-    this.held[this.moved] = { ...held, lean: leaned(held.lean, yawRad, pitchRad) };
+  lean(hand: HandIndex, yawRad: number, pitchRad: number): void {
+    this.rounds[hand] = []; // a hand that is led goes by itself no longer
+    const held = this.held[hand];
+    this.held[hand] = { ...held, lean: leaned(held.lean, yawRad, pitchRad) };
   }
 
   /** @returns  whether there is a portal to go in by */
-  advance(mm: number): boolean {
-    this.rounds[this.moved] = [];
-    const held = this.held[this.moved];
-    const portal = this.portalNowOf(this.moved);
+  advance(hand: HandIndex, mm: number): boolean {
+    this.rounds[hand] = [];
+    const held = this.held[hand];
+    const portal = this.portalNowOf(hand);
     if (portal === undefined) return false;
-    this.held[this.moved] = { ...held, lean: advanced(held.lean, mm, portal) };
+    this.held[hand] = { ...held, lean: advanced(held.lean, mm, portal) };
     return true;
   }
 
   /** For so long at a hand's speed: slower in the joint. */
-  advanceFor(seconds: number): boolean {
-    const portal = this.portalNowOf(this.moved);
+  advanceFor(hand: HandIndex, seconds: number): boolean {
+    const portal = this.portalNowOf(hand);
     if (portal === undefined) return false;
-    const isIn = this.held[this.moved].lean.depthMm > portal.capsuleMm - 3;
-    return this.advance(seconds * (isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S));
+    const isIn = this.held[hand].lean.depthMm > portal.capsuleMm - 3;
+    return this.advance(hand, seconds * (isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S));
   }
 
-  /** The led hand goes to before the next portal that the other one leaves free. */
-  goToNextPortal(): void {
+  /** The hand goes to before the next portal that the other one leaves free. */
+  goToNextPortal(hand: HandIndex): void {
     const count = this.plan?.portals.length ?? 0;
     if (count === 0) return;
-    const { portal } = this.held[this.moved];
-    const taken = this.held[this.moved === 0 ? 1 : 0].portal;
+    const { portal } = this.held[hand];
+    const taken = this.held[hand === 0 ? 1 : 0].portal;
     let next = (portal + 1) % count;
     if (next === taken) next = (next + 1) % count;
     const from = this.portalNow(portal);
     const to = this.portalNow(next);
     // On its way round to the last portal it goes on from there.
     if (from !== undefined && to !== undefined) {
-      this.rounds[this.moved] = [...this.rounds[this.moved], ...wayRound(from, to)];
+      this.rounds[hand] = [...this.rounds[hand], ...wayRound(from, to)];
     }
-    this.held[this.moved] = { portal: next, lean: OUTSIDE };
+    this.held[hand] = { portal: next, lean: OUTSIDE };
   }
 }
 

@@ -1,14 +1,18 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Keys and mouse of an arthroscopy, as what they ask for.
+// Keys, mouse and fingers of an arthroscopy, as what they ask for.
 import { fluidAct } from "./fluid_controls";
 import type { FluidAct } from "./fluid_model";
+import type { Lead } from "./scope_hands";
 import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
+import { ScopePointers, type PointerAsk } from "./scope_pointers";
 import { hasJaws, type ToolKind } from "./scope_tools";
 
 const LEAN_RAD_PER_PX = (0.12 * Math.PI) / 180;
 const WHEEL_MM = 0.6;
+/** Two fingers that go apart by the width of one go in by two or three millimetres. */
+const SPREAD_MM_PER_PX = 0.06;
 const TURN_DEG_PER_PX = 0.6;
 
 export interface ScopeAsked {
@@ -21,14 +25,15 @@ export interface ScopeAsked {
   letGoOfAll(): void;
   act(act: ScopeAct): void;
   actOnFluid(act: FluidAct): void;
-  lean(yawRad: number, pitchRad: number): void;
+  lean(lead: Lead, yawRad: number, pitchRad: number): void;
   turn(deg: number): void;
   advance(mm: number): void;
 }
 
-/** @param picture  takes the mouse on its canvas */
+/** @param picture  takes mouse and fingers on its canvas */
 export function listenForScope(picture: HTMLElement, asked: ScopeAsked, signal: AbortSignal): void {
   listenToKeys(asked, signal);
+  listenToPointers(picture, asked, signal);
   listenToMouse(picture, asked, signal);
 }
 
@@ -82,33 +87,54 @@ function listenToKeys(asked: ScopeAsked, signal: AbortSignal): void {
   );
 }
 
-function listenToMouse(picture: HTMLElement, asked: ScopeAsked, signal: AbortSignal): void {
-  let drag: number | undefined;
+function ask(asked: ScopeAsked, what: PointerAsk): void {
+  switch (what.kind) {
+    case "lean":
+      asked.lean(what.lead, what.right * LEAN_RAD_PER_PX, what.up * LEAN_RAD_PER_PX);
+      return;
+    case "turn":
+      asked.turn(-what.right * TURN_DEG_PER_PX);
+      return;
+    case "spread":
+      asked.advance(what.apart * SPREAD_MM_PER_PX);
+  }
+}
+
+function listenToPointers(picture: HTMLElement, asked: ScopeAsked, signal: AbortSignal): void {
+  const pointers = new ScopePointers();
   picture.addEventListener(
     "pointerdown",
     (event) => {
-      if (!(event.target instanceof HTMLCanvasElement)) return;
-      drag = event.button;
-      event.target.setPointerCapture(event.pointerId);
+      const { target, pointerId: id, clientX: x, clientY: y } = event;
+      if (!(target instanceof HTMLCanvasElement)) return;
+      const box = target.getBoundingClientRect();
+      const turns = event.button === 2 || event.shiftKey;
+      const isFinger = event.pointerType === "touch";
+      const isTaken = pointers.down({ id, isFinger, turns, x, y }, box.left + box.width / 2);
+      if (isTaken) target.setPointerCapture(id);
     },
     { signal },
   );
   picture.addEventListener(
     "pointermove",
     (event) => {
-      if (drag === undefined || event.buttons === 0) return;
-      if (drag === 2 || event.shiftKey) asked.turn(-event.movementX * TURN_DEG_PER_PX);
-      else asked.lean(event.movementX * LEAN_RAD_PER_PX, -event.movementY * LEAN_RAD_PER_PX);
+      const what = pointers.move(event.pointerId, event.clientX, event.clientY, event.shiftKey);
+      if (what !== undefined && event.buttons !== 0) ask(asked, what);
     },
     { signal },
   );
-  picture.addEventListener(
-    "pointerup",
-    () => {
-      drag = undefined;
-    },
-    { signal },
-  );
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const) {
+    picture.addEventListener(
+      end,
+      (event) => {
+        pointers.up(event.pointerId);
+      },
+      { signal },
+    );
+  }
+}
+
+function listenToMouse(picture: HTMLElement, asked: ScopeAsked, signal: AbortSignal): void {
   picture.addEventListener(
     "contextmenu",
     (event) => {

@@ -18,6 +18,8 @@ export interface ScopeSituation {
   readonly snapshot: SnapshotMessage | undefined;
   /** The hand that keys and mouse lead. */
   readonly moved: 0 | 1;
+  /** It leads the other one. */
+  readonly hasGamepad: boolean;
   /** The portal that the scope is held before. */
   readonly wanted: string;
   /** What works beside the scope. */
@@ -56,7 +58,7 @@ export class ScopeReadings {
     );
   }
 
-  show({ plan, scope, snapshot, moved, wanted, tool }: ScopeSituation): void {
+  show({ plan, scope, snapshot, moved, hasGamepad, wanted, tool }: ScopeSituation): void {
     const forces = snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [];
     this.gauge.show(forces, performance.now());
     const words = scopeWords(
@@ -86,7 +88,8 @@ export class ScopeReadings {
     setText(
       this.status,
       `Scope ${where(0)} · ${tool} ${where(1)}${state} · ` +
-        `moving the ${moved === 0 ? "scope" : tool} · ` +
+        `moving the ${moved === 0 ? "scope" : tool}` +
+        (hasGamepad ? `, gamepad the ${moved === 0 ? tool : "scope"} · ` : " · ") +
         (tool === "grasper" ? `brought out ${scope?.loose_out ?? 0} · ` : "") +
         (plan.drill === null
           ? `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · `

@@ -63,7 +63,7 @@ describe("what works beside the scope", () => {
     expect([both.hasJaws("punch_2_0"), both.hasMouth("punch_2_0")]).toEqual([true, false]);
     expect([both.hasJaws("shaver_2_0"), both.hasMouth("shaver_2_0")]).toEqual([false, true]);
     expect(both.driver(1, "punch_2_0", true)).toBe("reverse");
-    both.turnJaws(1);
+    both.setJaws(1, undefined);
     expect(both.driver(1, "punch_2_0", false)).toBe("forward");
     expect(both.driver(1, "shaver_2_0", false)).toBe("off");
   });
@@ -88,7 +88,7 @@ describe("what works beside the scope", () => {
     ]);
     const grasper = tools(GRASPER);
     expect(grasper.driver(1, "grasper_2_0", true)).toBe("reverse");
-    grasper.turnJaws(1);
+    grasper.setJaws(1, undefined);
     expect(grasper.driver(1, "grasper_2_0", false)).toBe("forward");
   });
 

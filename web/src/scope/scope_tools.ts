@@ -62,9 +62,11 @@ export class ScopeTools {
     return instrument !== undefined && this.kindOf(instrument) === "shaver";
   }
 
-  /** Close, or open again. */
-  turnJaws(hand: HandIndex): void {
-    this.areClosed[hand] = !this.areClosed[hand];
+  /** @param closed  undefined: the other way than now. @returns  whether that is another way */
+  setJaws(hand: HandIndex, closed: boolean | undefined): boolean {
+    const before = this.areClosed[hand];
+    this.areClosed[hand] = closed ?? !before;
+    return this.areClosed[hand] !== before;
   }
 
   /** @returns  how the mouth is turned then */

@@ -91,10 +91,12 @@ export class TrainPage {
     });
     this.sound = this.makeSound();
     this.actions = this.makeActions();
-    this.gamepad = new GamepadHand(padRoom(this.panels, this.hand, this.actions, this.part));
+    this.scope = this.makeScope(stage, scene);
+    this.gamepad = new GamepadHand(
+      padRoom(this.panels, this.hand, this.actions, this.part, this.scope),
+    );
     this.headset = this.makeHeadset(frames);
     this.deviceHands = new DeviceHands(this.theatre, (message) => this.connection.tell(message));
-    this.scope = this.makeScope(stage, scene);
     this.skin = new SkinDesk({ stage, pagePoint: (mm) => this.theatre.pagePoint(mm) });
     this.panels.help.onOpen = (isOpen) => {
       this.part.showHelp(isOpen);
@@ -324,6 +326,7 @@ export class TrainPage {
           // The tray, too, is this hand's.
           if (hand !== this.hand.active) this.hand.switchHand();
         },
+        hasGamepad: () => this.gamepad.isConnected,
       },
       walls,
       this.abort.signal,
@@ -459,12 +462,9 @@ export class TrainPage {
   private startLoop(): () => void {
     return startFrameLoop({
       hand: (nowMs) => {
-        if (this.scope.isOn) {
-          this.scope.frame(nowMs);
-          return;
-        }
         this.gamepad.frame(nowMs);
-        this.hand.frame(nowMs);
+        if (this.scope.isOn) this.scope.frame(nowMs);
+        else this.hand.frame(nowMs);
       },
       draw: () => {
         this.theatre.draw();

@@ -1,0 +1,129 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two hands before two portals of a made-up joint, led at once.
+import { describe, expect, it } from "vitest";
+import type { ExerciseMessage, HandMessage, ScopeMessage, SnapshotMessage } from "../protocol";
+import { ScopeLeading } from "./scope_leading";
+
+const PORTAL = { joint: "", body: "radius", inwards: [0, 0, -1], capsule_mm: 10, landmarks: "" };
+// Only what leading asks of it.
+const EXERCISE = {
+  bodies: [{ name: "radius" }],
+  instruments: [
+    { id: "scope", name: "Scope", has_jaws: false, has_mouth: false },
+    { id: "shaver", name: "Shaver", has_jaws: false, has_mouth: true },
+  ],
+  tray: ["shaver"],
+  arthroscopy: {
+    distal: [0, 1, 0],
+    portals: [
+      { ...PORTAL, name: "3-4", skin_mm: [0, 0, 0] },
+      { ...PORTAL, name: "4-5", skin_mm: [10, 0, 0] },
+    ],
+  },
+} as unknown as ExerciseMessage;
+
+const SCOPE = {
+  hand: 0,
+  shaft_deg: 0,
+  camera_deg: 0,
+  jaws_closed: [0, 0],
+  mouth_deg: [0, 0],
+  portals: ["", ""],
+} as unknown as ScopeMessage;
+
+/** @param tools  hand 1 has taken its instrument */
+function snapshot(tools: boolean): SnapshotMessage {
+  const item = (hand: number, instrument: string, x: number): object => ({
+    hand,
+    instrument,
+    tip_mm: [x, 0, -20],
+    shaft: [0, 0, 1],
+  });
+  return {
+    bodies: [{ quaternion: [1, 0, 0, 0], translation_mm: [0, 0, 0] }],
+    items: [item(0, "scope", 0), ...(tools ? [item(1, "shaver", 10)] : [])],
+  } as unknown as SnapshotMessage;
+}
+
+type Sent = Omit<HandMessage, "type" | "sequence">;
+
+function desk(tools = true): {
+  readonly leading: ScopeLeading;
+  readonly sent: Sent[];
+  readonly did: string[];
+  frame(): readonly Sent[];
+} {
+  const sent: Sent[] = [];
+  const did: string[] = [];
+  const leading = new ScopeLeading(
+    {
+      operates: () => true,
+      send: (hand) => sent.push(hand),
+      turn: (deg) => did.push(`turn ${deg.toFixed(0)}`),
+      turnMouth: (hand) => did.push(`mouth ${hand}`),
+      take: (instrument, hand) => did.push(`take ${instrument} ${hand}`),
+      pull: () => undefined,
+      say: () => undefined,
+      showHand: () => undefined,
+    },
+    () => undefined,
+  );
+  leading.begin(EXERCISE);
+  leading.see(snapshot(tools));
+  leading.seeScope(SCOPE);
+  let now = 1000;
+  const frame = (): readonly Sent[] => {
+    sent.length = 0;
+    leading.frame((now += 16));
+    return [...sent];
+  };
+  frame();
+  return { leading, sent, did, frame };
+}
+
+describe("two hands at a scope", () => {
+  it("are led at once, the one by the keys, the other by the pad", () => {
+    const { leading, frame } = desk();
+    leading.press("ArrowRight", { kind: "lean", yaw: 1, pitch: 0 });
+    leading.second.lean(0.1, 0);
+    const [scope, shaver] = frame();
+    expect([scope?.hand, shaver?.hand]).toEqual([0, 1]);
+    expect(Math.abs(scope?.tip_mm[0] ?? 0)).toBeGreaterThan(0.05);
+    expect(Math.abs((shaver?.tip_mm[0] ?? 10) - 10)).toBeGreaterThan(1.5);
+    // Nobody moves the second one now: it is not told again.
+    expect(frame().map((one) => one.hand)).toEqual([0]);
+  });
+
+  it("are exchanged: then the pad has the scope, and turns it", () => {
+    const { leading, did, frame } = desk();
+    leading.second.turn(5, 0);
+    expect(did).toEqual(["mouth 1"]);
+    leading.switchHands();
+    frame();
+    leading.second.turn(5, 0);
+    frame();
+    expect(did).toEqual(["mouth 1", "turn 5"]);
+    leading.second.lean(0.1, 0);
+    expect(frame().map((one) => one.hand)).toEqual([0]);
+  });
+
+  it("run what the pad's trigger holds, and let it go with the hand", () => {
+    const { leading, frame } = desk();
+    leading.second.hold("pad drive", { kind: "run" });
+    expect(frame()).toMatchObject([{ hand: 1, driver: "forward" }]);
+    leading.switchHands();
+    expect(frame().every((one) => one.driver === "off")).toBe(true);
+  });
+
+  it("take what works beside the scope when they are first led, once", () => {
+    const { leading, did, frame } = desk(false);
+    leading.second.hold("pad 5", { kind: "advance", by: 1 });
+    frame();
+    frame();
+    expect(did).toEqual(["take shaver 1"]);
+    leading.see(snapshot(true));
+    expect(frame()).toMatchObject([{ hand: 1 }]);
+  });
+});
