@@ -11,21 +11,21 @@ import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
 
 const TRAINEE = "Browser test, scope";
-/** At most so much is drawn for the scope's picture. */
-const MOST_CALLS = 3;
 /** What is in the fluid is drawn at once. */
 const CALLS_OF_FLUID = 1;
+/** At most so much is drawn for the scope's picture. */
+const MOST_CALLS = 3 + CALLS_OF_FLUID;
 const MOST_TRIANGLES = 15_000;
 
 /** Of what the scope's picture shows now. */
-async function expectDrawnInTime(page, joint, most = MOST_CALLS) {
+async function expectDrawnInTime(page, joint) {
   const [calls, triangles] = await page
     .locator(".scope")
     .evaluate((e) => [Number(e.dataset.calls), Number(e.dataset.triangles)]);
   process.stdout.write(
     `  scope, ${joint}: ${calls} calls, ${triangles} triangles\n`,
   );
-  expect(calls > 0 && calls <= most, `${joint}: ${calls} draw calls`);
+  expect(calls > 0 && calls <= MOST_CALLS, `${joint}: ${calls} draw calls`);
   expect(
     triangles > 1000 && triangles <= MOST_TRIANGLES,
     `${joint}: ${triangles} triangles`,
@@ -282,7 +282,7 @@ export async function examination(browser, station) {
     }
     const seen = await page.locator(".scope-points .is-seen").count();
     expect(seen >= 1, `${seen} midcarpal places were seen`);
-    await expectDrawnInTime(page, "midcarpal", MOST_CALLS + CALLS_OF_FLUID);
+    await expectDrawnInTime(page, "midcarpal");
   });
   await check(page, "what was found is reported, and judged", async () => {
     await page.keyboard.press("9");
@@ -452,7 +452,7 @@ export async function removal(browser, station) {
       await page.waitForFunction(
         (calls) =>
           Number(document.querySelector(".scope").dataset.calls) === calls,
-        2 + lesions.length, // the wall, what lies about it, a ball each
+        2 + lesions.length + CALLS_OF_FLUID, // the wall, what lies about it, a ball each
       );
       await page.keyboard.press("h");
       await operator.until(
