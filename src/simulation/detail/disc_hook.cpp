@@ -30,7 +30,7 @@ bool World::State::is_by_edge(const Model& model, std::uint8_t hand) noexcept {
     return false;
   }
   const instruments::Instrument& kind = kind_of(model, *item);
-  const bool has_hook = !kind.optic && !kind.mouth;
+  const bool has_hook = !kind.optic && !kind.mouth && !kind.has_jaws;
   if (!has_hook || model.disc_edge >= disc.net.size() ||
       sheets[kDiscSheet].is_cut(model.disc_edge)) {
     return false;
