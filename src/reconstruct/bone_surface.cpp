@@ -116,6 +116,13 @@ double farthest_mm(const TriangleMesh& before, const TriangleMesh& after) {
   double squared = 0;
   std::optional<std::uint32_t> hint;
   for (const Vec3& vertex : before.vertices) {
+    if (hint) {
+      // No farther than another was: that the facet beside it tells.
+      const auto& [a, b, c] = after.facets[*hint];
+      const Vec3 beside = fields::nearest_point_on_triangle(vertex, after.vertices[a],
+                                                            after.vertices[b], after.vertices[c]);
+      if (squared_length(vertex - beside) <= squared) continue;
+    }
     const auto found = tree.nearest(vertex, std::numeric_limits<double>::infinity(), hint);
     if (!found) continue;
     hint = found->facet;
