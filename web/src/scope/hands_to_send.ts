@@ -7,7 +7,7 @@
 import type { HandIndex } from "./scope_hands";
 
 const REPEAT_MS = 200;
-const PEDAL_REPEAT_MS = 40;
+export const PEDAL_REPEAT_MS = 40;
 
 export interface SentHand {
   /** Mouse and keys lead it. */

@@ -18,6 +18,7 @@ import type { HandIndex } from "./scope_hands";
 import type { ScopeAct } from "./scope_keys";
 import { ScopeLeading, type LeadingRoom } from "./scope_leading";
 import { listenForScope, type ScopeAsked } from "./scope_listening";
+import { PicturePace } from "./picture_pace";
 import { ScopePicture } from "./scope_picture";
 import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
@@ -49,6 +50,7 @@ export class ScopeDesk {
     this.actOnFluid(act);
   });
   private picture: ScopePicture | undefined;
+  private readonly pace = new PicturePace();
   private plan: Plan | undefined;
   private exercise: ExerciseMessage | undefined;
   private scope: ScopeMessage | undefined;
@@ -232,6 +234,7 @@ export class ScopeDesk {
       this.posed.add(joint);
     }
     const box = picture.canvas.getBoundingClientRect();
+    const sidePx = Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio);
     picture.setFluid(scope.fluid, portal?.up ?? plan.distal);
     picture.draw(
       joint,
@@ -244,7 +247,7 @@ export class ScopeDesk {
         ? undefined
         : this.leading.tools.rod(other, scope, portal?.up ?? plan.distal, picture.nowMs),
       scope,
-      Math.min(box.width, box.height) * Math.min(1, window.devicePixelRatio),
+      this.pace.pixels(sidePx, performance.now()),
       isOutside ? portal : undefined,
     );
   }

@@ -10,7 +10,7 @@ import type {
   ScopeMessage,
   SnapshotMessage,
 } from "../protocol";
-import { HandsToSend } from "./hands_to_send";
+import { HandsToSend, PEDAL_REPEAT_MS } from "./hands_to_send";
 import { wrappedDeg } from "./scope_hand_model";
 import { ScopeHands, type HandIndex, type Lead } from "./scope_hands";
 import type { ScopeMotion } from "./scope_keys";
@@ -49,6 +49,7 @@ export class ScopeLeading {
   private isPlaced = false;
   private lastMs = 0;
   private askedToTakeMs = -Infinity;
+  private pedalTimer: ReturnType<typeof setInterval> | undefined;
 
   /** @param onPortal  a hand went on to another portal */
   constructor(
@@ -100,6 +101,10 @@ export class ScopeLeading {
       this.turned = false;
       this.room.turn(this.shaftDeg, this.cameraDeg);
     }
+    this.sendDue(nowMs);
+  }
+
+  private sendDue(nowMs: number): void {
     if (!this.isPlaced) return;
     for (const hand of [0, 1] as const) {
       const runs = this.toolOf(hand) === "shaver" && this.driverOf(hand) === "forward";
@@ -314,7 +319,22 @@ export class ScopeLeading {
 
   press(holder: string, motion: ScopeMotion, lead: Lead = "first"): void {
     this.keys.set(holder, { lead, motion });
-    if (motion.kind === "run") this.sending.mark(this.hands.ledBy(lead));
+    if (motion.kind !== "run") return;
+    this.sending.mark(this.hands.ledBy(lead));
+    this.pedalTimer ??= setInterval(() => {
+      this.repeatPedal();
+    }, PEDAL_REPEAT_MS);
+  }
+
+  /** Also between pictures: where those come slowly the host would take the pedal for let go. */
+  private repeatPedal(): void {
+    const isDown = [...this.keys.values()].some(({ motion }) => motion.kind === "run");
+    if (isDown) {
+      if (this.room.operates()) this.sendDue(performance.now());
+      return;
+    }
+    clearInterval(this.pedalTimer);
+    this.pedalTimer = undefined;
   }
 
   letGo(holder: string): void {
