@@ -15,6 +15,7 @@
 
 namespace carpus::procedure {
 
+/// What went through it: a wire that turns, or what makes or uses an arthroscopy's portal.
 enum class ThroughSkin : std::uint8_t { Wire, Portal };
 
 /// `structures_struck`: how many, the finding naming each and how it is spared on that way.
