@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/state_hash.hpp"
-#include "simulation/box_joint_test_support.hpp"
 #include "simulation/lesions_of.hpp"
+#include "simulation/tissue_over_box_test_support.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::test {
@@ -24,56 +24,32 @@ namespace {
 
 using namespace box_joint;  // NOLINT(google-build-using-namespace)
 
-const Vec3 kFloor = kMiddle + Vec3{0, 0, -kHalfHigh};
-
 instruments::Bite bite() {
   return *instruments::catalogue()[*instruments::instrument_of("punch_2_0")].bite;
 }
 
-procedure::Procedure with_punch() {
-  procedure::Procedure made = probe_alone();
-  made.tray = {*instruments::instrument_of("punch_2_0"), *instruments::instrument_of("shaver_2_0"),
-               *instruments::instrument_of("hook_probe"),
-               *instruments::instrument_of("arthroscope_1_9_30")};
-  made.shaving.emplace();
-  return made;
-}
+const auto kTray = {"punch_2_0", "shaver_2_0", "hook_probe", "arthroscope_1_9_30"};
 
 const procedure::Procedure& torn() {
-  static const procedure::Procedure kProcedure = [] {
-    procedure::Procedure made = with_punch();
-    made.shaving->disc = procedure::TornDisc{{"1A"}, 0.8, 2.0};
-    return made;
-  }();
+  static const procedure::Procedure kProcedure = torn_with(kTray);
   return kProcedure;
 }
 
 const procedure::Procedure& inflamed() {
-  static const procedure::Procedure kProcedure = [] {
-    procedure::Procedure made = with_punch();
-    made.shaving->synovium = {{1, 1}, {6, 6}, {16}};
-    return made;
-  }();
+  static const procedure::Procedure kProcedure = inflamed_with(kTray);
   return kProcedure;
 }
 
 /// With the disc's middle on the tour, by which it is torn, and a second portal from the side.
 const cases::CaseData& wrist_with_disc() {
   static const cases::CaseData data = [] {
-    cases::CaseData made = box_wrist();
-    cases::ArthroscopicMap map = *made.arthroscopy;
-    cases::TourPoint disc = map.points.front();
-    disc.number = 15;
-    disc.id = "disc";
-    disc.at = kFloor;
-    map.points.push_back(disc);
+    cases::ArthroscopicMap map = map_with_disc();
     cases::Portal beside = map.portals.front();
     beside.id = "6R";
     beside.skin = kMiddle + Vec3{0, kHalf + 6, 0};
     beside.inwards = {0, -1, 0};
     map.portals.push_back(beside);
-    made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
-    return made;
+    return box_wrist_with(std::move(map));
   }();
   return data;
 }

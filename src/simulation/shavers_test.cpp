@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/state_hash.hpp"
-#include "simulation/box_joint_test_support.hpp"
 #include "simulation/detail/bytes.hpp"
 #include "simulation/lesions_of.hpp"
+#include "simulation/tissue_over_box_test_support.hpp"
 #include "simulation/world.hpp"
 
 namespace carpus::test {
@@ -37,46 +37,21 @@ instruments::Mouth mouth() {
   return *instruments::catalogue()[*instruments::instrument_of("shaver_2_0")].mouth;
 }
 
-procedure::Procedure with_shaver() {
-  procedure::Procedure made = probe_alone();
-  made.tray = {*instruments::instrument_of("shaver_2_0"),
-               *instruments::instrument_of("hook_probe")};
-  made.shaving.emplace();
-  return made;
-}
+const auto kTray = {"shaver_2_0", "hook_probe"};
 
 const procedure::Procedure& inflamed() {
-  static const procedure::Procedure kProcedure = [] {
-    procedure::Procedure made = with_shaver();
-    made.shaving->synovium = {{1, 1}, {6, 6}, {16}};
-    return made;
-  }();
+  static const procedure::Procedure kProcedure = inflamed_with(kTray);
   return kProcedure;
 }
 
 const procedure::Procedure& torn() {
-  static const procedure::Procedure kProcedure = [] {
-    procedure::Procedure made = with_shaver();
-    made.shaving->disc = procedure::TornDisc{{"1A"}, 0.8, 2.0};
-    return made;
-  }();
+  static const procedure::Procedure kProcedure = torn_with(kTray);
   return kProcedure;
 }
 
-/// With the disc's middle on the tour, by which it is torn.
 const cases::CaseData& wrist_with_disc() {
-  static const cases::CaseData data = [] {
-    cases::CaseData made = box_wrist();
-    cases::ArthroscopicMap map = *made.arthroscopy;
-    cases::TourPoint disc = map.points.front();
-    disc.number = 15;
-    disc.id = "disc";
-    disc.at = kMiddle + Vec3{0, 0, -kHalfHigh};
-    map.points.push_back(disc);
-    made.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
-    return made;
-  }();
-  return data;
+  static const cases::CaseData kData = box_wrist_with(map_with_disc());
+  return kData;
 }
 
 const procedure::ShavingFacts& facts(const Hand& hand) { return hand.now().scope.facts.shaving; }

@@ -154,6 +154,7 @@ class ScriptedArthroscopist {
   // shaving_plan.cpp
   void plan_shaving();
   void seek_to_cut(const simulation::Snapshot& now);
+  void come_to_piece(const Vec3& at, int turn, bool is_new);
   void plan_cut(std::size_t piece);
   bool waits_until_clear(const simulation::Snapshot& now);
   [[nodiscard]] std::size_t next_to_cut(const simulation::Snapshot& now) const;

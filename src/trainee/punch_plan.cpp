@@ -4,8 +4,6 @@
 // How a scripted arthroscopist bites tissue off where a punch lies on the tray: the bulk of what
 // hangs loose first, bite by bite, as far as none of what is to stay would come with it; then it
 // changes to the shaver for the rest.
-#include <algorithm>
-
 #include "trainee/arthroscopist.hpp"
 
 namespace carpus::trainee {
@@ -13,14 +11,10 @@ namespace {
 
 constexpr std::uint8_t kProbe = 1;  // hand
 constexpr double kInsideMm = 2.0;
-constexpr double kSeenDeg = 28.0;  // off the line of sight it is still well seen
-constexpr double kPressMm = 0.1;   // by which the jaws are pressed onto what they are to bite
-constexpr double kAboveMm = 1.2;   // from there they are brought over it
+constexpr double kPressMm = 0.1;  // by which the jaws are pressed onto what they are to bite
+constexpr double kAboveMm = 1.2;  // from there they are brought over it
 constexpr double kClosingS = 0.25;
 constexpr double kHastySound = 5.0;  // places that are to stay, which a hasty hand lets go with it
-constexpr double kWatchedMm = 2.5;   // off what the scope was led to, it is led anew
-
-double cosine_of(double deg) { return arthroscopy::cos_sin_deg(deg)[0]; }
 
 }  // namespace
 
@@ -54,18 +48,7 @@ void ScriptedArthroscopist::plan_bite(std::size_t i) {
   const int turn = bite_tries_[i]++;
   const Vec3 at = piece_at(i);
   const bool is_new = !has_probe_;
-  if (is_new || turn > 0) working_.work = portal_for(at, 2 * turn);
-  if (!has_probe_) {
-    take_probe(working_.work);
-    has_probe_ = true;
-  }
-  const bool leads_blind = rng_.uniform(0.0, 1.0) < skill_.leads_blind;
-  const bool is_aside = is_new || distance(at, watched_) > kWatchedMm;
-  if ((is_aside && !leads_blind) || turn > 0) {
-    watched_ = at;
-    watch(working_, {&at, 1}, cosine_of(kSeenDeg), std::min(turn, 3));
-  }
-  if (in_[kProbe] != working_.work) go_in(kProbe, working_.work);
+  come_to_piece(at, turn, is_new);
   const instruments::Instrument& punch = instruments::catalogue()[punch_];
   const Vec3 inwards = -out_of_joint(i);
   const Vec3 middle = at + inwards * (punch.shape.greatest_radius_mm() - kPressMm);

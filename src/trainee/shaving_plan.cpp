@@ -73,13 +73,9 @@ std::size_t ScriptedArthroscopist::next_to_cut(const simulation::Snapshot& now) 
   return best;
 }
 
-void ScriptedArthroscopist::plan_cut(std::size_t i) {
-  const cases::TissuePiece& piece = lesions_->pieces[i];
-  const int turn = cut_tries_[i]++;
-  const Vec3 at = piece_at(i);
-  const bool is_new = piece.patch != last_patch_ || last_patch_ == cases::kMaxPatches;
+/// The portal for it, what works there in it, and the scope on it.
+void ScriptedArthroscopist::come_to_piece(const Vec3& at, int turn, bool is_new) {
   if (is_new || turn > 0) working_.work = portal_for(at, 2 * turn);
-  last_patch_ = piece.patch;
   if (!has_probe_) {
     take_probe(working_.work);
     has_probe_ = true;
@@ -91,6 +87,15 @@ void ScriptedArthroscopist::plan_cut(std::size_t i) {
     watch(working_, {&at, 1}, cosine_of(kSeenDeg), std::min(turn, 3));
   }
   if (in_[kProbe] != working_.work) go_in(kProbe, working_.work);
+}
+
+void ScriptedArthroscopist::plan_cut(std::size_t i) {
+  const cases::TissuePiece& piece = lesions_->pieces[i];
+  const int turn = cut_tries_[i]++;
+  const Vec3 at = piece_at(i);
+  const bool is_new = piece.patch != last_patch_ || last_patch_ == cases::kMaxPatches;
+  last_patch_ = piece.patch;
+  come_to_piece(at, turn, is_new);
   const auto all = instruments::catalogue();
   const instruments::Instrument& shaver = all[procedure_.tray.back()];
   const Vec3 out = out_of_joint(i);
