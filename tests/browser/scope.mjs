@@ -273,9 +273,11 @@ export async function examination(browser, station) {
       "the scope, midcarpal",
     );
     await hold(page, "a", 200);
-    for (let turn = 0; turn < 12; ++turn) {
+    for (let turn = 0; turn < 16; ++turn) {
       const seen = await page.locator(".scope-points .is-seen").count();
       if (seen >= 1 && pictures === undefined) break;
+      // How deep it went hangs on how fast pictures come: as a person would, out or in a little.
+      if (turn % 4 === 3) await hold(page, turn === 3 ? "d" : "a", 120);
       await hold(page, ",", 600);
       await page.waitForTimeout(1300);
       await picture(`midcarpal_${turn}`);
