@@ -6,6 +6,7 @@
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { atRest } from "./hands.mjs";
 import { dot, Operator } from "./operator.mjs";
 
 const TRAINEE = "Browser test, portals";
@@ -46,6 +47,7 @@ export async function makesPortals(browser, station) {
   await check(page, "closed skin is felt, and a word says what is there", async () => {
     await operator.start(station.url, TRAINEE, "arthroscopic_portal_making", "practice");
     await picture("start");
+    await atRest(operator);
     for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
     await operator.until((s) => s.wrist.traction_n >= 34, "traction");
     expect((await skin()).spot_mm === null, "the portal's place is told unasked");
