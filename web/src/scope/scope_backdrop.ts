@@ -5,6 +5,7 @@
 // the joint what it came through, where the wall has its hole.
 import * as THREE from "three";
 import { FLUID_GLSL } from "./fluid_shader";
+import { NOISE_GLSL } from "./noise_shader";
 import { LAMP, type LensUniforms } from "./scope_shader";
 
 const VERTEX = /* glsl */ `
@@ -26,20 +27,7 @@ float noise(vec2 p) {
   return mix(mix(hash(i), hash(i + vec2(1, 0)), f.x),
              mix(hash(i + vec2(0, 1)), hash(i + vec2(1, 1)), f.x), f.y);
 }
-float hash(vec3 p) {
-  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
-  p += dot(p, p.yxz + 33.33);
-  return fract((p.x + p.y) * p.z);
-}
-float noise(vec3 p) {
-  vec3 i = floor(p), f = fract(p);
-  f = f * f * (3.0 - 2.0 * f);
-  return mix(mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
-                 mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y),
-             mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
-                 mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y), f.z);
-}
-${FLUID_GLSL}
+${NOISE_GLSL}${FLUID_GLSL}
 // What the scope came through, where the joint's wall has its hole: synovium and fat, as far away as they
 // would hang about the shaft, lit as the wall is.
 vec3 tract(vec3 way) {
@@ -87,7 +75,6 @@ void main() {
   }
   colour *= 1.0 - 0.45 * pow(r, 3.5);
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
-  if (isOutside < 0.5) colour = throughLens(colour, vAt);
   colour *= 1.0 - smoothstep(0.985, 1.0, r);
   gl_FragColor = vec4(pow(colour, vec3(1.0 / 2.2)), 1.0);
 }`;
@@ -115,12 +102,11 @@ export class ScopeBackdrop {
         },
         vertexShader: VERTEX,
         fragmentShader: FRAGMENT,
-        depthTest: false,
         depthWrite: false,
       }),
     );
     this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = -1;
+    this.mesh.renderOrder = 0.5; // after what is opaque: only where nothing of it is
   }
 
   /** @param skinMm  of the portal that the lens is before, with the way in; undefined: it is in the body */

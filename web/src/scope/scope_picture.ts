@@ -10,12 +10,13 @@ import { LooseBodies } from "./loose_bodies";
 import { ScopeBackdrop } from "./scope_backdrop";
 import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
+import { ScopeFilm } from "./scope_film";
 import { ScopeFluid } from "./scope_fluid";
 import { lesionUniforms, scuffed, setLesions, type Lesion, type Painted } from "./scope_lesions";
 import { rodGeometries } from "./scope_rod";
 import { ScopeScrew } from "./scope_screw";
 import { holeUniforms, setHole } from "./screw_hole";
-import { lensUniforms, wetMaterial } from "./scope_shader";
+import { lensUniforms, setScrewed, wetMaterial } from "./scope_shader";
 import type { Rod } from "./scope_tools";
 import { TissuePieces, type TissuePiece } from "./tissue_pieces";
 
@@ -42,7 +43,10 @@ export class ScopePicture {
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
   private readonly rods = rodGeometries();
-  private readonly walls: ReadonlyMap<string, THREE.Mesh>;
+  private readonly walls: ReadonlyMap<
+    string,
+    THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>
+  >;
   private readonly lesions = lesionUniforms();
   private wrong: readonly Lesion[] = [];
   private scuffs: readonly Painted[] = [];
@@ -55,6 +59,7 @@ export class ScopePicture {
   private readonly screw = new ScopeScrew(this.lens);
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly fluid = new ScopeFluid(this.lens);
+  private readonly film = new ScopeFilm(this.lens);
   private high: Vec3 = [0, 0, 1];
   private readonly small = smallContext();
   /** When light was measured last: at the first picture it is right at once. */
@@ -88,6 +93,7 @@ export class ScopePicture {
       this.beads.group,
       this.screw.group,
       this.fluid.mesh,
+      this.film.mesh,
     );
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
@@ -121,6 +127,7 @@ export class ScopePicture {
   /** What lies in a bone from the beginning; null: nothing. */
   setScrew(screw: ControlledScrew | null, bodies: readonly string[]): void {
     setHole(this.hole, screw);
+    for (const { material } of this.walls.values()) setScrewed(material, screw !== null);
     this.screw.set(screw, bodies, this.all);
   }
 
@@ -201,6 +208,7 @@ export class ScopePicture {
       { ...sight, high: this.high, halfFieldRad: this.lens.halfField.value },
       performance.now(),
     );
+    this.film.lay(skin !== undefined);
     this.renderer.render(this.scene, this.camera);
     this.expose(performance.now());
   }
@@ -227,6 +235,7 @@ export class ScopePicture {
     this.beads.dispose();
     this.pieces.dispose();
     this.fluid.dispose();
+    this.film.dispose();
     this.screw.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {

@@ -6,6 +6,7 @@
 // what lines the joint told apart by colour, gloss and grain, all procedural.
 import * as THREE from "three";
 import { FLUID_GLSL } from "./fluid_shader";
+import { NOISE_GLSL } from "./noise_shader";
 import { HOLE_GLSL, holeUniforms, type HoleUniforms } from "./screw_hole";
 import { LESIONS_GLSL, lesionUniforms, type LesionUniforms } from "./scope_lesions";
 
@@ -90,19 +91,10 @@ varying vec3 vFibre;
 varying vec3 vScreen;
 varying float vGone;
 
-float hash(vec3 p) {
-  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
-  p += dot(p, p.yxz + 33.33);
-  return fract((p.x + p.y) * p.z);
-}
-float noise(vec3 p) {
-  vec3 i = floor(p);
-  vec3 f = fract(p);
-  f = f * f * (3.0 - 2.0 * f);
-  return mix(mix(mix(hash(i), hash(i + vec3(1, 0, 0)), f.x),
-                 mix(hash(i + vec3(0, 1, 0)), hash(i + vec3(1, 1, 0)), f.x), f.y),
-             mix(mix(hash(i + vec3(0, 0, 1)), hash(i + vec3(1, 0, 1)), f.x),
-                 mix(hash(i + vec3(0, 1, 1)), hash(i + vec3(1, 1, 1)), f.x), f.y), f.z);
+${NOISE_GLSL}float power5(float x) { return x * x * x * x * x; }
+float power28(float x) {
+  float x4 = x * x * x * x, x8 = x4 * x4;
+  return x4 * x8 * x8 * x8;
 }
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
 ${LESIONS_GLSL}
@@ -188,7 +180,9 @@ void main() {
   // Without fluid a thin film is left: duller, its glints fewer.
   wet *= 1.0 - 0.62 * water.w;
   rough += 0.10 * water.w * (1.0 - isMetal);
+#ifdef HAS_SCREW
   cutByScrew(smooth_n, albedo, rough);
+#endif
 
   vec3 away = lamp - vAt;
   float d2 = dot(away, away);
@@ -205,12 +199,12 @@ void main() {
   // Wet: a sharp highlight, a sheen about it, and a brighter rim.
   vec3 h = normalize(l + view);
   float nh = max(dot(n, h), 0.0);
-  float a2 = pow(rough, 4.0);
+  float a2 = rough * rough * rough * rough;
   float denominator = nh * nh * (a2 - 1.0) + 1.0;
   float ggx = a2 / (3.14159 * denominator * denominator);
-  float fresnel = 0.03 + 0.97 * pow(1.0 - clamp(dot(n, view), 0.18, 1.0), 5.0);
-  colour += e * step(0.0, nl) * wet * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * pow(nh, 28.0));
-  colour += 0.3 * e * isMetal * (1.0 - vLining.w) * pow(nh, 5.0);
+  float fresnel = 0.03 + 0.97 * power5(1.0 - clamp(dot(n, view), 0.18, 1.0));
+  colour += e * step(0.0, nl) * wet * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * power28(nh));
+  colour += 0.3 * e * isMetal * (1.0 - vLining.w) * power5(nh);
   // A film of fluid over all of it, uneven: a small hard glare.
   vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
   float coat = pow(max(dot(film, h), 0.0), 420.0);
@@ -225,12 +219,11 @@ void main() {
   colour = mix(colour, vec3(0.10, 0.055, 0.04), (1.0 - water.w) * (1.0 - exp(-0.022 * max(0.0, far - 3.0))));
   colour = throughBlood(colour, vAt);
   // The camera: its exposure, darker at the rim, filmic, a little noise in the dark.
-  colour *= exposure * (1.0 - 0.45 * pow(r, 3.5));
+  colour *= exposure * (1.0 - 0.45 * r * r * r * sqrt(r));
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
   float grey = dot(colour, vec3(0.3, 0.59, 0.11));
   colour = mix(vec3(grey), colour, 1.22);
   colour += (grain - 0.5) * mix(0.014, 0.006, grey);
-  colour = throughLens(colour, vScreen.xy / vScreen.z);
   colour *= 1.0 - smoothstep(0.985, 1.0, r);
   gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
 }`;
@@ -257,4 +250,11 @@ export function wetMaterial(
     // The wall is closed and seen from within alone.
     side: isMetal ? THREE.DoubleSide : THREE.BackSide,
   });
+}
+
+/** Whether a screw may have gone through this: what has none saves its cost. */
+export function setScrewed(material: THREE.ShaderMaterial, hasScrew: boolean): void {
+  if (hasScrew === (material.defines?.["HAS_SCREW"] !== undefined)) return;
+  material.defines = hasScrew ? { HAS_SCREW: "" } : {};
+  material.needsUpdate = true;
 }
