@@ -56,6 +56,33 @@ struct ScopeLook {
   bool operator==(const ScopeLook&) const = default;
 };
 
+enum class Scuffing : std::uint8_t { Pressed = 0, Bitten = 1, Shaved = 2 };
+
+/// Where cartilage was scuffed.
+struct CartilageScuff {
+  Tick tick = 0;  ///< when it began
+  std::uint8_t body = kNoBody;
+  Vec3 at;             ///< on the bone's surface, frame Bone of `body` [mm]
+  double force_n = 0;  ///< the most while it was pressed there; 0 of jaws and blades
+  instruments::InstrumentIndex by = instruments::kNoInstrument;
+  Scuffing how = Scuffing::Pressed;
+  bool operator==(const CartilageScuff&) const = default;
+};
+
+/// The way over which a movement is judged [E]: a joint gives 15 mm to go in and out.
+inline constexpr double kStretchMm = 5.0;
+/// Dimensionless jerk of a minimum-jerk reach: 720 / 1.875^2 [flash1985coordination].
+inline constexpr double kLeastJerk = 204.8;
+
+/// Dimensionless jerks of an instrument's stretches (simulation/detail/smoothness.hpp), multiplied:
+/// `product` times 2 to the `octaves`.
+struct SmoothnessFacts {
+  double product = 1.0;  ///< in [1, 2)
+  std::uint32_t octaves = 0;
+  std::uint32_t stretches = 0;
+  bool operator==(const SmoothnessFacts&) const = default;
+};
+
 /// What an arthroscopy left to be judged.
 struct ScopeRecord {
   ScopeFacts facts;                      ///< at the end
@@ -74,6 +101,9 @@ struct ScopeRecord {
   std::uint32_t lesions = 0;  ///< that there are
   std::uint32_t lesions_seen = 0;
   std::vector<ScopeLook> looks;
+  std::array<SmoothnessFacts, kHands> smoothness{};  ///< as path_mm
+  std::vector<CartilageScuff> scuff_places;          ///< the first of them
+  std::uint32_t scuffs = 0;
 };
 
 /// One operation, finished or not.

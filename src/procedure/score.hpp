@@ -14,6 +14,7 @@
 #include "cases/lesson.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
+#include "procedure/operation_record.hpp"
 
 namespace carpus::procedure {
 
@@ -69,6 +70,14 @@ struct PlacementPicture {
   std::vector<PlacedPiece> pieces;  ///< empty where all lie as scanned
 };
 
+/// Where cartilage was scuffed, to be marked on the bones.
+struct ScuffedPlace {
+  BoneId bone = BoneId::Scaphoid;
+  BonePart part = BonePart::Whole;
+  std::string instrument;  ///< for people
+  CartilageScuff scuff;
+};
+
 /// What a case's lesson says of it, for afterwards.
 struct CaseAnswer {
   std::string title;
@@ -98,6 +107,7 @@ struct ScoreReport {
   std::string chosen_screw;
   std::string penetration_at;  ///< "proximal", "distal", "side" or empty; with the bone reached
   PlacementPicture placement;
+  std::vector<ScuffedPlace> scuffs;  ///< of an arthroscopy, in order of time, the first of them
 };
 
 /// An assessed operation may not buy the truth of a case by ending early: where a must-have that

@@ -1031,6 +1031,24 @@ void write(FieldWriter& out, const CaseAnswer& in) {
   out.text("reason", in.reason, 1024);
 }
 
+void read(FieldReader& in, ScuffedPlace& out) {
+  out.bone = in.string("bone", 32);
+  out.at_mm = in.vec3("at_mm", 10000.0, 0.0);
+  out.tick = in.integer("tick", 0, 9007199254740991);
+  out.how = static_cast<Scuffing>(in.choice("how", kScuffingNames));
+  out.force_n = in.number("force_n", 0.0, 1000.0);
+  out.instrument = in.string("instrument", 128);
+}
+
+void write(FieldWriter& out, const ScuffedPlace& in) {
+  out.text("bone", in.bone, 32);
+  out.vec3("at_mm", in.at_mm);
+  out.value("tick", in.tick);
+  out.name("how", name_of(in.how));
+  out.value("force_n", in.force_n);
+  out.text("instrument", in.instrument, 128);
+}
+
 void read(FieldReader& in, ScoreReport& out) {
   out.score_version = in.integer("score_version", 1, 2);
   out.overall = in.number("overall", 0.0, 100.0);
@@ -1053,6 +1071,7 @@ void read(FieldReader& in, ScoreReport& out) {
   out.chosen_screw = in.string("chosen_screw", 64);
   out.penetration_at = in.string("penetration_at", 128);
   in.record("placement", out.placement);
+  if (in.has("scuffs")) in.records("scuffs", 0, 32, out.scuffs.emplace());
 }
 
 void write(FieldWriter& out, const ScoreReport& in) {
@@ -1100,6 +1119,11 @@ void write(FieldWriter& out, const ScoreReport& in) {
   out.text("chosen_screw", in.chosen_screw, 64);
   out.text("penetration_at", in.penetration_at, 128);
   out.record("placement", in.placement);
+  if (in.scuffs) {
+    out.records("scuffs", *in.scuffs);
+  } else {
+    out.null("scuffs");
+  }
 }
 
 void read(FieldReader& in, AssetSummary& out) {

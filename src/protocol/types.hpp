@@ -244,6 +244,13 @@ inline constexpr std::array<std::string_view, 2> kOutcomeNames{"unfinished", "fi
   return kOutcomeNames[static_cast<std::size_t>(value)];
 }
 
+/// How cartilage was scuffed.
+enum class Scuffing : std::uint8_t { Pressed, Bitten, Shaved };
+inline constexpr std::array<std::string_view, 3> kScuffingNames{"pressed", "bitten", "shaved"};
+[[nodiscard]] constexpr std::string_view name_of(Scuffing value) noexcept {
+  return kScuffingNames[static_cast<std::size_t>(value)];
+}
+
 /// A view that the quiz can take; its angles are those of the pictures.
 struct QuizView {
   std::string id;
@@ -1091,6 +1098,22 @@ struct CaseAnswer {
   bool operator==(const CaseAnswer&) const = default;
 };
 
+/// Where an instrument scuffed a joint's cartilage.
+struct ScuffedPlace {
+  /// its name in GET /api/scene.glb
+  std::string bone;
+  /// on the bone's surface, as scanned
+  Vec3 at_mm;
+  /// when it began 0 to 9007199254740991
+  std::int64_t tick = 0;
+  Scuffing how = Scuffing::Pressed;
+  /// the most while it was pressed there; 0 of jaws and blades [N] 0 to 1000
+  double force_n = 0.0;
+  /// its name
+  std::string instrument;
+  bool operator==(const ScuffedPlace&) const = default;
+};
+
 /// The truth about a finished operation (docs/scoring.md). Records hold it in this form.
 struct ScoreReport {
   /// 1 to 2
@@ -1128,6 +1151,8 @@ struct ScoreReport {
   /// proximal, distal or side, with the bone reached; or empty
   std::string penetration_at;
   Placement placement;
+  /// of an arthroscopy, the first of them; none where nothing was scuffed
+  std::optional<std::vector<ScuffedPlace>> scuffs;
   bool operator==(const ScoreReport&) const = default;
 };
 

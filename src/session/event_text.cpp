@@ -122,6 +122,8 @@ class Sentence {
       case EventKind::TissueBitten:
         return subject() + (event_.detail == 1 ? " bit cartilage: it is scuffed there"
                                                : " closed on what lines the joint");
+      case EventKind::CartilagePressed:
+        return subject() + " pressed on the cartilage of the " + bone() + ": it is scuffed there";
       case EventKind::ShaverHarmed:
         return subject() + kRanAgainst[std::min<std::size_t>(place(), kRanAgainst.size() - 1)];
       case EventKind::SoundTissueShaved:
@@ -211,6 +213,8 @@ std::string_view felt(EventKind kind) {
       return "The tip slips along bone: hold it steeper to the surface";
     case EventKind::WireBent:
       return "Something bends the wire: the wrist moved over it";
+    case EventKind::CartilagePressed:
+      return "Pressed hard on cartilage: it is scuffed there";
     default:
       return {};
   }
@@ -252,7 +256,7 @@ constexpr std::array<std::string_view, 43> kNames{"none",
                                                   "tissue_bitten",
                                                   "shaver_harmed",
                                                   "sound_tissue_shaved",
-                                                  "none",
+                                                  "cartilage_pressed",
                                                   "none",
                                                   "none",
                                                   "none",

@@ -41,7 +41,7 @@ TEST(EventText, EveryKindHasItsOwnNameAndASentence) {
     kinds.insert(told.kind);
   }
   EXPECT_EQ(kinds.size(), count);
-  EXPECT_EQ(count, 37U);
+  EXPECT_EQ(count, 38U);
 }
 
 TEST(EventText, OfAScrewSaysWhereItWasFelt) {
@@ -59,6 +59,16 @@ TEST(EventText, NamesInstrumentsAndBonesAsPeopleDo) {
   event.detail = simulation::test::body_of(BoneId::Radius);
   EXPECT_EQ(described(event).text, instruments::catalogue()[event.instrument].name +
                                        " entered the radius, which is not to be entered");
+}
+
+TEST(EventText, CartilageThatWasPressedTooHardIsToldWithItsBoneWhereBonesMayBeNamed) {
+  Event event;
+  event.kind = EventKind::CartilagePressed;
+  event.instrument = *instruments::instrument_of("hook_probe");
+  event.detail = 0;
+  const std::string text = described(event).text;
+  EXPECT_NE(text.find("pressed on the cartilage of the "), std::string::npos) << text;
+  EXPECT_EQ(described(event).kind, "cartilage_pressed");
 }
 
 TEST(EventText, AShaverThatHarmsIsToldAgainstWhat) {

@@ -17,6 +17,9 @@ static_assert(static_cast<int>(protocol::Grade::NotMeasured) ==
 static_assert(static_cast<int>(protocol::RightAnswer::Decline) ==
               static_cast<int>(cases::RightAnswer::Decline));
 
+static_assert(static_cast<int>(protocol::Scuffing::Shaved) ==
+              static_cast<int>(procedure::Scuffing::Shaved));
+
 protocol::Placement placement_message(const procedure::PlacementPicture& picture) {
   protocol::Placement placement;
   placement.central_axis = {picture.central_axis.from, picture.central_axis.to};
@@ -39,6 +42,17 @@ protocol::ScoreItem item_message(const procedure::ScoreItem& item) {
   return {item.id,     item.label,           item.value,
           item.unit,   item.target,          static_cast<protocol::Grade>(item.grade),
           item.points, item.points_possible, item.reason};
+}
+
+protocol::ScuffedPlace scuff_message(const procedure::ScuffedPlace& place) {
+  protocol::ScuffedPlace told;
+  told.bone = name_of(place.bone, place.part);
+  told.at_mm = place.scuff.at;
+  told.tick = static_cast<std::int64_t>(place.scuff.tick);
+  told.how = static_cast<protocol::Scuffing>(place.scuff.how);
+  told.force_n = place.scuff.force_n;
+  told.instrument = place.instrument;
+  return told;
 }
 
 }  // namespace
@@ -77,6 +91,10 @@ protocol::ScoreReport score_message(const procedure::ScoreReport& report) {
   message.chosen_screw = report.chosen_screw;
   message.penetration_at = report.penetration_at;
   message.placement = placement_message(report.placement);
+  for (const procedure::ScuffedPlace& place : report.scuffs) {
+    if (!message.scuffs) message.scuffs.emplace();
+    message.scuffs->push_back(scuff_message(place));
+  }
   return message;
 }
 

@@ -29,6 +29,29 @@ TEST(ScoreMessage, SaysWhatWasNotMeasuredAndReadsBackAsItWas) {
   EXPECT_EQ(read->placement.screw, std::nullopt);
 }
 
+TEST(ScoreMessage, SaysOnWhichBoneWhenAndByWhatCartilageWasScuffed) {
+  procedure::ScoreReport report;
+  EXPECT_EQ(score_message(report).scuffs, std::nullopt);
+  report.scuffs.push_back({BoneId::Lunate,
+                           BonePart::Whole,
+                           "Hook probe",
+                           {4200, 3, {1, 2, 3}, 9.5, 0, procedure::Scuffing::Pressed}});
+  report.scuffs.push_back(
+      {BoneId::Radius, BonePart::Whole, "Punch", {9, 0, {}, 0, 0, procedure::Scuffing::Bitten}});
+  const protocol::ScoreReport message = score_message(report);
+  const auto read = protocol::parse_stored_score(protocol::serialize_stored_score(message));
+  ASSERT_TRUE(read.has_value()) << read.error();
+  ASSERT_EQ(read->scuffs->size(), 2U);
+  const protocol::ScuffedPlace& first = read->scuffs->front();
+  EXPECT_EQ(first.bone, "lunate");
+  EXPECT_EQ(first.at_mm, (Vec3{1, 2, 3}));
+  EXPECT_EQ(first.tick, 4200);
+  EXPECT_EQ(first.how, protocol::Scuffing::Pressed);
+  EXPECT_EQ(first.force_n, 9.5);
+  EXPECT_EQ(first.instrument, "Hook probe");
+  EXPECT_EQ(read->scuffs->back().how, protocol::Scuffing::Bitten);
+}
+
 TEST(ScoreMessage, PutsScrewAndWireWhereTheyLie) {
   procedure::ScoreReport report;
   report.placement.wire = procedure::PlacedLine{{1, 2, 3}, {4, 5, 6}};

@@ -294,6 +294,11 @@ TEST(PunchInJoint, CartilageThatLiesNearerThanTheDiscIsScuffedWhereItWasBitten) 
     ASSERT_EQ(hand.now().scope.scuff_count, 1);
     const Vec3 at = hand.now().scope.scuffs[0].at_as_scanned;
     EXPECT_NEAR(distance(at, kFloor + Vec3{0, 0, 2.5}), 0.0, 0.4) << at.x << ' ' << at.z;
+    const auto told = world.operation_record().scope->scuff_places;
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told[0].body, test::body_of(BoneId::Lunate));
+    EXPECT_EQ(told[0].at, at);
+    EXPECT_EQ(told[0].how, procedure::Scuffing::Bitten);
   }
 }
 

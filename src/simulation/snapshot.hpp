@@ -238,6 +238,7 @@ enum class EventKind : std::uint8_t {
   /// A shaver ran against what is to stay; detail: 0 lining, 1 cartilage, 2 the scope
   ShaverHarmed = 33,
   SoundTissueShaved = 34,  ///< a piece that was to stay came off; detail: 1 of the disc's rim
+  CartilagePressed = 35,   ///< in a joint, with more than 8 N; detail: body, value: N
   PressureTooHigh = 40,    ///< of the fluid in the joint; value: mmHg
   TissueSwells = 41,       ///< of what went into it; value: ml
   ViewClouded = 42,        ///< blood or what lies on the lens hides the joint

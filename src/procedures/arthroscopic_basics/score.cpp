@@ -9,6 +9,7 @@
 #include "procedure/thrift_measures.hpp"
 #include "procedures/arthroscopic_basics/declared.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 
 namespace carpus::procedures::arthroscopic_basics {
 namespace {
@@ -66,6 +67,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   }
   procedure::ScoreReport report;
   procedure::grade(report, declared().rules, measures);
+  arthroscopy::tell_scuffs(report, data, record);
   return report;
 }
 

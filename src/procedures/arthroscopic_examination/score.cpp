@@ -10,6 +10,7 @@
 #include "procedure/grading.hpp"
 #include "procedures/arthroscopic_examination/declared.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 
 namespace carpus::procedures::arthroscopic_examination {
 namespace {
@@ -119,6 +120,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   arthroscopy::add_fluid_measures(measures, record);
   procedure::ScoreReport report;
   procedure::grade(report, declared().rules, measures);
+  arthroscopy::tell_scuffs(report, data, record);
   return report;
 }
 

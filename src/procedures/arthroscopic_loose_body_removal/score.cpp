@@ -9,6 +9,7 @@
 #include "procedure/grading.hpp"
 #include "procedures/arthroscopic_loose_body_removal/declared.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 
 namespace carpus::procedures::arthroscopic_loose_body_removal {
 namespace {
@@ -49,6 +50,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   for (Measure& each : removal_measures(done)) measures.push_back(std::move(each));
   procedure::ScoreReport report;
   procedure::grade(report, declared().rules, measures);
+  arthroscopy::tell_scuffs(report, data, record);
   return report;
 }
 

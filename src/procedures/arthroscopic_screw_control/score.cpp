@@ -12,6 +12,7 @@
 #include "procedure/grading.hpp"
 #include "procedures/arthroscopic_screw_control/declared.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 
 namespace carpus::procedures::arthroscopic_screw_control {
 namespace {
@@ -110,6 +111,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   add_answers(measures, record.scope ? *record.scope : kNone);
   procedure::ScoreReport report;
   procedure::grade(report, declared().rules, measures);
+  arthroscopy::tell_scuffs(report, data, record);
   return report;
 }
 

@@ -11,6 +11,7 @@
 #include "arthroscopy/seen_share.hpp"
 #include "procedure/harm_measures.hpp"
 #include "procedure/thrift_measures.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 
 namespace carpus::procedures::arthroscopy {
 namespace {
@@ -84,6 +85,9 @@ std::vector<Measure> conduct_measures(const cases::CaseData& data,
   measures.push_back(has_map ? cartilage(data, scope) : Measure{"cartilage_seen_share", {}, ""});
   measures.push_back({"scope_path_mm", scope.path_mm[0], ""});
   measures.push_back({"probe_path_mm", scope.path_mm[1], ""});
+  measures.push_back(smoothness("scope_smoothness", scope.smoothness[0]));
+  measures.push_back(smoothness("probe_smoothness", scope.smoothness[1]));
+  measures.push_back(cartilage_scuffs(data, scope));
   measures.push_back({"pull_outs", static_cast<double>(scope.pull_outs), ""});
   measures.push_back({"force_over_3_n_s", seconds(scope.warn_ticks),
                       "At most " + procedure::text_of(scope.most_force_n) + " N."});

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 #include "procedures/arthroscopy/punching.hpp"
 
 namespace carpus::procedures::arthroscopy {
@@ -87,6 +88,7 @@ procedure::ScoreReport score_shaving(const cases::CaseData& data,
   if (procedure.fluid) add_fluid_measures(measures, record);
   procedure::ScoreReport report;
   procedure::grade(report, procedure.rules, measures);
+  tell_scuffs(report, data, record);
   return report;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedure/grading.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
+#include "procedures/arthroscopy/hand_measures.hpp"
 #include "procedures/diagnostic_arthroscopy/declared.hpp"
 
 namespace carpus::procedures::diagnostic_arthroscopy {
@@ -11,6 +12,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   procedure::ScoreReport report;
   procedure::grade(report, declared().rules,
                    arthroscopy::conduct_measures(data, declared(), record));
+  arthroscopy::tell_scuffs(report, data, record);
   return report;
 }
 

@@ -170,6 +170,9 @@ void write(FieldWriter& out, const DeclineReason& in);
 void read(FieldReader& in, CaseAnswer& out);
 void write(FieldWriter& out, const CaseAnswer& in);
 
+void read(FieldReader& in, ScuffedPlace& out);
+void write(FieldWriter& out, const ScuffedPlace& in);
+
 void read(FieldReader& in, ScoreReport& out);
 void write(FieldWriter& out, const ScoreReport& in);
 

@@ -16,11 +16,7 @@ using detail::FluidTable;
 using detail::Item;
 using detail::kNoPortal;
 
-namespace {
-
-constexpr double kInjuryN = 8.0;  // [E, B11] as scopes.cpp has it
-
-}  // namespace
+namespace {}  // namespace
 
 /// What cuts or tears what lines the joint calls this: it bleeds from then on, less and less.
 void World::State::bleed_into_joint(const Model& model, double ml_per_s) noexcept {
@@ -66,7 +62,7 @@ detail::FluidAround World::State::around_fluid(const Model& model) noexcept {
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr || !scope_state.is_in_joint[h]) continue;
-    if (length(scope_state.felt[h]) > kInjuryN) {
+    if (length(scope_state.felt[h]) > detail::kInjuryN) {
       detail::bleed(fluid, table, table.bleeding.injury_ml_per_s2 * kTickSeconds);
     }
     if (!kind_of(model, *item).optic) continue;

@@ -97,6 +97,7 @@ void World::State::close_punch(const Model& model, std::uint8_t hand, const Item
       // Cartilage is painted on the bone's surface.
       const Vec3 at = middle - bone.normal_in_patient * bone.distance_mm;
       detail::scuff(punch_state, joint, (inverses[bone.body] * Point<frame::Patient>{at}).v);
+      note_scuff(hand, bone.body, at, procedure::Scuffing::Bitten);
       return emit(EventKind::TissueBitten, now.held[hand], 1, 0.0);
     }
     case Bitten::Lining:

@@ -23,6 +23,9 @@ inline constexpr std::size_t kMaxLooks = 4096;
 /// A point is seen once it was in view for so long without a break [E].
 inline constexpr std::uint32_t kSeenTicks = 1000;
 
+inline constexpr double kWarnN = 3.0;  ///< [E, B11] from published probing forces
+inline constexpr double kInjuryN = 8.0;
+
 struct ScopeState {
   double shaft_turn_deg = 0.0;
   double camera_turn_deg = 0.0;

@@ -17,7 +17,9 @@
 namespace carpus::simulation {
 
 using detail::Item;
+using detail::kInjuryN;
 using detail::kNoPortal;
+using detail::kWarnN;
 
 namespace {
 
@@ -38,8 +40,6 @@ constexpr double kProbedMm = 2.5;
 constexpr double kNewLookMm = 0.5;
 constexpr double kNewLookCosine = 0.9976;  // 4 degrees
 constexpr double kLevelCosine = 0.9659;    // 15 degrees
-constexpr double kWarnN = 3.0;             // [E, B11] from published probing forces
-constexpr double kInjuryN = 8.0;
 
 bool has_bit(std::uint32_t bits, int at) noexcept { return (bits >> at & 1U) != 0; }
 
@@ -325,9 +325,12 @@ void World::State::watch_scopes(const Model& model) noexcept {
     if (item == nullptr || !enters_joints(model, *item)) {
       state.portal[h] = kNoPortal;
       state.is_in_joint[h] = false;
+      conduct.motion[h] = {};
+      conduct.presses[h] = {};
       continue;
     }
     follow_portal(model, h, *item);
+    watch_conduct(model, h, *item);
     if (!state.is_in_joint[h] || state.portal[h] == kNoPortal) continue;
     const std::uint8_t joint = model.map->portals[state.portal[h]].joint;
     const std::size_t what = kind_of(model, *item).optic ? 0 : 1;
@@ -405,6 +408,10 @@ procedure::ScopeRecord World::State::scope_record(const Model& model) const {
     record.lesions_seen = static_cast<std::uint32_t>(std::popcount(state.lesions_seen));
   }
   record.looks.assign(looks.begin(), looks.begin() + state.look_count);
+  record.smoothness = conduct.smoothness;
+  record.scuffs = conduct.scuffs;
+  const std::size_t kept = std::min<std::size_t>(conduct.scuffs, conduct.places.size());
+  record.scuff_places.assign(conduct.places.begin(), conduct.places.begin() + kept);
   return record;
 }
 

@@ -68,6 +68,10 @@ void World::State::note_shaver_harm(const Model& model,
   if (begins_to_harm(ticks)) {
     emit(EventKind::ShaverHarmed, now.held[hand], is_cartilage ? 1 : 0, 0.0);
   }
+  if (!is_cartilage || ticks < kHarmTicks) return;
+  if (!detail::is_elsewhere(conduct.shaved[hand], mouth.at)) return;
+  note_scuff(hand, bone.body, mouth.at - bone.normal_in_patient * bone.distance_mm,
+             procedure::Scuffing::Shaved);
 }
 
 void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item& item) noexcept {

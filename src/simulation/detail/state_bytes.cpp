@@ -70,6 +70,7 @@ std::vector<std::byte> World::write_state() const {
   if (state.structures.size() > 0) visit(state.structure_state, fields);
   if (model_->map != nullptr) {
     visit(state.scope_state, fields);
+    visit(state.conduct, fields);
     for (std::size_t s = 0; s < model_->sheets.size(); ++s) {
       yielding::NetState::visit(state.sheets[s], model_->sheets[s].net.size(), fields);
     }
@@ -115,6 +116,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::StructureState structures;
   if (state_->structures.size() > 0) visit(structures, fields);
   detail::ScopeState scope;
+  detail::ScopeConduct conduct;
   std::array<yielding::NetState, kMaxSheets> sheets;
   detail::DrillState drill;
   detail::LooseState loose;
@@ -126,11 +128,13 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   std::vector<procedure::ScopeLook> looks;
   if (model_->map != nullptr) {
     visit(scope, fields);
+    visit(conduct, fields);
     for (std::size_t s = 0; s < model_->sheets.size(); ++s) {
       sheets[s].reset(model_->sheets[s].net);
       yielding::NetState::visit(sheets[s], model_->sheets[s].net.size(), fields);
     }
-    is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size());
+    is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size()) &&
+               detail::is_possible(conduct, model_->data.bones.size(), model_->catalogue.size());
     if (is_sound) looks.resize(scope.look_count);
     for (procedure::ScopeLook& look : looks) detail::visit_look(look, fields);
     if (const auto& declared = model_->procedure.drill) {
@@ -180,6 +184,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   next->spent = *spent;
   next->structure_state = structures;
   next->scope_state = scope;
+  next->conduct = conduct;
   next->drill_state = drill;
   next->loose_state = loose;
   next->shaving_state = shaving;

@@ -29,6 +29,7 @@
 #include "simulation/detail/scope_drill.hpp"
 #include "simulation/detail/scope_watch.hpp"
 #include "simulation/detail/screw_watch.hpp"
+#include "simulation/detail/scuffs.hpp"
 #include "simulation/detail/shaving.hpp"
 #include "simulation/detail/skin_surface.hpp"
 #include "simulation/detail/structure_watch.hpp"
@@ -94,6 +95,7 @@ struct World::State {
   detail::Spent spent;
   detail::StructureState structure_state;
   detail::ScopeState scope_state;
+  detail::ScopeConduct conduct;  ///< told, and no part of the hash
   detail::DrillState drill_state;
   detail::LooseState loose_state;
   detail::ShavingState shaving_state;
@@ -360,6 +362,22 @@ struct World::State {
   [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,
                                                            const detail::Item& item) const noexcept;
   void watch_scopes(const Model& model) noexcept;
+
+  // scope_conduct.cpp
+  void watch_conduct(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void watch_press(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  struct BonePlace {
+    std::uint8_t body = kNoBody;
+    Vec3 at;  ///< on its surface, Patient
+  };
+  [[nodiscard]] BonePlace bone_beside(const Model& model, const detail::Item& item) const noexcept;
+  [[nodiscard]] bool is_cartilage_at(const Model& model,
+                                     std::uint8_t body,
+                                     const Vec3& at_in_bone) const noexcept;
+  void note_scuff(std::uint8_t hand,
+                  std::uint8_t body,
+                  const Vec3& at,
+                  procedure::Scuffing how) noexcept;
 
   // scope_exercises.cpp
   [[nodiscard]] Vec3 place_now(const Model& model, std::size_t point) const noexcept;

@@ -89,6 +89,9 @@ export type Grade = "good" | "acceptable" | "fail" | "not_measured";
 /** How an attempt ended; only a finished one has a score. */
 export type Outcome = "unfinished" | "finished";
 
+/** How cartilage was scuffed. */
+export type Scuffing = "pressed" | "bitten" | "shaved";
+
 /** A view that the quiz can take; its angles are those of the pictures. */
 export interface QuizView {
   readonly id: string;
@@ -868,6 +871,21 @@ export interface CaseAnswer {
   readonly reason: string;
 }
 
+/** Where an instrument scuffed a joint's cartilage. */
+export interface ScuffedPlace {
+  /** its name in GET /api/scene.glb */
+  readonly bone: string;
+  /** on the bone's surface, as scanned */
+  readonly at_mm: Vec3;
+  /** when it began 0 to 9007199254740991 */
+  readonly tick: number;
+  readonly how: Scuffing;
+  /** the most while it was pressed there; 0 of jaws and blades [N] 0 to 1000 */
+  readonly force_n: number;
+  /** its name */
+  readonly instrument: string;
+}
+
 /** The truth about a finished operation (docs/scoring.md). Records hold it in this form. */
 export interface ScoreReport {
   /** 1 to 2 */
@@ -905,6 +923,8 @@ export interface ScoreReport {
   /** proximal, distal or side, with the bone reached; or empty */
   readonly penetration_at: string;
   readonly placement: Placement;
+  /** of an arthroscopy, the first of them; none where nothing was scuffed */
+  readonly scuffs: readonly ScuffedPlace[] | null;
 }
 
 /** What instructors' finished ASSET forms of an attempt say together; no part of its score. */

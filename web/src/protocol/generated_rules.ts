@@ -34,6 +34,7 @@ export const SCHEMA: Schema = {
     side: { values: ["left", "right"] },
     grade: { values: ["good", "acceptable", "fail", "not_measured"] },
     outcome: { values: ["unfinished", "finished"] },
+    scuffing: { values: ["pressed", "bitten", "shaved"] },
     quiz_view: { fields: {
       id: {"type": "string", "max_length": 32},
       label: {"type": "string", "max_length": 64},
@@ -470,6 +471,14 @@ export const SCHEMA: Schema = {
       right_answer: {"type": "right_answer"},
       reason: {"type": "string", "max_length": 1024},
     } },
+    scuffed_place: { fields: {
+      bone: {"type": "string", "max_length": 32},
+      at_mm: {"type": "vec3", "limit": 10000},
+      tick: {"type": "integer", "min": 0, "max": 9007199254740991},
+      how: {"type": "scuffing"},
+      force_n: {"type": "number", "min": 0, "max": 1000},
+      instrument: {"type": "string", "max_length": 128},
+    } },
     score_report: { fields: {
       score_version: {"type": "integer", "min": 1, "max": 2},
       overall: {"type": "number", "min": 0, "max": 100},
@@ -491,6 +500,7 @@ export const SCHEMA: Schema = {
       chosen_screw: {"type": "string", "max_length": 64},
       penetration_at: {"type": "string", "max_length": 128},
       placement: {"type": "placement"},
+      scuffs: {"type": "array", "of": {"type": "scuffed_place"}, "max_items": 32, "optional": true},
     } },
     asset_summary: { fields: {
       forms: {"type": "integer", "min": 1, "max": 1000},

@@ -1,11 +1,12 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the scope truly saw of the joints' cartilage, painted on the bones.
+// What the scope truly saw of the joints' cartilage, painted on the bones, and where it was scuffed.
 import { fetchSeenCartilage } from "../case_data";
 import { make } from "../dom";
-import type { Attempt, CaseDescription, SeenCartilage } from "../protocol";
+import type { Attempt, CaseDescription, ScoreReport, SeenCartilage } from "../protocol";
 import { makeCartilageWorld } from "./cartilage_world";
+import { moreText, scuffRows } from "./scuff_model";
 import { TurningView } from "./turning_view";
 
 const DISTANCE_M = 0.19;
@@ -13,6 +14,7 @@ const DISTANCE_M = 0.19;
 /** @param staying  the view is to be disposed of when the page is left */
 export function cartilageSection(
   attempt: Attempt,
+  report: ScoreReport,
   description: CaseDescription,
   staying: { isLeft(): boolean; onLeave(done: () => void): void },
 ): HTMLElement {
@@ -22,19 +24,22 @@ export function cartilageSection(
     { "aria-labelledby": "cartilage-title" },
     make("h2", { id: "cartilage-title" }, "Cartilage that was seen"),
     place,
+    ...scuffTable(report, attempt.id),
   );
+  const scuffs = report.scuffs ?? [];
   void (async () => {
     try {
       const seen = await fetchSeenCartilage(attempt.id);
       if (staying.isLeft()) return;
       const view = await TurningView.make(
         description,
-        (renderer) => makeCartilageWorld(renderer, description, seen),
+        (renderer) => makeCartilageWorld(renderer, description, seen, scuffs),
         { side: "Dorsal", distanceM: DISTANCE_M },
         {
           label: "Bones of the joints, drawn apart row from row",
-          caption:
-            "Rows are drawn apart. Green: seen near and steep enough, nothing before it; brown: not.",
+          caption: `Rows are drawn apart. Green: seen near and steep enough, nothing before it; brown: not.${
+            scuffs.length === 0 ? "" : " Red dots with numbers: scuffed."
+          }`,
         },
       );
       if (staying.isLeft()) {
@@ -51,6 +56,36 @@ export function cartilageSection(
     }
   })();
   return section;
+}
+
+/** None where nothing was scuffed. */
+function scuffTable(report: ScoreReport, attempt: number): readonly HTMLElement[] {
+  const scuffs = report.scuffs ?? [];
+  if (scuffs.length === 0) return [];
+  const counted = report.items.find(({ id }) => id === "cartilage_scuffs");
+  const more = moreText(scuffs.length, counted?.value);
+  return [
+    make(
+      "table.cartilage-scuffs",
+      {},
+      make("caption", {}, "Where cartilage was scuffed; times lead into the replay"),
+      make(
+        "tbody",
+        {},
+        ...scuffRows(scuffs, attempt).map(({ number, bone, how, at, replay }) =>
+          make(
+            "tr",
+            {},
+            make("td.figure", {}, make("span.scuff-number", {}, number)),
+            make("th", { scope: "row" }, bone),
+            make("td", {}, how),
+            make("td.figure", {}, make("a", { href: replay, title: "In the replay" }, at)),
+          ),
+        ),
+      ),
+    ),
+    ...(more === "" ? [] : [make("p.secondary", {}, more)]),
+  ];
 }
 
 function shares(seen: SeenCartilage): HTMLElement {

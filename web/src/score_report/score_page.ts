@@ -139,7 +139,7 @@ function show(
       ? [viewsSection(attempt)]
       : []),
     ...(attempt.case_is_open && report.is_void !== true && looksIntoJoints(report)
-      ? [cartilageSection(attempt, description, { isLeft, onLeave })]
+      ? [cartilageSection(attempt, report, description, { isLeft, onLeave })]
       : []),
     eventList(attempt.events),
     make(
