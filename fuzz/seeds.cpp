@@ -16,11 +16,13 @@
 #include <string_view>
 #include <vector>
 
+#include "arthroscopy/named_grades.hpp"
 #include "case_io/detail/case_json.hpp"
 #include "case_io/detail/hand_motion_json.hpp"
 #include "case_io/detail/structures_json.hpp"
 #include "case_io/dicom_segmentation.hpp"
 #include "case_io/lesson_file.hpp"
+#include "case_io/pathology_file.hpp"
 #include "case_io/small_case_test_support.hpp"
 #include "case_io/small_tissue_test_support.hpp"
 #include "case_io/soft_tissue_folder.hpp"
@@ -196,6 +198,9 @@ int main(int argc, char** argv) {
       bytes_of(case_io::trust_text(
           {{"lunate", 0.98, false, ""}, {"scaphoid_distal", 0.31, true, "it is hollow"}}, "seed")));
   write(corpus / "lesson" / "whole", bytes_of(case_io::lesson_text(small_lesson())));
+  write(corpus / "pathology" / "whole",
+        bytes_of(case_io::pathology_text(
+            arthroscopy::drawn_pathology(7, arthroscopy::PathologyTable::generic()))));
   write(corpus / "label_names" / "whole", bytes_of(R"({"radius": 1, "scaphoid_distal": 2})"));
   write(corpus / "soft_tissue" / "whole", bytes_of(small_tissue_text(corpus)));
   fs::create_directories(corpus / "dicom_segmentation");

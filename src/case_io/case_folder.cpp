@@ -20,6 +20,7 @@
 #include "case_io/detail/volume_file.hpp"
 #include "case_io/glb.hpp"
 #include "case_io/lesson_file.hpp"
+#include "case_io/pathology_file.hpp"
 #include "case_io/ply.hpp"
 #include "case_io/write_volume.hpp"
 #include "core/error.hpp"
@@ -153,6 +154,7 @@ void write_shapes(const cases::CaseData& data, const fs::path& folder, const Pro
   if (!data.structures.empty()) {
     write_text(folder / kStructuresFile, structures_text(data.structures));
   }
+  if (data.pathology) write_text(folder / kPathologyFile, pathology_text(*data.pathology));
 }
 
 }  // namespace
@@ -207,6 +209,7 @@ cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
   data.labels = read_grid<std::uint8_t>(folder, "labels.nii.gz", header);
   progress("loading", 1.0);
   data.lesson = read_lesson(folder);
+  data.pathology = read_pathology(folder);
   return std::move(header.data);
 }
 

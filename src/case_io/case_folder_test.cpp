@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "case_io/pathology_file.hpp"
 #include "case_io/ply.hpp"
 #include "case_io/small_case_test_support.hpp"
 #include "core/error.hpp"
@@ -141,6 +142,17 @@ TEST_F(CaseFolder, GivesBackStructuresBitForBitAndSaysThatTheyWereGenerated) {
     const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     EXPECT_THAT(text, HasSubstr("\"generated\":")) << name;
   }
+}
+
+TEST_F(CaseFolder, GivesBackThePreparedPathologyAndRefusesADamagedOneByThatFilesName) {
+  cases::CaseData data = small_case();
+  write_case(data, target());
+  EXPECT_FALSE(read_case(target()).pathology);
+  data.pathology = cases::PreparedPathology{{3, 0, 2}, 7, false};
+  write_case(data, target(), Overwrite::Replace);
+  EXPECT_EQ(read_case(target()).pathology, data.pathology);
+  std::ofstream(target() / kPathologyFile) << "{}";
+  EXPECT_THAT(error_of<InvalidInput>(target()), HasSubstr("pathology.json: pathology: format"));
 }
 
 TEST_F(CaseFolder, OfAnOlderProgramHasNoStructures) {

@@ -15,6 +15,7 @@
 #include "cases/arthroscopic_map.hpp"
 #include "cases/hand_motion.hpp"
 #include "cases/lesson.hpp"
+#include "cases/prepared_pathology.hpp"
 #include "cases/structures.hpp"
 #include "geometry/convex_polytope.hpp"
 #include "geometry/grid.hpp"
@@ -91,6 +92,8 @@ struct CaseData {
   /// Where it is to be reduced first; found when a case is opened (reduced_scaphoid.hpp).
   std::optional<ReducedScaphoid> reduced;
   std::optional<Lesson> lesson;  ///< from its own file; none where nobody wrote one
+  /// From its own file; none: what is wrong is left to each examination's seed.
+  std::optional<PreparedPathology> pathology;
   /// Where the bones are for any way the hand is held; empty in a case of an older program until
   /// ensure_hand_motion (make_hand_motion.hpp).
   HandMotion hand_motion;

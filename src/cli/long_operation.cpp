@@ -31,8 +31,7 @@ LongOperation make_long_operation(const cases::CaseData& data,
                                   const procedure::Procedure& procedure,
                                   Tick ticks) {
   simulation::World world(data, procedure, kSeed);
-  simulation::Recorder recorder(kProgramVersion, simulation::fingerprint_of(data), procedure,
-                                kSeed);
+  simulation::Recorder recorder(kProgramVersion, simulation::fingerprint_of(data), world);
   trainee::ScriptedTrainee expert(data, procedure, trainee::Skill::Expert, kSeed);
   LongOperation made;
   const auto step = [&](const simulation::Input& input) {

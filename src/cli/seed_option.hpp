@@ -9,8 +9,8 @@
 
 namespace carpus::cli {
 
-/// `--seed N`: a whole number of at most 64 bits and nothing else; -1 does not become the largest.
-inline void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& of_what) {
+/// A whole number of at most 64 bits and nothing else; -1 does not become the largest.
+inline CLI::Validator whole_number() {
   const auto refusal = [](const std::string& text) -> std::string {
     std::uint64_t value = 0;
     const char* const last = text.data() + text.size();
@@ -18,9 +18,12 @@ inline void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::s
     if (error == std::errc{} && end == last) return {};
     return "'" + text + "' is no whole number from 0 to 18446744073709551615";
   };
-  command.add_option("--seed", seed, of_what)
-      ->check(CLI::Validator(refusal, "WHOLE NUMBER"))
-      ->capture_default_str();
+  return {refusal, "WHOLE NUMBER"};
+}
+
+/// `--seed N`
+inline void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& of_what) {
+  command.add_option("--seed", seed, of_what)->check(whole_number())->capture_default_str();
 }
 
 }  // namespace carpus::cli

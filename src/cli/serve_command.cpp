@@ -20,7 +20,9 @@
 #include <vector>
 
 #include "case_io/glb.hpp"
+#include "case_io/pathology_file.hpp"
 #include "case_io/soft_tissue_folder.hpp"
+#include "cli/case_pathology.hpp"
 #include "cli/child_program.hpp"
 #include "cli/find_cases.hpp"
 #include "cli/new_case_maker.hpp"
@@ -36,6 +38,7 @@
 #include "server/log_writer.hpp"
 #include "server/network_server.hpp"
 #include "server/new_case_desk.hpp"
+#include "server/pathology_desk.hpp"
 #include "server/station.hpp"
 #include "server/station_http.hpp"
 
@@ -219,6 +222,7 @@ struct Station {
   std::shared_ptr<server::AttemptOwners> owners = std::make_shared<server::AttemptOwners>();
   std::shared_ptr<server::AttemptOwners> quiz_owners = std::make_shared<server::AttemptOwners>();
   server::AssetDesk asset{records, *owners};
+  server::PathologyDesk pathology{shelf, truth, {case_io::read_pathology, write_pathology}};
 };
 
 /// The operation does not wait for what only devices need.
@@ -254,7 +258,8 @@ std::string serve_one(Station& s, const cases::CaseData& data, const fs::path& f
     return true;
   };
   server::Station station(data, procedures, s.records, s.log_line, {},
-                          {choose, s.owners, s.quiz_owners, s.truth});
+                          {choose, s.owners, s.quiz_owners, s.truth,
+                           [folder] { return case_io::read_pathology(folder); }});
   if (!s.arguments.no_devices) offer_devices(station, s.log_line);
   const server::StationHttp http(data, procedures, scene_of(data, folder), s.records,
                                  {station.owners(), station.quiz_owners()}, s.web, s.shelf,
@@ -263,6 +268,7 @@ std::string serve_one(Station& s, const cases::CaseData& data, const fs::path& f
       s.options,
       [&](const server::HttpRequest& request) {
         if (server::NewCaseDesk::is_for(request)) return s.new_cases.answer(request);
+        if (server::PathologyDesk::is_for(request)) return s.pathology.answer(request);
         return server::AssetDesk::is_for(request) ? s.asset.answer(request) : http.answer(request);
       },
       station);
@@ -305,6 +311,7 @@ void run(const ServeArguments& arguments) {
                                                 : server::StationHttp::lane_of(request);
   };
   options.take_body = [&station](const server::HttpRequest& request, std::uint64_t bytes) {
+    if (server::PathologyDesk::is_for(request)) return station.pathology.take_body(request, bytes);
     return server::AssetDesk::is_for(request) ? station.asset.take_body(request, bytes)
                                               : station.new_cases.take_body(request, bytes);
   };

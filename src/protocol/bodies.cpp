@@ -102,6 +102,28 @@ void write(FieldWriter& out, const AssetRating& in) {
   out.text("comment", in.comment, 2000);
 }
 
+void read(FieldReader& in, CasePathology& out) {
+  out.may_prepare = in.boolean("may_prepare");
+  in.records("findings", 0, 16, out.findings);
+  if (in.has("prepared")) in.record("prepared", out.prepared.emplace());
+}
+
+void write(FieldWriter& out, const CasePathology& in) {
+  out.value("may_prepare", in.may_prepare);
+  out.records("findings", in.findings);
+  if (in.prepared) {
+    out.record("prepared", *in.prepared);
+  } else {
+    out.null("prepared");
+  }
+}
+
+void read(FieldReader& in, PathologyWish& out) { read(in, static_cast<PreparedPathology&>(out)); }
+
+void write(FieldWriter& out, const PathologyWish& in) {
+  write(out, static_cast<const PreparedPathology&>(in));
+}
+
 void read(FieldReader& in, PictureTruth& out) {
   in.records("bone", 0, 4, out.bone);
   in.records("screws", 0, 4, out.screws);
@@ -306,6 +328,40 @@ Result<AssetRating> parse_asset_rating(std::string_view text) {
 }
 
 std::string serialize(const AssetRating& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<CasePathology> parse_case_pathology(std::string_view text) {
+  JsonText json(text, 262144);
+  FieldReader in(json);
+  CasePathology out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const CasePathology& body, int indent) {
+  JsonWriter json;
+  FieldWriter out = json.root();
+  write(out, body);
+  return json.dump(indent);
+}
+
+Result<PathologyWish> parse_pathology_wish(std::string_view text) {
+  JsonText json(text, 16384);
+  FieldReader in(json);
+  PathologyWish out;
+  read(in, out);
+  in.finish();
+  if (json.failure()) return Refusal{*json.failure()};
+  return out;
+}
+
+std::string serialize(const PathologyWish& body, int indent) {
   JsonWriter json;
   FieldWriter out = json.root();
   write(out, body);

@@ -149,6 +149,34 @@ struct AssetRating {
 /// @param indent  spaces a level; negative writes one line.
 [[nodiscard]] std::string serialize(const AssetRating& body, int indent = -1);
 
+/// Most `findings` of one CasePathology.
+inline constexpr std::size_t kMaxCasePathologyFindings = 16;
+/// GET /api/pathology: whether who asks may prepare cases. With ?case=<id>, and the answer to its
+/// PUT, what that case has prepared: to instructors alone.
+struct CasePathology {
+  /// who asks is an instructor
+  bool may_prepare = false;
+  /// what may be chosen; none without a case
+  std::vector<Finding> findings;
+  /// none without a case
+  std::optional<PreparedPathology> prepared;
+  bool operator==(const CasePathology&) const = default;
+};
+
+[[nodiscard]] Result<CasePathology> parse_case_pathology(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const CasePathology& body, int indent = -1);
+
+/// PUT /api/pathology?case=<id>. What is to be wrong in that case from the next examination on. Of
+/// origin `seed` the grades are the host's.
+struct PathologyWish : PreparedPathology {
+  bool operator==(const PathologyWish&) const = default;
+};
+
+[[nodiscard]] Result<PathologyWish> parse_pathology_wish(std::string_view text);
+/// @param indent  spaces a level; negative writes one line.
+[[nodiscard]] std::string serialize(const PathologyWish& body, int indent = -1);
+
 /// Most `bone` of one PictureTruth.
 inline constexpr std::size_t kMaxPictureTruthBone = 4;
 /// Most `screws` of one PictureTruth.

@@ -54,6 +54,8 @@ const std::map<std::string, RoundTrip>& readers() {
       {"http/case_description", round_trip(&parse_case_description, kSerialize)},
       {"http/instrument_list", round_trip(&parse_instrument_list, kSerialize)},
       {"http/procedure_list", round_trip(&parse_procedure_list, kSerialize)},
+      {"http/case_pathology", round_trip(&parse_case_pathology, kSerialize)},
+      {"http/pathology_wish", round_trip(&parse_pathology_wish, kSerialize)},
       {"http/case_list", round_trip(&parse_case_list, kSerialize)},
       {"http/attempt", round_trip(&parse_attempt, kSerialize)},
       {"http/attempt_list", round_trip(&parse_attempt_list, kSerialize)},

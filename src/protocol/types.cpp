@@ -585,6 +585,32 @@ void write(FieldWriter& out, const Finding& in) {
   out.records("grades", in.grades);
 }
 
+void read(FieldReader& in, PreparedGrade& out) {
+  out.finding = in.string("finding", 64);
+  out.grade = in.string("grade", 16);
+}
+
+void write(FieldWriter& out, const PreparedGrade& in) {
+  out.text("finding", in.finding, 64);
+  out.text("grade", in.grade, 16);
+}
+
+void read(FieldReader& in, PreparedPathology& out) {
+  out.origin = static_cast<PathologyOrigin>(in.choice("origin", kPathologyOriginNames));
+  if (in.has("seed")) out.seed = in.integer("seed", 0, 9007199254740991);
+  in.records("grades", 0, 16, out.grades);
+}
+
+void write(FieldWriter& out, const PreparedPathology& in) {
+  out.name("origin", name_of(in.origin));
+  if (in.seed) {
+    out.value("seed", *in.seed);
+  } else {
+    out.null("seed");
+  }
+  out.records("grades", in.grades);
+}
+
 void read(FieldReader& in, ControlledScrew& out) {
   out.body = in.string("body", 32);
   out.tail_mm = in.vec3("tail_mm", 10000.0, 0.0);

@@ -190,6 +190,13 @@ inline constexpr std::array<std::string_view, 8> kLesionLookNames{
   return kLesionLookNames[static_cast<std::size_t>(value)];
 }
 
+/// Where what is wrong in a wrist that is examined comes from.
+enum class PathologyOrigin : std::uint8_t { Random, Chosen, Seed };
+inline constexpr std::array<std::string_view, 3> kPathologyOriginNames{"random", "chosen", "seed"};
+[[nodiscard]] constexpr std::string_view name_of(PathologyOrigin value) noexcept {
+  return kPathologyOriginNames[static_cast<std::size_t>(value)];
+}
+
 /// How a device is, in its own word.
 enum class DeviceHealth : std::uint8_t {
   Closed,
@@ -738,6 +745,24 @@ struct Finding {
   /// what is well first
   std::vector<FindingGrade> grades;
   bool operator==(const Finding&) const = default;
+};
+
+/// Of one finding, by the ids of `finding`.
+struct PreparedGrade {
+  std::string finding;
+  std::string grade;
+  bool operator==(const PreparedGrade&) const = default;
+};
+
+/// What a case has prepared to be wrong in its joints. At random each time: neither grades nor
+/// seed.
+struct PreparedPathology {
+  PathologyOrigin origin = PathologyOrigin::Random;
+  /// where within its place a patch lies; of origin `seed` the grades, too 0 to 9007199254740991
+  std::optional<std::int64_t> seed;
+  /// all others are well
+  std::vector<PreparedGrade> grades;
+  bool operator==(const PreparedPathology&) const = default;
 };
 
 /// A headless screw that lies in a bone before the exercise begins, as scanned: to be drawn, and

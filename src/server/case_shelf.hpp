@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/prepared_pathology.hpp"
 #include "protocol/bodies.hpp"
 #include "server/attempt_owners.hpp"
 #include "server/truth_gate.hpp"
@@ -87,6 +88,9 @@ struct OverCases {
   std::shared_ptr<AttemptOwners> quiz_owners = std::make_shared<AttemptOwners>();
   /// Closed while an assessed operation runs.
   std::shared_ptr<TruthGate> truth = std::make_shared<TruthGate>();
+  /// What the case has prepared to be wrong as an examination begins; throws as case_io does.
+  /// Empty: as it was when the case was loaded. In the thread aside.
+  std::function<std::optional<cases::PreparedPathology>()> prepared{};
 };
 
 }  // namespace carpus::server

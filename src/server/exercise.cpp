@@ -26,9 +26,10 @@ ExerciseStart begin_anew(const cases::CaseData& data,
                          std::uint64_t case_fingerprint,
                          const ExerciseSetup& setup,
                          const std::filesystem::path& records) {
-  return begin_anew(data, case_fingerprint, setup, records,
-                    simulation::World(data, *setup.procedure, setup.seed, setup.mode),
-                    simulation::World(data, *setup.procedure, setup.seed, setup.mode));
+  return begin_anew(
+      data, case_fingerprint, setup, records,
+      simulation::World(data, *setup.procedure, setup.seed, setup.mode, setup.prepared),
+      simulation::World(data, *setup.procedure, setup.seed, setup.mode, setup.prepared));
 }
 
 ExerciseStart begin_anew(const cases::CaseData& data,
@@ -37,8 +38,7 @@ ExerciseStart begin_anew(const cases::CaseData& data,
                          const std::filesystem::path& records,
                          simulation::World world,
                          simulation::World shadow) {
-  simulation::Recorder recorder(kProgramVersion, case_fingerprint, *setup.procedure, setup.seed,
-                                setup.mode);
+  simulation::Recorder recorder(kProgramVersion, case_fingerprint, world);
   ExerciseStart start{records::new_origin(),
                       records::utc_now(),
                       std::move(world),

@@ -31,7 +31,8 @@ struct ExerciseSetup {
   const procedure::Procedure* procedure = nullptr;  ///< must outlive the exercise
   std::uint64_t seed = 0;
   procedure::Mode mode = procedure::Mode::Practice;
-  std::uint64_t number = 0;    ///< the station's count
+  std::optional<cases::PreparedPathology> prepared{};  ///< to be wrong in an examined wrist
+  std::uint64_t number = 0;                            ///< the station's count
   TickGuest* guest = nullptr;  ///< devices that hold a hand; must outlive the exercise
 };
 

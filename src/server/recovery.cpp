@@ -50,7 +50,7 @@ bool is_undone_after(const simulation::Recording& recording, Tick tick) {
 Result<WorldAtEnd> world_at_end(const cases::CaseData& data,
                                 const procedure::Procedure& procedure,
                                 const simulation::Recording& recording) {
-  WorldAtEnd end{World(data, procedure, recording.seed, recording.mode),
+  WorldAtEnd end{World(data, procedure, recording.seed, recording.mode, recording.prepared),
                  recording.keyframes.size()};
   for (std::size_t back = 1;; back *= 2) {
     const auto reached =
@@ -153,6 +153,7 @@ ResumedExercise gone_on_with(Readable&& readable,
   setup.procedure = &procedure;
   setup.seed = exercise.recording.seed;
   setup.mode = exercise.recording.mode;
+  setup.prepared = exercise.recording.prepared;
   setup.number = static_cast<std::uint64_t>(exercise.head.exercise);
   auto journal = std::make_unique<ExerciseJournal>(std::move(readable.place), tick, last);
   journal->note_owner(exercise.owner);
@@ -257,7 +258,7 @@ LeftBehind look_for_what_was_left(const cases::CaseData& data,
       left.ended.push_back(stored_as_it_is(std::move(each), data, world ? &*world : nullptr));
       continue;
     }
-    World shadow(data, *procedure, recording.seed, recording.mode);
+    World shadow(data, *procedure, recording.seed, recording.mode, recording.prepared);
     auto pictures = last_pictures(shadow, each.exercise, keyframes, shots);
     if (!simulation::seek(shadow, recording, recording.tick_count(), keyframes)) continue;
     left.words.push_back(name +

@@ -115,7 +115,9 @@ HttpResponse ReplayDesk::exercise(std::int64_t id) {
   if (!recorded->problem.empty()) return cannot_be_shown(recorded->problem);
   simulation::Snapshot opening;
   opening.mode = recorded->recording->mode;
-  opening.seed = recorded->recording->seed;  // what is wrong in an examined wrist follows from it
+  // What is wrong in an examined wrist follows from these.
+  opening.seed = recorded->recording->seed;
+  opening.prepared = recorded->recording->prepared;
   const session::Session session(data_, *recorded->procedure, opening);
   return make_json(serialize(protocol::HostMessage(session.exercise())));
 }

@@ -101,8 +101,8 @@ void refuse_method(const RequestHead& head) {
   const std::string& method = head.method;
   if (method == "GET" || method == "HEAD") return;
   const bool changes_here =
-      (method == "PUT" &&
-       (is_at(head.target, kNewCaseFilePath) || is_at(head.target, kAssetPath))) ||
+      (method == "PUT" && (is_at(head.target, kNewCaseFilePath) || is_at(head.target, kAssetPath) ||
+                           is_at(head.target, kPathologyPath))) ||
       (method == "DELETE" && is_at(head.target, kNewCasePath)) ||
       (method == "POST" &&
        (is_at(head.target, kNewCasePath) || is_at(head.target, kNewCaseRunPath)));

@@ -27,8 +27,9 @@ inline constexpr std::string_view kNewCasePath = "/api/new_case";
 inline constexpr std::string_view kNewCaseRunPath = "/api/new_case/run";
 inline constexpr std::string_view kNewCaseMadePath = "/api/new_case/made";
 inline constexpr std::string_view kNewCaseFilePath = "/api/new_case/file";
-/// And at this one, by PUT alone (asset_desk.hpp). Nowhere else.
+/// And at these, by PUT alone (asset_desk.hpp, pathology_desk.hpp). Nowhere else.
 inline constexpr std::string_view kAssetPath = "/api/asset";
+inline constexpr std::string_view kPathologyPath = "/api/pathology";
 /// A body that claims to be longer is refused before a byte of it is read.
 inline constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{1} << 30U;
 

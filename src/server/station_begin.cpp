@@ -41,9 +41,12 @@ void Station::on_message(const protocol::Start& start) {
   setup.guest = &devices_->guest();
   is_beginning_ = true;
   over_cases_.truth->close(setup.mode == procedure::Mode::Assessed);
-  do_aside([this, setup = std::move(setup), owner = owner_word_, network = network_] {
+  do_aside([this, setup = std::move(setup), owner = owner_word_, network = network_]() mutable {
     BegunExercise begun;
     try {
+      if (setup.procedure->examines) {
+        setup.prepared = over_cases_.prepared ? over_cases_.prepared() : data_.pathology;
+      }
       ExerciseStart beginning = begin_anew(data_, case_fingerprint_, setup, records_.file());
       begun.exercise = std::make_unique<Exercise>(data_, setup, std::move(beginning));
       begun.exercise->loop().pause(true);

@@ -64,7 +64,7 @@ HttpResponse StationHttp::answer(const HttpRequest& request) const {
 std::size_t StationHttp::lane_of(const HttpRequest& request) {
   const auto path = decode_path(request.target);
   if (path && path->starts_with(kCases) && is_scan_path(*path)) return 3;
-  if (path && (*path == kQuizAnswers || *path == kAssetPath)) return 1;
+  if (path && (*path == kQuizAnswers || *path == kAssetPath || *path == kPathologyPath)) return 1;
   if (!path || !path->starts_with(kAttempts)) return 0;
   const std::size_t replay = path->find(kReplay);
   if (replay == std::string::npos) return 1;

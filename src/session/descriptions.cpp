@@ -154,18 +154,30 @@ protocol::InstrumentList instrument_list() {
   return list;
 }
 
+std::vector<protocol::Finding> findings_of(const arthroscopy::PathologyTable& table) {
+  std::vector<protocol::Finding> findings;
+  for (std::size_t f = 0; f < table.findings.size(); ++f) {
+    const arthroscopy::Scale& scale = table.scale_of(f);
+    protocol::Finding finding{table.findings[f].id, table.findings[f].label, scale.name, {}};
+    for (const arthroscopy::Grade& grade : scale.grades) {
+      finding.grades.push_back({grade.id, grade.label});
+    }
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
 protocol::Exercise exercise_message(const cases::CaseData& data,
                                     const procedure::Procedure& procedure,
                                     const procedure::Aim& aim,
-                                    procedure::Mode mode,
-                                    std::uint64_t seed) {
+                                    const simulation::Snapshot& opening) {
   protocol::Exercise message;
-  message.mode = static_cast<protocol::Mode>(mode);
+  message.mode = static_cast<protocol::Mode>(opening.mode);
   message.procedure = summary_of(procedure);
   for (const procedure::Step& step : procedure.steps) {
     message.steps.push_back(message_of(step));
     std::string& said = message.steps.back().instruction;
-    said = with_second_portal(std::move(said), data, procedure, seed);
+    said = with_second_portal(std::move(said), data, procedure, opening.seed);
   }
   for (const procedure::NamedView& view : procedure.views) {
     message.views.push_back({view.id, view.label, view.rotation_deg, view.tilt_deg,
@@ -181,8 +193,8 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
     message.bodies.push_back(
         {names.name(body), names.words(body), data.bones[body].bone == procedure.target});
   }
-  if (mode == procedure::Mode::Practice) message.ideal = ideal_of(aim, names);
-  message.arthroscopy = arthroscopy_of(data, procedure, seed);
+  if (opening.mode == procedure::Mode::Practice) message.ideal = ideal_of(aim, names);
+  message.arthroscopy = arthroscopy_of(data, procedure, opening.seed, opening.prepared);
   message.wrist_limits = message_of(data.hand_motion.limits);
   for (const procedure::DeclineReason& reason : procedure.decline.reasons) {
     message.decline_reasons.push_back({reason.id, reason.label});

@@ -13,6 +13,7 @@
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/pathology_table.hpp"
 #include "session/body_names.hpp"
+#include "session/descriptions.hpp"
 #include "simulation/lesions_of.hpp"
 #include "simulation/questions.hpp"
 
@@ -89,18 +90,6 @@ protocol::ControlledScrew screw_message(const cases::ControlledScrew& screw,
     message.thread_pitch_mm = each.rods.front().thread_pitch_mm;
   }
   return message;
-}
-
-/// What is asked about the joints.
-void add_questions(protocol::Arthroscopy& message, const arthroscopy::PathologyTable& table) {
-  for (std::size_t f = 0; f < table.findings.size(); ++f) {
-    protocol::Finding finding{
-        table.findings[f].id, table.findings[f].label, table.scale_of(f).name, {}};
-    for (const arthroscopy::Grade& grade : table.scale_of(f).grades) {
-      finding.grades.push_back({grade.id, grade.label});
-    }
-    message.findings.push_back(std::move(finding));
-  }
 }
 
 /// To hundredths of a millimetre: what lies still is told once.
@@ -206,9 +195,11 @@ protocol::JointFluid fluid_of(const simulation::FluidView& fluid) {
 
 }  // namespace
 
-std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
-                                                    const procedure::Procedure& procedure,
-                                                    std::uint64_t seed) {
+std::optional<protocol::Arthroscopy> arthroscopy_of(
+    const cases::CaseData& data,
+    const procedure::Procedure& procedure,
+    std::uint64_t seed,
+    const std::optional<cases::PreparedPathology>& prepared) {
   if (data.arthroscopy == nullptr) return std::nullopt;
   const auto all = instruments::catalogue();
   protocol::Arthroscopy message;
@@ -232,12 +223,15 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(const cases::CaseData& data,
                               data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});
   }
-  const std::optional<cases::JointLesions> wrong = simulation::lesions_of(data, procedure, seed);
+  const std::optional<cases::JointLesions> wrong =
+      simulation::lesions_of(data, procedure, seed, prepared);
   if (wrong) {
     add_lesions(message, *wrong, *data.arthroscopy, names);
     add_pieces(message, *wrong, *data.arthroscopy, names);
   }
-  if (const auto* asked = simulation::questions_of(procedure)) add_questions(message, *asked);
+  if (const auto* asked = simulation::questions_of(procedure)) {
+    message.findings = findings_of(*asked);
+  }
   if (wrong && wrong->screw) message.screw = screw_message(*wrong->screw, names);
   if (procedure.drill) message.drill = drill_of(*data.arthroscopy, *procedure.drill, names);
   add_sheets(message, *data.arthroscopy, names);

@@ -15,11 +15,12 @@
 namespace carpus::session {
 
 /// None where no scope is on the tray or the case has no map. Of an examination with what is wrong.
-/// @param seed  of the exercise.
+/// @param seed, prepared  of the exercise.
 [[nodiscard]] std::optional<protocol::Arthroscopy> arthroscopy_of(
     const cases::CaseData& data,
     const procedure::Procedure& procedure,
-    std::uint64_t seed);
+    std::uint64_t seed,
+    const std::optional<cases::PreparedPathology>& prepared = {});
 
 /// None where no hand holds a scope. What is in view now is told in practice alone.
 [[nodiscard]] std::optional<protocol::Scope> scope_message(const cases::CaseData& data,

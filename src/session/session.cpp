@@ -85,7 +85,7 @@ const HeldInput& Session::let_go() noexcept {
 }
 
 protocol::Exercise Session::exercise() const {
-  return exercise_message(data_, procedure_, aim_, latest_.mode, latest_.seed);
+  return exercise_message(data_, procedure_, aim_, latest_);
 }
 
 std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& now,

@@ -6,17 +6,22 @@
 #include "arthroscopy/make_loose_bodies.hpp"
 #include "arthroscopy/make_pieces.hpp"
 #include "arthroscopy/make_screw.hpp"
+#include "arthroscopy/named_grades.hpp"
 
 namespace carpus::simulation {
 
-std::optional<cases::JointLesions> lesions_of(const cases::CaseData& data,
-                                              const procedure::Procedure& procedure,
-                                              std::uint64_t seed) {
+std::optional<cases::JointLesions> lesions_of(
+    const cases::CaseData& data,
+    const procedure::Procedure& procedure,
+    std::uint64_t seed,
+    const std::optional<cases::PreparedPathology>& prepared) {
   if (data.arthroscopy == nullptr) return std::nullopt;
   const cases::ArthroscopicMap& map = *data.arthroscopy;
   if (procedure.examines) {
     const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
-    return arthroscopy::make_lesions(data, map, table, arthroscopy::grades_by(seed, table), seed);
+    const cases::PreparedPathology wrong =
+        prepared ? *prepared : arthroscopy::drawn_pathology(seed, table);
+    return arthroscopy::make_lesions(data, map, table, wrong.grades, wrong.seed);
   }
   if (procedure.controls_screw) return arthroscopy::make_screw(data, map, seed);
   if (const auto& removal = procedure.removal) {

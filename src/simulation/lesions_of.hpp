@@ -11,11 +11,13 @@
 
 namespace carpus::simulation {
 
-/// What is wrong in the joints of an exercise, by its seed: what an examination asks about, what
-/// lies loose, or what is to be shaved away; none where the procedure is about neither, or the case
-/// has no soft tissue.
-[[nodiscard]] std::optional<cases::JointLesions> lesions_of(const cases::CaseData& data,
-                                                            const procedure::Procedure& procedure,
-                                                            std::uint64_t seed);
+/// What is wrong in the joints of an exercise: what an examination asks about, as it was prepared,
+/// else by the seed; what lies loose, or what is to be shaved away, by the seed; none where the
+/// procedure is about neither, or the case has no soft tissue.
+[[nodiscard]] std::optional<cases::JointLesions> lesions_of(
+    const cases::CaseData& data,
+    const procedure::Procedure& procedure,
+    std::uint64_t seed,
+    const std::optional<cases::PreparedPathology>& prepared = {});
 
 }  // namespace carpus::simulation

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "arthroscopy/named_grades.hpp"
 #include "core/state_hash.hpp"
 #include "simulation/detail/bytes.hpp"
 
@@ -71,6 +72,36 @@ std::string get_instruments(Reader& in, std::vector<std::string>& ids) {
   return {};
 }
 
+void put_prepared(Writer& out, const cases::PreparedPathology& prepared) {
+  const auto named =
+      arthroscopy::named_grades(prepared.grades, arthroscopy::PathologyTable::generic());
+  out.put(prepared.seed, 8);
+  out.put(prepared.is_drawn ? 1 : 0, 1);
+  out.put(named.size(), 1);
+  for (const arthroscopy::NamedGrade& each : named) {
+    out.put(each.finding);
+    out.put(each.grade);
+  }
+}
+
+/// The reason for refusing, or empty.
+std::string get_prepared(Reader& in, cases::PreparedPathology& prepared) {
+  prepared.seed = in.get(8);
+  const auto is_drawn = in.get(1);
+  const auto count = static_cast<std::size_t>(in.get(1));
+  if (is_drawn > 1 || count > cases::kMaxFindings) return "recording: unknown pathology";
+  prepared.is_drawn = is_drawn == 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string finding = in.get_text();
+    const std::string grade = in.get_text();
+    if (in.is_spoilt()) return "recording: cut off in the header";
+    const auto set =
+        set_grade(prepared.grades, arthroscopy::PathologyTable::generic(), finding, grade);
+    if (!set) return "recording: " + set.error() + "; use the program that recorded it";
+  }
+  return {};
+}
+
 }  // namespace
 
 Recorder::Recorder(std::string program_version,
@@ -86,6 +117,15 @@ Recorder::Recorder(std::string program_version,
   for (const instruments::Instrument& instrument : instruments::catalogue()) {
     recording_.instruments.push_back(instrument.id);
   }
+}
+
+Recorder::Recorder(std::string program_version, std::uint64_t case_fingerprint, const World& world)
+    : Recorder(std::move(program_version),
+               case_fingerprint,
+               world.procedure(),
+               world.seed(),
+               world.mode()) {
+  recording_.prepared = world.prepared();
 }
 
 void Recorder::append_keyframe(Keyframe keyframe) {
@@ -109,7 +149,7 @@ std::vector<std::byte> encode(const Recording& recording) {
   for (const Keyframe& keyframe : recording.keyframes) size += 12 + keyframe.state.size();
   out.bytes().reserve(size);
   for (const char c : kMagic) out.put(static_cast<std::uint64_t>(c), 1);
-  out.put(kRecordingFormat, 2);
+  out.put(recording.prepared ? kPreparedRecordingFormat : kRecordingFormat, 2);
   out.put(recording.program_version);
   out.put(recording.case_fingerprint, 8);
   out.put(recording.procedure);
@@ -117,6 +157,7 @@ std::vector<std::byte> encode(const Recording& recording) {
   out.put(recording.seed, 8);
   out.put(recording.instruments.size(), 2);
   for (const std::string& id : recording.instruments) out.put(id);
+  if (recording.prepared) put_prepared(out, *recording.prepared);
   recording.runs.encode_to(out.bytes());
   out.put(0, kRunsEndBytes);
   out.put(recording.tick_count(), 8);
@@ -149,9 +190,11 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
                                           : ", of fractures that were not judged") +
                            "; it cannot be replayed, its stored score can be shown"};
   }
-  if (format != kRecordingFormat) {
+  if (format != kRecordingFormat && format != kPreparedRecordingFormat) {
     return carpus::Refusal{"recording: format " + std::to_string(format) + ", this program reads " +
-                           std::to_string(kRecordingFormat) + "; use the program that recorded it"};
+                           std::to_string(kRecordingFormat) + " and " +
+                           std::to_string(kPreparedRecordingFormat) +
+                           "; use the program that recorded it"};
   }
   Recording recording;
   recording.program_version = in.get_text();
@@ -162,6 +205,9 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
   recording.mode = static_cast<procedure::Mode>(mode);
   recording.seed = in.get(8);
   std::string reason = get_instruments(in, recording.instruments);
+  if (reason.empty() && format == kPreparedRecordingFormat) {
+    reason = get_prepared(in, recording.prepared.emplace());
+  }
   if (reason.empty()) reason = get_runs(in, bytes.size(), recording.runs);
   if (!reason.empty()) return carpus::Refusal{std::move(reason)};
   const auto ticks = in.get(8);
@@ -182,7 +228,7 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
 Replay replay(const cases::CaseData& data,
               const procedure::Procedure& procedure,
               const Recording& recording) {
-  World world(data, procedure, recording.seed, recording.mode);
+  World world(data, procedure, recording.seed, recording.mode, recording.prepared);
   for (const InputRun& run : recording.runs) {
     for (std::uint32_t i = 0; i < run.ticks; ++i) world.step(run.input);
   }
@@ -214,7 +260,8 @@ Result<bool> seek(World& world, const Recording& recording, Tick tick, std::size
       return carpus::Refusal{"recording: a keyframe is not of the tick that it names"};
     }
   } else {
-    world = World(world.case_data(), world.procedure(), recording.seed, recording.mode);
+    world = World(world.case_data(), world.procedure(), recording.seed, recording.mode,
+                  recording.prepared);
   }
   for (auto run = recording.runs.at(at); run != recording.runs.end() && at < tick; ++run) {
     const Tick end = std::min<Tick>(run.begin_tick() + run->ticks, tick);

@@ -6,13 +6,16 @@
 //
 // Layout, all little-endian: "CARPREC1"; u16 format version; text program version; u64 case
 // fingerprint; text procedure; u8 way to operate; u64 seed; u16 count and texts: the ids of the
-// instruments that commands name by number; then runs (input_runs.hpp); u32 0; u64 ticks in all;
-// u64 hash at the end; u32 keyframes, each u64 tick, u32 size, its bytes; u64 FNV-1a of all bytes
-// before it. A text is u16 size and UTF-8. A still hand costs nothing.
+// instruments that commands name by number; of an examination whose pathology was prepared (format
+// 7 instead of 6) u64 seed, u8 whether drawn by it, u8 count and as often two texts: finding,
+// grade; then runs (input_runs.hpp); u32 0; u64 ticks in all; u64 hash at the end; u32 keyframes,
+// each u64 tick, u32 size, its bytes; u64 FNV-1a of all bytes before it. A text is u16 size and
+// UTF-8. A still hand costs nothing.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,6 +34,8 @@ namespace carpus::simulation {
 
 /// Recordings of older formats show their stored score only; decode() says why of each.
 inline constexpr std::uint16_t kRecordingFormat = 6;
+/// Of a wrist with a prepared pathology. All others keep the format that older programs read.
+inline constexpr std::uint16_t kPreparedRecordingFormat = 7;
 
 /// A keyframe stands this often.
 inline constexpr Tick kKeyframeTicks = 10'000;
@@ -50,6 +55,8 @@ struct Recording {
   procedure::Mode mode = procedure::Mode::Practice;
   std::uint64_t seed = 0;
   std::vector<std::string> instruments;  ///< ids by number
+  /// What was wrong, where that was prepared: the case's may have been changed since.
+  std::optional<cases::PreparedPathology> prepared;
   InputRuns runs;
   std::vector<Keyframe> keyframes;  ///< rising ticks
   std::uint64_t end_hash = 0;       ///< Snapshot::state_hash after the last tick
@@ -67,6 +74,8 @@ class Recorder {
            const procedure::Procedure& procedure,
            std::uint64_t seed,
            procedure::Mode mode = procedure::Mode::Practice);
+  /// Of that world, before its first tick.
+  Recorder(std::string program_version, std::uint64_t case_fingerprint, const World& world);
   /// Goes on with what was recorded before.
   explicit Recorder(Recording begun) : recording_(std::move(begun)) {}
   /// Takes the input as the world does, quantised.
@@ -83,7 +92,7 @@ class Recorder {
 };
 
 /// What identifies a case to a recording: CT, surfaces, fields, hand motion, wrist frame and
-/// landmarks, to the bit.
+/// landmarks, to the bit. Not the pathology that it has prepared: that is in the recording.
 [[nodiscard]] std::uint64_t fingerprint_of(const cases::CaseData& data);
 
 [[nodiscard]] std::vector<std::byte> encode(const Recording& recording);

@@ -12,7 +12,7 @@ ReplayPlayer::ReplayPlayer(const cases::CaseData& data,
                            const procedure::Procedure& procedure,
                            std::shared_ptr<const Recording> recording)
     : recording_(std::move(recording)),
-      world_(data, procedure, recording_->seed, recording_->mode),
+      world_(data, procedure, recording_->seed, recording_->mode, recording_->prepared),
       opening_(world_.write_state()),
       run_(recording_->runs.begin()) {
   starts_.push_back({0, &opening_});

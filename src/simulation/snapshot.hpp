@@ -7,10 +7,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #include "cases/joint_lesions.hpp"
 #include "cases/ligament_band.hpp"
+#include "cases/prepared_pathology.hpp"
 #include "core/units.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
@@ -267,7 +269,9 @@ struct Snapshot {
   Tick tick = 0;
   std::uint64_t state_hash = 0;
   procedure::Mode mode = procedure::Mode::Practice;
-  std::uint64_t seed = 0;             ///< of the exercise
+  std::uint64_t seed = 0;  ///< of the exercise
+  std::optional<cases::PreparedPathology>
+      prepared;                       ///< what is wrong, where that is not the seed's
   std::uint8_t step = 0;              ///< current one; the number of steps when finished
   std::uint32_t completed_steps = 0;  ///< bit i: step i is done
   std::array<HandView, kHands> hands{};

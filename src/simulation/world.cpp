@@ -55,11 +55,13 @@ std::vector<BoneSolid> target_of(const cases::CaseData& data, BoneId target) {
 World::Model::Model(const cases::CaseData& case_data,
                     const procedure::Procedure& declared,
                     std::uint64_t first_seed,
-                    procedure::Mode way)
+                    procedure::Mode way,
+                    const std::optional<cases::PreparedPathology>& prepared_wrong)
     : data(case_data),
       procedure(declared),
       seed(first_seed),
       mode(way),
+      prepared(declared.examines ? prepared_wrong : std::nullopt),
       kinds(detail::kinds_of(case_data, declared)),
       catalogue(instruments::catalogue()),
       fields(fields_of(case_data)),
@@ -83,7 +85,7 @@ World::Model::Model(const cases::CaseData& case_data,
     if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
   }
   if (declared.making) open_skin();
-  if (map != nullptr) lesions = lesions_of(case_data, declared, seed);
+  if (map != nullptr) lesions = lesions_of(case_data, declared, seed, prepared);
   has_punch = !pieces().empty() && std::any_of(declared.tray.begin(), declared.tray.end(),
                                                [&](instruments::InstrumentIndex index) {
                                                  return catalogue[index].bite.has_value();
@@ -143,6 +145,7 @@ World::State::State(const Model& model)
   snapshot.body_count = static_cast<std::uint8_t>(model.data.bones.size());
   snapshot.mode = model.mode;
   snapshot.seed = model.seed;
+  snapshot.prepared = model.prepared;
   scene.set_cuts(tissue.cuts().fields());
   for (std::size_t s = 0; s < model.sheets.size(); ++s) {
     sheets[s].reset(model.sheets[s].net);
@@ -297,7 +300,14 @@ World::World(const cases::CaseData& data,
              const procedure::Procedure& procedure,
              std::uint64_t seed,
              procedure::Mode mode)
-    : model_(std::make_unique<Model>(data, procedure, seed, mode)),
+    : World(data, procedure, seed, mode, data.pathology) {}
+
+World::World(const cases::CaseData& data,
+             const procedure::Procedure& procedure,
+             std::uint64_t seed,
+             procedure::Mode mode,
+             const std::optional<cases::PreparedPathology>& prepared)
+    : model_(std::make_unique<Model>(data, procedure, seed, mode, prepared)),
       state_(std::make_unique<State>(*model_)) {
   state_->open(*model_);
 }
@@ -367,6 +377,9 @@ const TickFaults& World::faults() const noexcept { return state_->faults; }
 const procedure::Procedure& World::procedure() const noexcept { return model_->procedure; }
 procedure::Mode World::mode() const noexcept { return model_->mode; }
 std::uint64_t World::seed() const noexcept { return model_->seed; }
+const std::optional<cases::PreparedPathology>& World::prepared() const noexcept {
+  return model_->prepared;
+}
 const cases::JointLesions* World::lesions() const noexcept {
   return model_->lesions ? &*model_->lesions : nullptr;
 }

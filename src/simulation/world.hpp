@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,8 +43,15 @@ class World {
   /// Sets up an exercise; takes about 0.2 s and all the memory that it will need.
   /// @param data  the case as scanned, with distance fields, CT and hand motion; it and the
   ///              procedure must outlive the world and not change.
+  /// @param prepared  what is wrong in a wrist that is examined; none: the seed decides.
   /// @throws InvalidInput when the case lacks what the procedure operates on, a CT or a bone's
   ///     distance field.
+  World(const cases::CaseData& data,
+        const procedure::Procedure& procedure,
+        std::uint64_t seed,
+        procedure::Mode mode,
+        const std::optional<cases::PreparedPathology>& prepared);
+  /// As the case has it prepared. A replay names what its recording had instead.
   World(const cases::CaseData& data,
         const procedure::Procedure& procedure,
         std::uint64_t seed,
@@ -75,6 +83,8 @@ class World {
   [[nodiscard]] const TickFaults& faults() const noexcept;
   [[nodiscard]] const procedure::Procedure& procedure() const noexcept;
   [[nodiscard]] std::uint64_t seed() const noexcept;
+  /// What was prepared to be wrong; none where the seed decides, or it is no examination.
+  [[nodiscard]] const std::optional<cases::PreparedPathology>& prepared() const noexcept;
   /// What is wrong in the joints of this exercise; nullptr where it is no examination.
   [[nodiscard]] const cases::JointLesions* lesions() const noexcept;
   [[nodiscard]] procedure::Mode mode() const noexcept;

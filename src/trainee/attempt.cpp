@@ -27,7 +27,7 @@ Attempt operate_as(Trainee trainee,
                    const std::string& program_version) {
   simulation::World world(data, procedure, seed);
   show(trainee, world);
-  simulation::Recorder recorder(program_version, simulation::fingerprint_of(data), procedure, seed);
+  simulation::Recorder recorder(program_version, simulation::fingerprint_of(data), world);
   Attempt attempt;
   while (!world.now().finished) {
     const simulation::Input input = trainee.next(world.now());

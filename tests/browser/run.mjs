@@ -26,6 +26,7 @@ import { reviewClass } from "./review.mjs";
 import { lookAtScan } from "./scan.mjs";
 import { arthroscopy, basics, biting, examination, removal, shaving } from "./scope.mjs";
 import { makesPortals } from "./portals.mjs";
+import { preparesPathology } from "./pathology.mjs";
 import { screwControl } from "./screw.mjs";
 import { startStation } from "./station.mjs";
 import { playQuiz } from "./view_quiz.mjs";
@@ -664,6 +665,7 @@ try {
   await byItsLink(browser);
   await chooseAmongCases(browser);
   await ratesByAsset(browser);
+  await preparesPathology(browser);
 } finally {
   await browser.close();
   await station.stop();

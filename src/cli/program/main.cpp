@@ -26,6 +26,7 @@
 #include "cli/kinematics_command.hpp"
 #include "cli/mend_command.hpp"
 #include "cli/parallel_executor.hpp"
+#include "cli/pathology_command.hpp"
 #include "cli/phantom_command.hpp"
 #include "cli/reconstruct_command.hpp"
 #include "cli/replay_command.hpp"
@@ -53,6 +54,7 @@ void add_commands(CLI::App& app) {
   add_segment_command(app);
   add_mend_command(app);
   add_soft_tissue_command(app);
+  add_pathology_command(app);
   add_export_command(app);
   add_kinematics_command(app);
   add_hull_command(app);

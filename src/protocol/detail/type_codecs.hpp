@@ -101,6 +101,12 @@ void write(FieldWriter& out, const FindingGrade& in);
 void read(FieldReader& in, Finding& out);
 void write(FieldWriter& out, const Finding& in);
 
+void read(FieldReader& in, PreparedGrade& out);
+void write(FieldWriter& out, const PreparedGrade& in);
+
+void read(FieldReader& in, PreparedPathology& out);
+void write(FieldWriter& out, const PreparedPathology& in);
+
 void read(FieldReader& in, ControlledScrew& out);
 void write(FieldWriter& out, const ControlledScrew& in);
 

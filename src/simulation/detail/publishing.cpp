@@ -145,6 +145,11 @@ void World::State::update_hash(const Model& model) noexcept {
   StateHash hash;
   hash.add(model.seed);
   hash.add(static_cast<std::uint64_t>(model.mode));
+  // Where nothing was prepared hashes stay as they were before anything could be.
+  if (model.prepared) {
+    hash.add(model.prepared->seed);
+    for (const std::uint8_t grade : model.prepared->grades) hash.add(std::uint64_t{grade});
+  }
   const HashFields fields{hash};
   visit(now, fields);
   visit(spent, fields);

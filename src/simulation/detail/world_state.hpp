@@ -45,7 +45,8 @@ struct World::Model {
   Model(const cases::CaseData& data,
         const procedure::Procedure& procedure,
         std::uint64_t seed,
-        procedure::Mode mode);
+        procedure::Mode mode,
+        const std::optional<cases::PreparedPathology>& prepared);
 
   void open_skin();
 
@@ -53,6 +54,7 @@ struct World::Model {
   const procedure::Procedure& procedure;
   std::uint64_t seed;
   procedure::Mode mode;
+  std::optional<cases::PreparedPathology> prepared;  ///< of an examination; else none
   detail::BodyKinds kinds;
   std::span<const instruments::Instrument> catalogue;
   std::vector<fields::ContactField> fields;  ///< by body

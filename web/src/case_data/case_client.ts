@@ -9,6 +9,7 @@ import {
   parseCArmPicture,
   parseCaseDescription,
   parseCaseList,
+  parseCasePathology,
   parsePictureTruth,
   parseProcedureList,
   parseQuizAnswerList,
@@ -21,7 +22,9 @@ import {
   type CArmPicture,
   type CaseDescription,
   type CaseList,
+  type CasePathology,
   type Parsed,
+  type PathologyWish,
   type PictureTruth,
   type ProcedureSummary,
   type QuizAnswerList,
@@ -92,14 +95,11 @@ export function fetchAssetForms(id: number): Promise<AssetForms> {
   return ask(`/api/asset?attempt=${id}`, parseAssetForms);
 }
 
-/** Stores a form, or amends the one that it began from. @return all of the attempt's */
-export async function saveAssetRating(id: number, rating: AssetRating): Promise<AssetForms> {
+/** Stores what was set here. @return what the host then holds */
+async function put<T>(path: string, body: unknown, parse: (text: string) => Parsed<T>): Promise<T> {
   let answer: Response;
   try {
-    answer = await fetch(`/api/asset?attempt=${id}`, {
-      method: "PUT",
-      body: JSON.stringify(rating),
-    });
+    answer = await fetch(path, { method: "PUT", body: JSON.stringify(body) });
   } catch {
     throw new HostUnreachable(
       "Not saved: the host does not answer. The form stays here; save it again when it does.",
@@ -108,9 +108,32 @@ export async function saveAssetRating(id: number, rating: AssetRating): Promise<
   const text = await answer.text();
   // The host says why, for people.
   if (!answer.ok) throw new Error(`Not saved: ${text.trim()}`);
-  const parsed = parseAssetForms(text);
+  const parsed = parse(text);
   if (parsed.ok) return parsed.value;
   throw new HostUnreachable(`The host's answer cannot be read: ${parsed.reason}. Reload the page.`);
+}
+
+/** Stores a form, or amends the one that it began from. @return all of the attempt's */
+export function saveAssetRating(id: number, rating: AssetRating): Promise<AssetForms> {
+  return put(`/api/asset?attempt=${id}`, rating, parseAssetForms);
+}
+
+/** Whether who looks at this page is an instructor, who prepares cases; no case's is told. */
+export async function mayPrepareCases(): Promise<boolean> {
+  return (await ask("/api/pathology", parseCasePathology)).may_prepare;
+}
+
+function pathologyOf(caseId: string): string {
+  return `/api/pathology?case=${encodeURIComponent(caseId)}`;
+}
+
+/** What a case has prepared to be wrong; the host refuses whoever is no instructor. */
+export function fetchCasePathology(caseId: string): Promise<CasePathology> {
+  return ask(pathologyOf(caseId), parseCasePathology);
+}
+
+export function savePathology(caseId: string, wish: PathologyWish): Promise<CasePathology> {
+  return put(pathologyOf(caseId), wish, parseCasePathology);
 }
 
 /** The picture that was taken in a tick of a stored attempt, or the live one of it. */

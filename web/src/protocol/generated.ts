@@ -71,6 +71,9 @@ export type SheetKind = "disc" | "ligament";
 /** How something that is wrong in a joint shows. */
 export type LesionLook = "stain" | "tear" | "worn" | "soft" | "fissured" | "frayed" | "bare" | "loose";
 
+/** Where what is wrong in a wrist that is examined comes from. */
+export type PathologyOrigin = "random" | "chosen" | "seed";
+
 /** How a device is, in its own word. */
 export type DeviceHealth = "closed" | "starting" | "uncalibrated" | "good" | "holding_back" | "silent" | "faulty" | "gone";
 
@@ -541,6 +544,21 @@ export interface Finding {
   readonly scale: string;
   /** what is well first */
   readonly grades: readonly FindingGrade[];
+}
+
+/** Of one finding, by the ids of `finding`. */
+export interface PreparedGrade {
+  readonly finding: string;
+  readonly grade: string;
+}
+
+/** What a case has prepared to be wrong in its joints. At random each time: neither grades nor seed. */
+export interface PreparedPathology {
+  readonly origin: PathologyOrigin;
+  /** where within its place a patch lies; of origin `seed` the grades, too 0 to 9007199254740991 */
+  readonly seed: number | null;
+  /** all others are well */
+  readonly grades: readonly PreparedGrade[];
 }
 
 /** A headless screw that lies in a bone before the exercise begins, as scanned: to be drawn, and what a report of the operation says of it. Generated. */
@@ -1559,6 +1577,20 @@ export interface AssetRating {
   readonly comment: string;
 }
 
+/** GET /api/pathology: whether who asks may prepare cases. With ?case=<id>, and the answer to its PUT, what that case has prepared: to instructors alone. */
+export interface CasePathology {
+  /** who asks is an instructor */
+  readonly may_prepare: boolean;
+  /** what may be chosen; none without a case */
+  readonly findings: readonly Finding[];
+  /** none without a case */
+  readonly prepared: PreparedPathology | null;
+}
+
+/** PUT /api/pathology?case=<id>. What is to be wrong in that case from the next examination on. Of origin `seed` the grades are the host's. */
+export interface PathologyWish extends PreparedPathology {
+}
+
 /** GET /api/attempts/<id>/replay/truth?at=<tick>. What was true of a picture that was taken then. */
 export interface PictureTruth {
   readonly bone: readonly PictureOutline[];
@@ -1649,6 +1681,16 @@ export function parseAssetForms(text: string): Parsed<AssetForms> {
 /** Validates the body of an HTTP answer; never throws. */
 export function parseAssetRating(text: string): Parsed<AssetRating> {
   return parseBody(text, rules.ASSET_RATING, 32768, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parseCasePathology(text: string): Parsed<CasePathology> {
+  return parseBody(text, rules.CASE_PATHOLOGY, 262144, rules.SCHEMA);
+}
+
+/** Validates the body of an HTTP answer; never throws. */
+export function parsePathologyWish(text: string): Parsed<PathologyWish> {
+  return parseBody(text, rules.PATHOLOGY_WISH, 16384, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

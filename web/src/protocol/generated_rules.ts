@@ -28,6 +28,7 @@ export const SCHEMA: Schema = {
     tissue_kind: { values: ["synovium", "disc"] },
     sheet_kind: { values: ["disc", "ligament"] },
     lesion_look: { values: ["stain", "tear", "worn", "soft", "fissured", "frayed", "bare", "loose"] },
+    pathology_origin: { values: ["random", "chosen", "seed"] },
     device_health: { values: ["closed", "starting", "uncalibrated", "good", "holding_back", "silent", "faulty", "gone"] },
     calibration_step: { values: ["begin", "take", "cancel"] },
     device_aim: { values: ["page", "portal", "own"] },
@@ -286,6 +287,15 @@ export const SCHEMA: Schema = {
       label: {"type": "string", "max_length": 128},
       scale: {"type": "string", "max_length": 64},
       grades: {"type": "array", "of": {"type": "finding_grade"}, "max_items": 15},
+    } },
+    prepared_grade: { fields: {
+      finding: {"type": "string", "max_length": 64},
+      grade: {"type": "string", "max_length": 16},
+    } },
+    prepared_pathology: { fields: {
+      origin: {"type": "pathology_origin"},
+      seed: {"type": "integer", "min": 0, "max": 9007199254740991, "optional": true},
+      grades: {"type": "array", "of": {"type": "prepared_grade"}, "max_items": 16},
     } },
     controlled_screw: { fields: {
       body: {"type": "string", "max_length": 32},
@@ -834,6 +844,18 @@ export const ASSET_RATING: Rules = {
   revision: {"type": "integer", "min": 0, "max": 4294967295},
   answers: {"type": "array", "of": {"type": "asset_answer"}, "max_items": 16},
   comment: {"type": "string", "max_length": 2000},
+};
+
+export const CASE_PATHOLOGY: Rules = {
+  may_prepare: {"type": "boolean"},
+  findings: {"type": "array", "of": {"type": "finding"}, "max_items": 16},
+  prepared: {"type": "prepared_pathology", "optional": true},
+};
+
+export const PATHOLOGY_WISH: Rules = {
+  origin: {"type": "pathology_origin"},
+  seed: {"type": "integer", "min": 0, "max": 9007199254740991, "optional": true},
+  grades: {"type": "array", "of": {"type": "prepared_grade"}, "max_items": 16},
 };
 
 export const PICTURE_TRUTH: Rules = {

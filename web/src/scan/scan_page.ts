@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fetches a case's scan and shows it; says what comes, and what does not.
-import { fetchCases, titleAmong } from "../case_data";
+import { fetchCases, mayPrepareCases, titleAmong } from "../case_data";
 import { button, make, setText } from "../dom";
 import type { CaseList } from "../protocol";
+import { PathologyDialog } from "../pathology";
 import { mayAddCases } from "./new_case_client";
 import "./scan.css";
 import { ScanDesk } from "./scan_desk";
@@ -24,7 +25,11 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
     ),
   );
   const load = async (): Promise<void> => {
-    const [cases, mayAdd] = await Promise.all([fetchCases(), mayAddCases()]);
+    const [cases, mayAdd, mayPrepare] = await Promise.all([
+      fetchCases(),
+      mayAddCases(),
+      mayPrepareCases().catch(() => false),
+    ]);
     const id = wanted ?? cases.open;
     const scanned = await fetchScannedCase(id, abort.signal);
     const percent = (part: number): void => {
@@ -45,7 +50,16 @@ export function openScan(app: HTMLElement, wanted: string | undefined): () => vo
         () => undefined, // they are in the list when the page is opened next
       );
     };
-    desk = new ScanDesk({ id, scanned, ct, labels, ways: [links], mayAdd, added });
+    const here = cases.cases.find((one) => one.id === id);
+    const prepare =
+      mayPrepare && here !== undefined
+        ? [
+            button("Pathology…", "", () => {
+              new PathologyDialog().open(id, titleAmong(here, cases.cases));
+            }),
+          ]
+        : [];
+    desk = new ScanDesk({ id, scanned, ct, labels, ways: [links, ...prepare], mayAdd, added });
     app.replaceChildren(desk.element);
     desk.begin();
   };

@@ -49,6 +49,8 @@ export class StartDialog {
   private readonly resume: HTMLButtonElement;
   private readonly end: HTMLButtonElement;
   private cards: CaseCards | undefined;
+  /** Of instructors; not where one is to be assessed. */
+  private readonly prepare = make("span.start-scan");
   private readonly note = make("p.start-note", { role: "status" });
 
   constructor(
@@ -95,6 +97,7 @@ export class StartDialog {
           " · ",
           make("a", { href: "#/views" }, "View quiz"),
           make("span.start-scan", {}, " · ", make("a", { href: "#/scan" }, "Scan")),
+          this.prepare,
         ),
         this.end,
         this.resume,
@@ -214,6 +217,11 @@ export class StartDialog {
     this.cards = new CaseCards(list, choose);
     this.cards.show(this.mode);
     this.element.querySelector(".start-facts")?.before(this.cards.element);
+  }
+
+  /** For instructors: the way to what is wrong in the open case. */
+  offerPathology(open: () => void): void {
+    this.prepare.replaceChildren(" · ", button("Pathology…", "", open, ".start-way"));
   }
 
   private get mode(): Mode {

@@ -3,7 +3,8 @@
 //
 // Lets another case be chosen, or takes the one that the address wants, and goes with the host where
 // it has opened another.
-import { fetchCases, nextForWanted, wantedCase } from "../case_data";
+import { fetchCases, mayPrepareCases, nextForWanted, titleAmong, wantedCase } from "../case_data";
+import { PathologyDialog } from "../pathology";
 import type { CaseList, PageMessage } from "../protocol";
 import type { StartDialog } from "../start_dialog";
 
@@ -31,6 +32,7 @@ export class CaseChoice {
       forgetWanted(); // who chooses by hand wants nothing else any more
       this.choose(id);
     });
+    void this.offerPathology(list);
   }
 
   /** The host is there, maybe again. */
@@ -54,6 +56,16 @@ export class CaseChoice {
   /** The host refused something: if it was the case, it stays where it is. */
   refused(): void {
     if (this.isOpening) this.refuse(NOT_OPENED);
+  }
+
+  /** To instructors: a trainee's page is not even told whether there is one. */
+  private async offerPathology(list: CaseList): Promise<void> {
+    const open = list.cases.find((one) => one.id === list.open);
+    const may = await mayPrepareCases().catch(() => false);
+    if (open === undefined || !may) return;
+    this.room.start.offerPathology(() => {
+      new PathologyDialog().open(open.id, titleAmong(open, list.cases));
+    });
   }
 
   private followAddress(list: CaseList): void {
