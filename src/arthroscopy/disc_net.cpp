@@ -12,8 +12,7 @@ namespace {
 /// at about 1 N is [E].
 constexpr yielding::SheetMaterial kDisc{16.0, 0.25, 0.8, 60.0};
 constexpr double kSpacingMm = 0.8;
-constexpr const char* kOffTheFovea = "1B";
-constexpr double kOffMm = 4.0;       // about the tear [E]
+constexpr double kOffMm = 3.2;       // about the tear [E]
 constexpr double kLeftShare = 0.05;  // of what lay under it and holds it still [E]
 constexpr double kRestsOffMm = 1.3;  // resting offset of a detached disc [S78]
 

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arthroscopy/yielding_figures.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 
 #include "arthroscopy/band_net.hpp"
 #include "arthroscopy/band_table.hpp"
+#include "arthroscopy/disc_net.hpp"
+#include "arthroscopy/make_lesions.hpp"
+#include "arthroscopy/named_grades.hpp"
+#include "arthroscopy/pathology_table.hpp"
 #include "yielding/net_of_band.hpp"
 #include "yielding/net_state.hpp"
 
@@ -16,6 +21,15 @@ namespace {
 constexpr double kProbeMm = 0.5;  // radius of the hook probe [K, B9]
 constexpr int kTicks = 2000;      // until it rests
 constexpr double kMmPerN = 0.01;  // a tick: as a hand sinks in
+constexpr double kNewtons = 1.0;
+
+DiscFigures figures_of(const yielding::Net& net, const Vec3& middle, const Vec3& edge) {
+  DiscFigures made;
+  made.press_mm = pressed_in_mm(net, middle, kHalfDiscMm, kNewtons);
+  made.lifted_mm = lifted_mm(net, edge, kNewtons);
+  made.particles = net.size();
+  return made;
+}
 
 }  // namespace
 
@@ -38,6 +52,49 @@ double pressed_in_mm(const yielding::Net& net,
     deep += kMmPerN * (newtons - dot(state->force_on(0), normal));
   }
   return deep;
+}
+
+double lifted_mm(const yielding::Net& net, const Vec3& at, double newtons) {
+  const auto state = std::make_unique<yielding::NetState>();
+  state->reset(net);
+  yielding::Tip tip;
+  tip.is_there = true;
+  tip.hooked = state->nearest(net, at);
+  if (tip.hooked >= net.size()) return 0;
+  const Vec3 normal = net.normals()[tip.hooked];
+  double lift = 0;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    tip.at = net.rest()[tip.hooked] + normal * lift;
+    state->step(net, std::span<const yielding::Tip>(&tip, 1));
+    lift += kMmPerN * (newtons + dot(state->force_on(0), normal));
+  }
+  return dot(state->off(tip.hooked), normal);
+}
+
+std::vector<DiscFigures> disc_figures(const cases::CaseData& data,
+                                      const cases::ArthroscopicMap& map) {
+  const yielding::Net whole = disc_net(map, nullptr);
+  if (whole.size() == 0) return {};
+  Vec3 middle;
+  for (const Vec3& at : whole.rest()) middle += at / static_cast<double>(whole.size());
+  Vec3 edge = middle;
+  for (const cases::TourPoint& point : map.points) {
+    if (point.number == kHookTestPoint) edge = point.at;
+  }
+  std::vector<DiscFigures> all{figures_of(whole, middle, edge)};
+  const PathologyTable& table = PathologyTable::generic();
+  cases::Grades torn{};
+  if (!set_grade(torn, table, "disc", kOffTheFovea)) return all;
+  const cases::JointLesions lesions = make_lesions(data, map, table, torn, 1);
+  if (lesions.grades != torn) return all;
+  const yielding::Net off = disc_net(map, &lesions);
+  DiscFigures made = figures_of(off, middle, edge);
+  made.has_come_off = true;
+  for (std::size_t i = 0; i < std::min(whole.size(), off.size()); ++i) {
+    made.rests_off_mm = std::max(made.rests_off_mm, distance(whole.rest()[i], off.rest()[i]));
+  }
+  all.push_back(made);
+  return all;
 }
 
 std::vector<BandFigures> band_figures(const cases::ArthroscopicMap& map) {

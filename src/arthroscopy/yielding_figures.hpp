@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/arthroscopic_map.hpp"
+#include "cases/case_data.hpp"
 #include "yielding/net.hpp"
 
 namespace carpus::arthroscopy {
@@ -20,6 +21,24 @@ namespace carpus::arthroscopy {
                                    const Vec3& at,
                                    double half_thick_mm,
                                    double newtons);
+
+/// How far a hook with that force lifts the net's particle nearest to `at` along its normal,
+/// beyond where it rests [mm].
+[[nodiscard]] double lifted_mm(const yielding::Net& net, const Vec3& at, double newtons);
+
+/// The disc, whole or come off the fovea (Palmer 1B); under 1 N.
+struct DiscFigures {
+  bool has_come_off = false;
+  double press_mm = 0;      ///< trampoline: in its middle
+  double rests_off_mm = 0;  ///< of its ulnar edge, from where a whole one has it
+  double lifted_mm = 0;     ///< hook test: at that edge, besides
+  std::size_t particles = 0;
+};
+
+/// Whole, then come off; none where the case has no disc, the first alone where nothing of a tear
+/// can be laid on it.
+[[nodiscard]] std::vector<DiscFigures> disc_figures(const cases::CaseData& data,
+                                                    const cases::ArthroscopicMap& map);
 
 /// One ligament at one grade; under 1 N.
 struct BandFigures {

@@ -93,7 +93,7 @@ void run(const Arguments& a) {
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   const cases::ArthroscopicMap map = arthroscopy::make_map(data, tissue);
   std::fputs(portal_table(map, data).c_str(), stdout);
-  std::fputs(yielding_table(map).c_str(), stdout);
+  std::fputs(yielding_table(data, map).c_str(), stdout);
   if (a.traction) print_traction(data, tissue);
   if (a.section) print_section(data, tissue, a);
   double whole = 0;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdio>
 
-#include "arthroscopy/disc_net.hpp"
 #include "arthroscopy/yielding_figures.hpp"
 
 namespace carpus::cli {
@@ -92,21 +91,19 @@ std::string portal_table(const cases::ArthroscopicMap& map, const cases::CaseDat
   return out;
 }
 
-std::string yielding_table(const cases::ArthroscopicMap& map) {
-  constexpr double kRebound = 0.6;  // of a whole disc [S78]
+std::string yielding_table(const cases::CaseData& data, const cases::ArthroscopicMap& map) {
   std::string out;
-  print(out,
-        "\nwhat yields, pressed in its middle by a probe's 1 N; mm, and N/mm along the fibres\n");
+  print(out, "\nthe disc under a probe's 1 N; mm; published [S78] in brackets\n");
+  print(out, "%-16s %18s %18s %22s %10s\n", "", "pressed, middle", "rests off by",
+        "lifted by its edge", "particles");
+  for (const arthroscopy::DiscFigures& f : arthroscopy::disc_figures(data, map)) {
+    print(out, "%-16s %11.2f (%.1f) %11.1f (%.1f) %22.2f %10zu\n",
+          f.has_come_off ? "off the fovea" : "whole", f.press_mm, f.has_come_off ? 0.7 : 0.6,
+          f.rests_off_mm, f.has_come_off ? 1.3 : 0.0, f.lifted_mm, f.particles);
+  }
+  print(out, "\nligaments under a probe's 1 N in their middle; mm, and N/mm along the fibres\n");
   print(out, "%-16s %6s %8s %9s %7s %8s %9s %11s %10s\n", "sheet", "grade", "pressed", "fitted to",
         "bulge", "along", "of fibres", "whole, B10", "particles");
-  const yielding::Net disc = arthroscopy::disc_net(map, nullptr);
-  if (disc.size() > 0) {
-    Vec3 middle;
-    for (const Vec3& at : disc.rest()) middle += at / static_cast<double>(disc.size());
-    print(out, "%-16s %6s %8.2f %9.2f %7s %8s %9s %11s %10zu\n", "disc", "whole",
-          arthroscopy::pressed_in_mm(disc, middle, arthroscopy::kHalfDiscMm, 1.0), kRebound, "", "",
-          "", "", disc.size());
-  }
   for (const arthroscopy::BandFigures& f : arthroscopy::band_figures(map)) {
     print(out, "%-16s %6s %8.2f %9.2f %7.2f %8.0f %9.0f %11.0f %10zu\n", f.band.c_str(),
           f.grade.c_str(), f.press_mm, f.wanted_mm.value_or(0), f.bulge_mm, f.along_n_per_mm,

@@ -21,7 +21,8 @@ namespace carpus::cli {
                                        const cases::CaseData& data);
 
 /// What yields to a probe's 1 N, beside what it is fitted to or published.
-[[nodiscard]] std::string yielding_table(const cases::ArthroscopicMap& map);
+[[nodiscard]] std::string yielding_table(const cases::CaseData& data,
+                                         const cases::ArthroscopicMap& map);
 
 /// One line: how many of each, volumes, deepest place in bone, problems.
 [[nodiscard]] std::string soft_tissue_line(const soft_tissue::SoftTissue& tissue);

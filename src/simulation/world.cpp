@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "arthroscopy/disc_net.hpp"
 #include "core/error.hpp"
 #include "haptics/tissue_feel.hpp"
 #include "simulation/asked_portals.hpp"
@@ -27,7 +28,6 @@ namespace {
 
 constexpr double kWorkspaceMm = 1000.0;    // beyond this from the CT's origin a tip makes no sense
 constexpr double kGreatestThrustN = 60.0;  // protocol/protocol.json
-constexpr int kHookTest = 16;              // of the tour [K, B8]
 constexpr double kSkinMm = 90.0;           // about the first portal, of skin that is worked on
 constexpr double kGreatestShaft = 4.0;     // by component, before it is normalised
 
@@ -104,7 +104,7 @@ World::Model::Model(const cases::CaseData& case_data,
     yielding::NetState disc;
     disc.reset(sheets[detail::kDiscSheet].net);
     for (const cases::TourPoint& point : map->points) {
-      if (point.number == kHookTest) {
+      if (point.number == arthroscopy::kHookTestPoint) {
         disc_edge = disc.nearest(sheets[detail::kDiscSheet].net, point.at);
       }
     }

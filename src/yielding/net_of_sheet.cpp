@@ -37,7 +37,9 @@ bool take_off(const ComeOff& tear, Net::Particle& particle) {
   const double whole = squared_length(along);
   double share = whole > 0 ? dot(particle.rest - tear.from, along) / whole : 0;
   share = std::clamp(share, 0.0, 1.0);
-  const double off = distance(particle.rest, tear.from + along * share);
+  // In the sheet: the tear is told where it shows, on the joint's wall, not in the sheet's middle.
+  const Vec3 way = particle.rest - tear.from - along * share;
+  const double off = length(way - particle.normal * dot(way, particle.normal));
   if (off > tear.radius_mm) return false;
   particle.is_held = false;
   if (particle.foundation_mm_per_n > 0) particle.foundation_mm_per_n /= tear.left_share;
