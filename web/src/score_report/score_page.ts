@@ -22,7 +22,7 @@ import {
   isDeclined,
   isFixation,
   isRatedByAsset,
-  looksIntoJoints,
+  showsCartilage,
   mustHaveWords,
   verdictText,
 } from "./verdict_model";
@@ -138,7 +138,7 @@ function show(
     ...(attempt.case_is_open && report.is_void !== true && isFixation(report)
       ? [viewsSection(attempt)]
       : []),
-    ...(attempt.case_is_open && report.is_void !== true && looksIntoJoints(report)
+    ...(attempt.case_is_open && report.is_void !== true && showsCartilage(report)
       ? [cartilageSection(attempt, report, description, { isLeft, onLeave })]
       : []),
     eventList(attempt.events),

@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { answerText, mustHaveWords, verdictText } from "./verdict_model";
+import { answerText, mustHaveWords, showsCartilage, verdictText } from "./verdict_model";
 
 describe("verdictText", () => {
   const text = (
@@ -61,5 +61,14 @@ describe("mustHaveWords", () => {
     expect(mustHaveWords({ fulfilled: false, not_measured: null }).after).toBe(": not fulfilled");
     const unjudged = mustHaveWords({ fulfilled: false, not_measured: true });
     expect(unjudged).toEqual({ sign: "–", kind: "secondary", after: ": not judged" });
+  });
+});
+
+describe("showsCartilage", () => {
+  it("is where it was looked at, or scuffed", () => {
+    const scuff = { body: "lunate", at_mm: [0, 0, 0], how: "shaved", t_s: 1 };
+    expect(showsCartilage({ items: [], scuffs: null })).toBe(false);
+    expect(showsCartilage({ items: [], scuffs: [] })).toBe(false);
+    expect(showsCartilage({ items: [], scuffs: [scuff] as never })).toBe(true);
   });
 });

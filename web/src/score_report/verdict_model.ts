@@ -24,6 +24,11 @@ export function looksIntoJoints(report: Pick<ScoreReport, "items">): boolean {
   return report.items.some(({ id }) => id === "cartilage_seen_share");
 }
 
+/** Where it was looked at, or scuffed by whatever else was done there. */
+export function showsCartilage(report: Pick<ScoreReport, "items" | "scuffs">): boolean {
+  return looksIntoJoints(report) || (report.scuffs ?? []).length > 0;
+}
+
 export function isDeclined(report: Pick<ScoreReport, "declined_for">): boolean {
   return (report.declined_for ?? []).length > 0;
 }
