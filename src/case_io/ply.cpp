@@ -306,11 +306,13 @@ class Parser {
 
 void write_ply(const std::filesystem::path& file,
                const TriangleMesh& mesh,
-               std::span<const Vec3> normals) {
+               std::span<const Vec3> normals,
+               std::string_view remark) {
   CARPUS_CHECK(normals.empty() || normals.size() == mesh.vertices.size());
+  CARPUS_CHECK(remark.find('\n') == std::string_view::npos);
   std::string content =
-      "ply\nformat binary_little_endian 1.0\ncomment carpus, mm, frame Patient (LPS)\n"
-      "element vertex " +
+      "ply\nformat binary_little_endian 1.0\ncomment carpus, mm, frame Patient (LPS)\n" +
+      (remark.empty() ? "" : "comment " + std::string(remark) + "\n") + "element vertex " +
       std::to_string(mesh.vertices.size()) +
       "\nproperty double x\nproperty double y\nproperty double z" +
       (normals.empty() ? "" : "\nproperty float nx\nproperty float ny\nproperty float nz") +

@@ -14,10 +14,12 @@ namespace carpus::case_io {
 
 /// Writes binary little-endian PLY with double vertices, so that reading gives the same bits back.
 /// @param normals  of the vertices, as nx, ny, nz; may be empty
+/// @param remark  a comment in the file's header, of one line; may be empty
 /// @throws IoError where the file cannot be written whole.
 void write_ply(const std::filesystem::path& file,
                const TriangleMesh& mesh,
-               std::span<const Vec3> normals = {});
+               std::span<const Vec3> normals = {},
+               std::string_view remark = {});
 
 /// Reads binary little-endian PLY with scalar vertex properties x, y, z (others are skipped) and
 /// triangles. Nothing in the file is believed before it is checked: counts against the file's

@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 using namespace carpus::soft_tissue;
 
 constexpr const char* kFile = "soft_tissue.json";
+constexpr const char* kNote =
+    "Generated from the generic wrist and this case's bones; not seen in the CT.";
 constexpr std::uint64_t kLargest = std::uint64_t{64} << 20U;
 
 /// To thousandths: what a person reads; nothing is computed from it.
@@ -98,7 +100,7 @@ Json header_of(const SoftTissue& tissue) {
   json["format"] = "carpus soft tissue";
   json["schema_version"] = kSoftTissueSchemaVersion;
   json["generated"] = true;
-  json["note"] = "Generated from the generic wrist and this case's bones; not seen in the CT.";
+  json["note"] = kNote;
   json["size"] = tissue.size;
   json["worst_misfit_mm"] = figure(tissue.worst_misfit_mm);
   json["deepest_in_bone_mm"] = figure(tissue.deepest_in_bone_mm);
@@ -120,7 +122,7 @@ void write_soft_tissue(const SoftTissue& tissue,
   }
   AtomicFolder out(case_folder / kSoftTissueFolder, Overwrite::Replace);
   const auto save = [&](const std::string& name, const TriangleMesh& mesh) {
-    write_ply(out.staging() / name, mesh);
+    write_ply(out.staging() / name, mesh, {}, kNote);
     return name;
   };
   Json json = header_of(tissue);

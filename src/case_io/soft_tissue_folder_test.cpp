@@ -75,6 +75,20 @@ TEST_F(SoftTissueFolder, ComesBackAsItWas) {
   EXPECT_TRUE(fs::exists(folder_ / "soft_tissue" / "cartilage_scaphoid.ply"));
 }
 
+TEST_F(SoftTissueFolder, EachSurfaceSaysByItselfThatItIsGenerated) {
+  write_soft_tissue(small_tissue(), data_, folder_);
+  std::size_t surfaces = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "soft_tissue")) {
+    if (entry.path().extension() != ".ply") continue;
+    ++surfaces;
+    std::ifstream file(entry.path(), std::ios::binary);
+    std::string head(400, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    EXPECT_NE(head.find("comment Generated"), std::string::npos) << entry.path();
+  }
+  EXPECT_GE(surfaces, 3U);
+}
+
 TEST_F(SoftTissueFolder, DamageIsNamed) {
   const auto damaged = [&](const std::string& from, const std::string& to) {
     write_soft_tissue(small_tissue(), data_, folder_);

@@ -94,7 +94,7 @@ export class ScopeReadings {
         (plan.drill === null
           ? `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · `
           : "") +
-        `pull-outs ${scope?.pull_outs ?? 0} · generated`,
+        `pull-outs ${scope?.pull_outs ?? 0} · generated, not seen in the CT`,
     );
   }
 

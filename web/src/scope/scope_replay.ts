@@ -78,7 +78,10 @@ export class ScopeReplay {
     this.picture.canvas.hidden = !isIn;
     const seen = scope?.points_seen.length ?? 0;
     const where = isIn ? `in the ${portal?.joint ?? ""} joint by ${portal?.id ?? ""}` : "outside";
-    setText(this.caption, `${where}, ${seen} of ${this.plan.points.length} places seen`);
+    setText(
+      this.caption,
+      `${where}, ${seen} of ${this.plan.points.length} places seen · generated, not seen in the CT`,
+    );
     if (!isIn || item === undefined || portal === undefined) return;
     for (const wall of this.walls) {
       if (wall.joint === DISC_JOINT) wall.cutDisc(cutPlaces(this.plan, scope.pieces_left));

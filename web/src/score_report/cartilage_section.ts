@@ -39,7 +39,7 @@ export function cartilageSection(
           label: "Bones of the joints, drawn apart row from row",
           caption: `Rows are drawn apart. Green: seen near and steep enough, nothing before it; brown: not.${
             scuffs.length === 0 ? "" : " Red dots with numbers: scuffed."
-          }`,
+          } Cartilage is generated, not seen in the CT.`,
         },
       );
       if (staying.isLeft()) {
