@@ -59,9 +59,10 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 10U);
+  ASSERT_EQ(built_in().all().size(), 11U);
   EXPECT_NE(built_in().find("arthroscopic_portal_making"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);
+  EXPECT_NE(built_in().find("arthroscopic_basics_harder"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_disc_debridement"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_examination"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_loose_body_removal"), nullptr);
@@ -71,6 +72,19 @@ TEST(BuiltIn, OffersEveryFolder) {
   EXPECT_NE(built_in().find("dorsal_scaphoid_fixation"), nullptr);
   EXPECT_NE(built_in().find("volar_scaphoid_fixation"), nullptr);
   EXPECT_EQ(built_in().find("four_corner_fusion"), nullptr);
+}
+
+TEST(BuiltIn, HarderBasicSkillsDifferInWhatTheyDemandAlone) {
+  const auto& basics = *built_in().find("arthroscopic_basics");
+  const auto& harder = *built_in().find("arthroscopic_basics_harder");
+  EXPECT_GT(harder.drill->hold_s, basics.drill->hold_s);
+  EXPECT_LT(harder.drill->middle_deg, basics.drill->middle_deg);
+  EXPECT_LT(harder.drill->still_mm, basics.drill->still_mm);
+  EXPECT_LT(harder.drill->touch_mm, basics.drill->touch_mm);
+  EXPECT_LT(harder.drill->line_mm, basics.drill->line_mm);
+  EXPECT_EQ(harder.drill->hold, basics.drill->hold);
+  EXPECT_EQ(harder.steps.size(), basics.steps.size());
+  EXPECT_EQ(harder.rules.items.size(), basics.rules.items.size());
 }
 
 TEST(BuiltIn, EachCanBeDoneAndScored) {

@@ -8,13 +8,15 @@
 namespace carpus::procedures::arthroscopic_basics {
 namespace {
 
-procedure::Opening opening(const cases::CaseData& data) {
-  procedure::Opening opening = arthroscopy::opening(data, "basic skills");
-  arthroscopy::refuse_without_places(data, *declared().drill, "basic skills");
-  return opening;
-}
+procedure::Opening opening(const cases::CaseData& data) { return opened(declared(), data); }
 
 }  // namespace
+
+procedure::Opening opened(const procedure::Procedure& graded, const cases::CaseData& data) {
+  procedure::Opening opening = arthroscopy::opening(data, "basic skills");
+  arthroscopy::refuse_without_places(data, *graded.drill, "basic skills");
+  return opening;
+}
 
 const procedure::Procedure& declared() {
   static const procedure::Procedure kDeclared = [] {

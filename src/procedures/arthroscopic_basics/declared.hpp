@@ -17,7 +17,15 @@ namespace carpus::procedures::arthroscopic_basics {
 /// Read once, on the first call. @throws InvalidInput  when procedure.json is wrong.
 [[nodiscard]] const procedure::Procedure& declared();
 
-/// By the rules in procedure.json (docs/scoring.md).
+/// How it begins, or why it cannot, of these exercises in any grade of difficulty.
+[[nodiscard]] procedure::Opening opened(const procedure::Procedure& graded,
+                                        const cases::CaseData& data);
+/// By that one's rules (docs/scoring.md).
+[[nodiscard]] procedure::ScoreReport scored(const procedure::Procedure& graded,
+                                            const cases::CaseData& data,
+                                            const procedure::OperationRecord& record);
+
+/// By the rules in procedure.json.
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record);
 

@@ -57,18 +57,24 @@ std::vector<Measure> drill_measures(const procedure::ScopeDrill& drill,
 
 }  // namespace
 
-procedure::ScoreReport score(const cases::CaseData& data,
-                             const procedure::OperationRecord& record) {
-  std::vector<Measure> measures = arthroscopy::conduct_measures(data, declared(), record);
+procedure::ScoreReport scored(const procedure::Procedure& graded,
+                              const cases::CaseData& data,
+                              const procedure::OperationRecord& record) {
+  std::vector<Measure> measures = arthroscopy::conduct_measures(data, graded, record);
   const procedure::DrillFacts done =
       record.scope ? record.scope->facts.drill : procedure::DrillFacts{};
-  for (Measure& each : drill_measures(*declared().drill, done)) {
+  for (Measure& each : drill_measures(*graded.drill, done)) {
     measures.push_back(std::move(each));
   }
   procedure::ScoreReport report;
-  procedure::grade(report, declared().rules, measures);
+  procedure::grade(report, graded.rules, measures);
   arthroscopy::tell_scuffs(report, data, record);
   return report;
+}
+
+procedure::ScoreReport score(const cases::CaseData& data,
+                             const procedure::OperationRecord& record) {
+  return scored(declared(), data, record);
 }
 
 }  // namespace carpus::procedures::arthroscopic_basics
