@@ -55,7 +55,8 @@ std::vector<CartilageScuff> scuffs(const World& world) {
 }
 
 TEST(Scuffs, CartilageIsScuffedWhereItIsPressedOver8N) {
-  World world(with_lunate(true), probe_alone(), 1);
+  const cases::CaseData data = with_lunate(true);  // outlives its world
+  World world(data, probe_alone(), 1);
   Hand hand(world);
   enter(hand);
   press(hand, 6);
@@ -77,7 +78,8 @@ TEST(Scuffs, CartilageIsScuffedWhereItIsPressedOver8N) {
 }
 
 TEST(Scuffs, WhatBearsNoCartilageIsNotScuffed) {
-  World world(with_lunate(false), probe_alone(), 1);
+  const cases::CaseData data = with_lunate(false);
+  World world(data, probe_alone(), 1);
   Hand hand(world);
   enter(hand);
   press(hand, 16);
