@@ -35,7 +35,11 @@ Neighbourhood::Neighbourhood(const GridGeometry& geometry,
   }
   const auto dy = static_cast<std::ptrdiff_t>(geometry.size[0]);
   const std::ptrdiff_t dz = dy * geometry.size[1];
-  for (const VoxelIndex& s : steps_) strides_.push_back(s.x + s.y * dy + s.z * dz);
+  for (const VoxelIndex& s : steps_) {
+    strides_.push_back(s.x + s.y * dy + s.z * dz);
+    const std::ptrdiff_t row = s.y * dy + s.z * dz;
+    if (std::find(rows_.begin(), rows_.end(), row) == rows_.end()) rows_.push_back(row);
+  }
 }
 
 }  // namespace carpus::imaging

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/grid.hpp"
@@ -39,7 +40,14 @@ class Neighbourhood {
       visit(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + step));
     }
   }
-  /// The same for any voxel; neighbours beyond the grid are left out.
+  /// The k-th of them.
+  [[nodiscard]] std::size_t of_inner(std::size_t i, int k) const {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) +
+                                    strides_[static_cast<std::size_t>(k)]);
+  }
+  /// From an inner voxel to one of each row along x that holds neighbours of it, in memory.
+  [[nodiscard]] std::span<const std::ptrdiff_t> rows() const { return rows_; }
+  /// Calls visit(j) for each neighbour j of any voxel; those beyond the grid are left out.
   template <typename Visit>
   void for_each(std::size_t i, const Visit& visit) const {
     const VoxelIndex v = geometry_.index_of(i);
@@ -55,6 +63,7 @@ class Neighbourhood {
   bool in_slices_;
   std::vector<VoxelIndex> steps_;
   std::vector<std::ptrdiff_t> strides_;  ///< of the same steps, in memory
+  std::vector<std::ptrdiff_t> rows_;
 };
 
 }  // namespace carpus::imaging
