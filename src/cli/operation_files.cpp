@@ -102,6 +102,7 @@ std::string score_table(const procedure::ScoreReport& report) {
                   item.points_possible, item.target.c_str());
     add();
     if (!item.reason.empty()) table += "    " + item.reason + "\n";
+    if (!item.mark.empty()) table += "    Limits: " + item.mark + "\n";
   }
   for (const procedure::MustHave& must : report.must_haves) {
     std::snprintf(line.data(), line.size(), "must have: %-60.60s %s\n", must.label.c_str(),

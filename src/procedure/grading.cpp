@@ -34,6 +34,7 @@ ScoreItem graded(const ScoreRule& rule, const Measure& measure) {
   item.points_possible = rule.weight;
   item.value = measure.value;
   item.reason = rule.why;
+  item.mark = rule.mark;
   if (!measure.finding.empty()) item.reason += " " + measure.finding;
   if (!measure.value) return item;
   item.points = rule.weight * earned_share(rule, *measure.value);

@@ -52,6 +52,13 @@ TEST(Grading, PointsFallLinearlyBetweenGoodAndFail) {
   EXPECT_NEAR(overall(7.0, 3000), 0.0, 1e-9);
 }
 
+TEST(Grading, EachItemSaysWhereItsLimitsComeFrom) {
+  ScoreReport report;
+  grade(report, read(kRules), measures(2.0, 60));
+  EXPECT_EQ(report.items.at(0).mark, "[K]");
+  EXPECT_EQ(report.items.at(1).mark, "[E]");
+}
+
 TEST(Grading, NothingEarnsPointsWithoutSafety) {
   ScoreReport report;
   grade(report, read(kRules), measures(0.4, 60));

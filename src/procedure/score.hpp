@@ -34,6 +34,7 @@ struct ScoreItem {
   double points = 0.0;
   double points_possible = 0.0;
   std::string reason;  ///< why it matters and what was seen, one or two sentences
+  std::string mark;    ///< where the limits come from, as in ScoreRule
 };
 
 /// A condition without which the fixation cannot be accepted.

@@ -945,6 +945,7 @@ void read(FieldReader& in, ScoreItem& out) {
   out.points = in.number("points", 0.0, 100.0);
   out.points_possible = in.number("points_possible", 0.0, 100.0);
   out.reason = in.string("reason", 1024);
+  if (in.has("mark")) out.mark = in.string("mark", 512);
 }
 
 void write(FieldWriter& out, const ScoreItem& in) {
@@ -961,6 +962,11 @@ void write(FieldWriter& out, const ScoreItem& in) {
   out.value("points", in.points);
   out.value("points_possible", in.points_possible);
   out.text("reason", in.reason, 1024);
+  if (in.mark) {
+    out.text("mark", *in.mark, 512);
+  } else {
+    out.null("mark");
+  }
 }
 
 void read(FieldReader& in, PlacedAxis& out) {

@@ -1057,6 +1057,9 @@ struct ScoreItem {
   double points_possible = 0.0;
   /// why it matters and what was seen
   std::string reason;
+  /// where its limits come from: [S50] a source (docs/sources.md), [K] general knowledge, [E] an
+  /// estimate; none in older scores
+  std::optional<std::string> mark;
   bool operator==(const ScoreItem&) const = default;
 };
 

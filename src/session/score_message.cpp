@@ -41,7 +41,8 @@ protocol::Placement placement_message(const procedure::PlacementPicture& picture
 protocol::ScoreItem item_message(const procedure::ScoreItem& item) {
   return {item.id,     item.label,           item.value,
           item.unit,   item.target,          static_cast<protocol::Grade>(item.grade),
-          item.points, item.points_possible, item.reason};
+          item.points, item.points_possible, item.reason,
+          item.mark};
 }
 
 protocol::ScuffedPlace scuff_message(const procedure::ScuffedPlace& place) {

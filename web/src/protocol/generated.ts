@@ -833,6 +833,8 @@ export interface ScoreItem {
   readonly points_possible: number;
   /** why it matters and what was seen */
   readonly reason: string;
+  /** where its limits come from: [S50] a source (docs/sources.md), [K] general knowledge, [E] an estimate; none in older scores */
+  readonly mark: string | null;
 }
 
 /** The central axis of the scaphoid. */

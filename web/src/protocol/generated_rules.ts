@@ -446,6 +446,7 @@ export const SCHEMA: Schema = {
       points: {"type": "number", "min": 0, "max": 100},
       points_possible: {"type": "number", "min": 0, "max": 100},
       reason: {"type": "string", "max_length": 1024},
+      mark: {"type": "string", "max_length": 512, "optional": true},
     } },
     placed_axis: { fields: {
       proximal_mm: {"type": "vec3", "limit": 10000},

@@ -37,6 +37,7 @@ function item(value: number | null, changes: Partial<ScoreItem> = {}): ScoreItem
     points: 0,
     points_possible: 2,
     reason: "",
+    mark: null,
     ...changes,
   };
 }

@@ -132,6 +132,11 @@ function show(
     make("section.verdict-row", {}, verdict(report), pictures),
     turning,
     table(report),
+    make(
+      "p.mark",
+      {},
+      "Where targets come from: [S50] and the like are published sources, by their number in docs/sources.md; [K] is general knowledge without a source, [E] our own estimate.",
+    ),
     ...(report.is_void !== true && isRatedByAsset(report)
       ? [assetSection(attempt.id, { isLeft })]
       : []),
@@ -276,7 +281,12 @@ function row(item: ScoreItem, report: ScoreReport): HTMLElement {
       ...(besides === "" ? [] : [make("div.secondary", {}, besides)]),
     ),
     make("td.figure", {}, valueText(item)),
-    make("td.secondary", {}, item.target),
+    make(
+      "td.secondary",
+      {},
+      item.target,
+      ...(item.mark === null ? [] : [make("div.mark", {}, `From ${item.mark}`)]),
+    ),
     make(
       `td.grade.${item.grade}` as "td",
       {},
