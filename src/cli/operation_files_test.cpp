@@ -45,12 +45,13 @@ TEST(ScoreTable, TellsTheLengthsInTheScaphoidAndEveryReason) {
   procedure::ScoreItem item;
   item.label = "Angle to the central axis";
   item.reason = std::string(600, 'r') + " The end.";
+  item.mark = "[S50]";
   report.items = {item};
   EXPECT_THAT(score_table(report),
               AllOf(HasSubstr("central axis: 25.12 mm\n"),
                     HasSubstr("longest line through the bone: 27.50 mm, angle to it: 6.25 deg\n"),
                     HasSubstr("true length along the wire: 24.75 mm, gauge reading: 24.00 mm\n"),
-                    HasSubstr("\n    " + item.reason + "\n")));
+                    HasSubstr("\n    " + item.reason + "\n    Limits: [S50]\n")));
 }
 
 TEST(ScoreTable, SaysWhatWasNotMeasured) {
