@@ -27,6 +27,7 @@ import {
   verdictText,
 } from "./verdict_model";
 import "./score.css";
+import "./score_print.css";
 
 const PLACEMENT_DISTANCE_M = 0.085;
 
