@@ -19,6 +19,7 @@
 #include "case_io/detail/memory_room.hpp"
 #include "case_io/detail/shared_array.hpp"
 #include "core/error.hpp"
+#include "core/is_sanitized.hpp"
 
 namespace carpus::case_io {
 namespace {
@@ -26,12 +27,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 /// What comes of such work, in words; "" where it is done.
 std::string ending_of(const std::function<void()>& work, std::chrono::milliseconds deadline = 10s) {

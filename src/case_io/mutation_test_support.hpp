@@ -14,6 +14,7 @@
 #include <iterator>
 #include <string>
 
+#include "core/is_sanitized.hpp"
 #include "core/rng.hpp"
 
 namespace carpus::case_io::test {
@@ -82,9 +83,7 @@ class MemoryLimit {
     getrlimit(RLIMIT_AS, &before_);
     rlimit limit = before_;
     limit.rlim_cur = std::min(limit.rlim_max, bytes);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    setrlimit(RLIMIT_AS, &limit);
-#endif
+    if (!kIsSanitized) setrlimit(RLIMIT_AS, &limit);
   }
   ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
   MemoryLimit(const MemoryLimit&) = delete;

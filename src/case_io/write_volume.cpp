@@ -60,15 +60,19 @@ void describe(itk::ImageIOBase& io, const GridGeometry& g) {
 }
 
 template <typename T>
-bool reads_back(const fs::path& file, const GridView<const T>& volume) {
+void require_reads_back(const fs::path& file, const GridView<const T>& volume) {
+  std::string difference = "it holds other values";
   try {
     ReadingNotes notes;
     const Grid<T> read = read_volume_file<T>(file, notes);
-    return read.geometry().size == volume.geometry().size &&
-           std::equal(read.values().begin(), read.values().end(), volume.values().begin());
-  } catch (const Error&) {
-    return false;
+    if (read.geometry().size == volume.geometry().size &&
+        std::equal(read.values().begin(), read.values().end(), volume.values().begin())) {
+      return;
+    }
+  } catch (const Error& error) {
+    difference = error.what();
   }
+  throw_cannot_write(file, difference);
 }
 
 template <typename T>
@@ -125,7 +129,7 @@ void write_volume(const fs::path& file,
   } else {
     write_by_itk(file, volume, description);
   }
-  if (!reads_back(file, volume)) throw_cannot_write(file);
+  require_reads_back(file, volume);
 }
 
 template void write_volume(const fs::path&,

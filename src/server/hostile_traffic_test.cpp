@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/is_sanitized.hpp"
 #include "server/echo_test_support.hpp"
 #include "server/loopback_client_test_support.hpp"
 #include "server/network_server.hpp"
@@ -32,15 +33,12 @@ using testing::request;
 
 /// What the process holds in memory [MiB]; 0 where a sanitizer holds more than we do.
 std::size_t resident_mib() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return 0;
-#else
+  if (kIsSanitized) return 0;
   std::ifstream file("/proc/self/statm");
   std::size_t whole = 0;
   std::size_t resident = 0;
   file >> whole >> resident;
   return resident * 4096U >> 20U;
-#endif
 }
 
 class HostileTrafficTest : public ::testing::Test {

@@ -23,6 +23,8 @@
 #include <optional>
 #include <string>
 
+#include "core/is_sanitized.hpp"
+
 namespace carpus::server::testing {
 
 namespace asio = boost::asio;
@@ -32,11 +34,7 @@ using Headers = std::map<std::string, std::string>;
 using HttpAnswer = beast::http::response<beast::http::string_body>;
 
 /// How long something is waited for that must come: long enough for any machine on which it does.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr std::chrono::seconds kPatience{120};
-#else
-inline constexpr std::chrono::seconds kPatience{10};
-#endif
+inline constexpr std::chrono::seconds kPatience{kIsSanitized ? 120 : 10};
 
 inline tcp::endpoint loopback(std::uint16_t port) {
   return {asio::ip::make_address("127.0.0.1"), port};

@@ -10,7 +10,7 @@
 
 namespace carpus::case_io {
 
-void throw_cannot_write(const std::filesystem::path& file) {
+void throw_cannot_write(const std::filesystem::path& file, const std::string& sign) {
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const auto space = std::filesystem::space(folder, error);
@@ -21,7 +21,8 @@ void throw_cannot_write(const std::filesystem::path& file) {
   }
   throw IoError(file.string() +
                 ": could not be written whole (disk full, over quota, or no permission" + room +
-                "); make room or choose another folder and save again");
+                "); make room or choose another folder and save again" +
+                (sign.empty() ? std::string() : "; read back: " + sign));
 }
 
 }  // namespace carpus::case_io

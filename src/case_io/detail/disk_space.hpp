@@ -5,10 +5,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace carpus::case_io {
 
-/// Throws IoError: the file, that it could not be written, and how much room is left on its disk.
-[[noreturn]] void throw_cannot_write(const std::filesystem::path& file);
+/// Throws IoError: the file, that it could not be written, how much room is left on its disk, and
+/// `sign`: what showed it, where that may tell more.
+[[noreturn]] void throw_cannot_write(const std::filesystem::path& file,
+                                     const std::string& sign = {});
 
 }  // namespace carpus::case_io

@@ -26,15 +26,10 @@
 #include "case_io/detail/shared_array.hpp"
 #include "case_io/detail/system_call_filter.hpp"
 #include "core/error.hpp"
+#include "core/is_sanitized.hpp"
 
 namespace carpus::case_io {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;  // maps terabytes of shadow
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 enum class Outcome : std::uint32_t { None, Done, Io, Invalid, OutOfMemory, Unexpected };
 

@@ -9,14 +9,10 @@
 #include <array>
 #include <cerrno>
 
+#include "core/is_sanitized.hpp"
+
 namespace carpus::case_io {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 /// Harmless in themselves: memory, locks, the ways of an abort, time.
 constexpr std::array kAllowed{SCMP_SYS(brk),
