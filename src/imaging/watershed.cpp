@@ -16,6 +16,9 @@
 #include <new>
 #include <vector>
 
+#include "core/large_pages.hpp"
+#include "core/widest_vectors.hpp"
+
 namespace carpus::imaging {
 namespace {
 
@@ -112,7 +115,7 @@ class LevelQueue {
   }
 
   std::vector<List> lists_;
-  std::vector<Chunk> chunks_;
+  std::vector<Chunk, LargePageAllocator<Chunk>> chunks_;
   std::uint32_t free_ = kEnd;
 };
 
@@ -124,7 +127,7 @@ class Voxel {
   enum class State : std::uint16_t { Open, Marker, Outside, Queued };
 
   Voxel() = default;
-  Voxel(State state, std::size_t level)
+  Voxel(State state, std::uint16_t level)
       : word_(static_cast<std::uint16_t>(static_cast<unsigned>(state) << kStateAt | level)) {}
 
   [[nodiscard]] State state() const { return static_cast<State>(word_ >> kStateAt & 3U); }
@@ -139,35 +142,46 @@ class Voxel {
   static constexpr std::uint16_t kInner = 1U << 15U;
   static_assert(kMostLevels == 1 << kStateAt);
 
-  std::uint16_t word_ = 0;
+  std::uint16_t word_;
 };
 static_assert(sizeof(Voxel) == 2);
 
 /// The relief in levels between its least and greatest finite value among those that are open.
 class Quantiser {
  public:
-  /// @param for_each_open  calls what it is given with the relief of each open voxel.
-  template <typename ForEachOpen>
-  Quantiser(int levels, const ForEachOpen& for_each_open)
-      : top_(static_cast<std::size_t>(levels - 1)) {
-    float high = -std::numeric_limits<float>::infinity();
-    low_ = std::numeric_limits<float>::infinity();
-    for_each_open([&](float v) {
-      if (!std::isfinite(v)) return;
-      low_ = std::min(low_, v);
-      high = std::max(high, v);
-    });
-    scale_ = high > low_ ? static_cast<float>(levels - 1) / (high - low_) : 0.0F;
-  }
-  [[nodiscard]] std::size_t operator()(float v) const {
-    if (!std::isfinite(v)) return top_;
-    return std::min(top_, static_cast<std::size_t>((v - low_) * scale_));
+  Quantiser(int levels, float low, float high)
+      : low_(low),
+        scale_(high > low ? static_cast<float>(levels - 1) / (high - low) : 0.0F),
+        top_(static_cast<float>(levels - 1)) {}
+
+  /// A value that is not finite has the highest. Without branches: rows of it are found side by
+  /// side.
+  [[nodiscard]] std::uint16_t operator()(float v) const {
+    const float level = (v - low_) * scale_;
+    return static_cast<std::uint16_t>(
+        static_cast<std::int32_t>(level >= 0.0F && level < top_ ? level : top_));
   }
 
  private:
-  std::size_t top_;
-  float low_ = 0;
-  float scale_ = 0;
+  float low_;
+  float scale_;
+  float top_;
+};
+
+/// The least and greatest of many values; what is not finite does not count.
+class Range {
+ public:
+  void take(float v) {
+    const bool is_finite = std::abs(v) <= std::numeric_limits<float>::max();
+    low_ = std::min(low_, is_finite ? v : kInfinity);
+    high_ = std::max(high_, is_finite ? v : -kInfinity);
+  }
+  [[nodiscard]] Quantiser in_levels(int levels) const { return {levels, low_, high_}; }
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float low_ = kInfinity;
+  float high_ = -kInfinity;
 };
 
 class Flood {
@@ -180,16 +194,11 @@ class Flood {
         neighbours_(labels.geometry(), options.space, options.connectivity),
         queue_(options.levels),
         voxels_(voxels),
-        labels_(labels) {
-    to_flood_ = static_cast<std::size_t>(std::count_if(
-        voxels.begin(), voxels.end(), [](Voxel v) { return v.state() == Voxel::State::Open; }));
-    mark_inner(labels.geometry().size);
-  }
+        labels_(labels),
+        size_(labels.geometry().size) {}
 
   void run() {
-    for (std::size_t i = 0; i < voxels_.size(); ++i) {
-      if (is_open(i)) queue_if_touching_marker(i);
-    }
+    queue_around_markers();
     const std::size_t last = voxels_.size() - 1;
     for (std::size_t level = 0; level < static_cast<std::size_t>(options_.levels); ++level) {
       while (!queue_.is_empty(level)) {
@@ -214,19 +223,62 @@ class Flood {
     return voxels_[i].state() == Voxel::State::Open;
   }
 
-  /// Whether a voxel lies on a side of the volume is found out once, in order, without divisions.
-  void mark_inner(const std::array<int, 3>& size) {
-    const bool in_slices = options_.space == FloodSpace::Slices;
-    std::size_t i = 0;
-    for (int z = 0; z < size[2]; ++z) {
-      for (int y = 0; y < size[1]; ++y) {
-        const bool is_inner_row =
-            y > 0 && y + 1 < size[1] && (in_slices || (z > 0 && z + 1 < size[2]));
-        for (int x = 0; x < size[0]; ++x, ++i) {
-          if (is_inner_row && x > 0 && x + 1 < size[0]) voxels_[i].set_inner();
-        }
+  /// Calls visit(y, z, its first voxel) for each row along x, in the order of memory.
+  template <typename Visit>
+  void for_each_row(const Visit& visit) const {
+    std::size_t first = 0;
+    for (int z = 0; z < size_[2]; ++z) {
+      for (int y = 0; y < size_[1]; ++y, first += static_cast<std::size_t>(size_[0])) {
+        visit(y, z, first);
       }
     }
+  }
+
+  /// Most rows of a volume are far from any marker, and are not asked voxel by voxel.
+  void queue_around_markers() {
+    std::vector<std::uint8_t> holds_marker(static_cast<std::size_t>(size_[1]) *
+                                           static_cast<std::size_t>(size_[2]));
+    for_each_row([&](int y, int z, std::size_t first) {
+      holds_marker[row_of(y, z)] = prepare_row(y, z, first) ? 1 : 0;
+    });
+    const auto is_near_marker = [&](int y, int z) {
+      for (int dz = std::max(0, z - 1); dz <= std::min(size_[2] - 1, z + 1); ++dz) {
+        for (int dy = std::max(0, y - 1); dy <= std::min(size_[1] - 1, y + 1); ++dy) {
+          if (holds_marker[row_of(dy, dz)] != 0) return true;
+        }
+      }
+      return false;
+    };
+    for_each_row([&](int y, int z, std::size_t first) {
+      if (!is_near_marker(y, z)) return;
+      for (std::size_t i = first; i < first + static_cast<std::size_t>(size_[0]); ++i) {
+        if (is_open(i)) queue_if_touching_marker(i);
+      }
+    });
+  }
+
+  [[nodiscard]] std::size_t row_of(int y, int z) const {
+    return static_cast<std::size_t>(z) * static_cast<std::size_t>(size_[1]) +
+           static_cast<std::size_t>(y);
+  }
+
+  /// Finds out once, in order and without divisions, which voxels of a row lie on a side of the
+  /// volume; true where one is a marker.
+  bool prepare_row(int y, int z, std::size_t first) {
+    const std::span<Voxel> row = voxels_.subspan(first, static_cast<std::size_t>(size_[0]));
+    unsigned open = 0;
+    unsigned markers = 0;
+    for (const Voxel voxel : row) {
+      open += voxel.state() == Voxel::State::Open ? 1U : 0U;
+      markers += voxel.state() == Voxel::State::Marker ? 1U : 0U;
+    }
+    to_flood_ += open;
+    const bool is_inner = y > 0 && y + 1 < size_[1] &&
+                          (options_.space == FloodSpace::Slices || (z > 0 && z + 1 < size_[2]));
+    if (is_inner && row.size() > 2) {
+      for (Voxel& voxel : row.subspan(1, row.size() - 2)) voxel.set_inner();
+    }
+    return markers > 0;
   }
 
   template <typename Visit>
@@ -307,12 +359,14 @@ class Flood {
   LevelQueue queue_;
   std::span<Voxel> voxels_;
   GridView<RegionLabel> labels_;
+  std::array<int, 3> size_;
   std::size_t to_flood_ = 0;
   std::size_t settled_ = 0;
 };
 
-Voxel closed_voxel(RegionLabel label) {
-  return {label != 0 ? Voxel::State::Marker : Voxel::State::Outside, 0};
+Voxel voxel_of(bool is_open, std::uint16_t level, RegionLabel label) {
+  const Voxel::State closed = label != 0 ? Voxel::State::Marker : Voxel::State::Outside;
+  return {is_open ? Voxel::State::Open : closed, is_open ? level : std::uint16_t{0}};
 }
 
 void check(const WatershedOptions& options, const GridView<RegionLabel>& labels) {
@@ -330,18 +384,23 @@ void flood_from_markers(const GridView<const float>& relief,
   CARPUS_CHECK(labels.values().size() == relief.values().size());
   CARPUS_CHECK(mask.empty() || mask.size() == relief.values().size());
   const std::size_t count = labels.values().size();
-  const auto is_open = [&](std::size_t i) {
-    return labels[i] == 0 && (mask.empty() || mask[i] != 0);
-  };
-  const Quantiser level_of(options.levels, [&](const auto& visit) {
+  const std::span<const float> heights = relief.values();
+  std::vector<Voxel, LargePageAllocator<Voxel>> voxels(count);
+  const auto prepare = [&](const auto& is_open) {
+    Range range;
     for (std::size_t i = 0; i < count; ++i) {
-      if (is_open(i)) visit(relief[i]);
+      if (is_open(i)) range.take(heights[i]);
     }
-  });
-  std::vector<Voxel> voxels(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    voxels[i] =
-        is_open(i) ? Voxel(Voxel::State::Open, level_of(relief[i])) : closed_voxel(labels[i]);
+    const Quantiser level_of = range.in_levels(options.levels);
+    CARPUS_INDEPENDENT_TURNS
+    for (std::size_t i = 0; i < count; ++i) {
+      voxels[i] = voxel_of(is_open(i), level_of(heights[i]), labels[i]);
+    }
+  };
+  if (mask.empty()) {
+    prepare([&](std::size_t i) { return labels[i] == 0; });
+  } else {
+    prepare([&](std::size_t i) { return labels[i] == 0 && mask[i] != 0; });
   }
   Flood(voxels, options, labels).run();
 }
@@ -353,19 +412,18 @@ void flood_from_markers(Grid<float> relief,
   CARPUS_CHECK(labels.values().size() == relief.values().size());
   const std::span<float> heights = relief.values();
   if (heights.empty()) return;
-  const Quantiser level_of(options.levels, [&](const auto& visit) {
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-      if (labels[i] == 0) visit(heights[i]);
-    }
-  });
+  Range range;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (labels[i] == 0) range.take(heights[i]);
+  }
+  const Quantiser level_of = range.in_levels(options.levels);
   // A voxel is half as long as a height and lies no farther on: where it goes, the heights have
   // been read. It is made there anew, so that nothing is read as what it is not.
   static_assert(sizeof(Voxel) <= sizeof(float) && alignof(Voxel) <= alignof(float));
   auto* const memory = reinterpret_cast<std::byte*>(heights.data());
   Voxel* first = nullptr;
   for (std::size_t i = 0; i < heights.size(); ++i) {
-    const Voxel voxel =
-        labels[i] == 0 ? Voxel(Voxel::State::Open, level_of(heights[i])) : closed_voxel(labels[i]);
+    const Voxel voxel = voxel_of(labels[i] == 0, level_of(heights[i]), labels[i]);
     Voxel* const made = new (memory + i * sizeof(Voxel)) Voxel(voxel);
     if (i == 0) first = made;
   }
@@ -377,15 +435,15 @@ void flood_depths_from_markers(const MaskedValues& depth,
                                const GridView<RegionLabel>& labels) {
   check(options, labels);
   CARPUS_CHECK(labels.values().size() == depth.geometry().voxel_count());
-  const Quantiser level_of(options.levels, [&](const auto& visit) {
-    depth.for_each([&](std::size_t i, float value) {
-      if (labels[i] == 0) visit(-value);
-    });
-  });
-  std::vector<Voxel> voxels(labels.values().size());
-  for (std::size_t i = 0; i < voxels.size(); ++i) voxels[i] = closed_voxel(labels[i]);
+  Range range;
   depth.for_each([&](std::size_t i, float value) {
-    if (labels[i] == 0) voxels[i] = Voxel(Voxel::State::Open, level_of(-value));
+    if (labels[i] == 0) range.take(-value);
+  });
+  const Quantiser level_of = range.in_levels(options.levels);
+  std::vector<Voxel, LargePageAllocator<Voxel>> voxels(labels.values().size());
+  for (std::size_t i = 0; i < voxels.size(); ++i) voxels[i] = voxel_of(false, 0, labels[i]);
+  depth.for_each([&](std::size_t i, float value) {
+    if (labels[i] == 0) voxels[i] = voxel_of(true, level_of(-value), 0);
   });
   Flood(voxels, options, labels).run();
 }
