@@ -20,6 +20,7 @@ import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { wearsHeadset } from "./headset.mjs";
 import { printedPages } from "./report.mjs";
+import { putsPointsWhereTheLensDoes } from "./lens.mjs";
 import { followFromElsewhere, printedLink, traineesLink } from "./link.mjs";
 import { debriefByView, replayAttempt } from "./replay.mjs";
 import { reviewClass } from "./review.mjs";
@@ -656,6 +657,7 @@ try {
   await examination(browser, station);
   await basics(browser, station);
   await removal(browser, station);
+  await putsPointsWhereTheLensDoes(browser);
   await screwControl(browser, station);
   await shaving(browser, station);
   await biting(browser, station);

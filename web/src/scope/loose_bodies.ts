@@ -21,7 +21,7 @@ export class LooseBodies {
     const bodies = new Map<number, { mesh: THREE.Mesh; joint: string }>();
     lesions.forEach((lesion, place) => {
       if (lesion.look !== "loose") return;
-      const mesh = new THREE.Mesh(ballGeometry(lesion.radius_mm), this.material);
+      const mesh = new THREE.Mesh(bodyGeometry(lesion.radius_mm), this.material);
       mesh.frustumCulled = false;
       mesh.visible = false;
       this.group.add(mesh);
@@ -48,16 +48,19 @@ export class LooseBodies {
   }
 }
 
-/** Inside out, as the joint's wall is. */
-export function ballGeometry(radiusMm: number, detail = 5): THREE.BufferGeometry {
-  const geometry = new THREE.IcosahedronGeometry(radiusMm, detail);
+/** Bumpy and a little flat, as they are. */
+function bodyGeometry(radiusMm: number): THREE.BufferGeometry {
+  const geometry = ballGeometry(radiusMm, 5);
   const position = geometry.getAttribute("position");
-  const normal = geometry.getAttribute("normal");
   for (let v = 0; v < position.count; ++v) {
     const [x, y, z] = [position.getX(v), position.getY(v), position.getZ(v)];
     const bump = 1 + 0.08 * Math.sin(3.1 * x + 1.7 * y) * Math.cos(2.3 * z);
     position.setXYZ(v, x * bump, y * bump * 0.85, z * bump);
-    normal.setXYZ(v, x / radiusMm, y / radiusMm, z / radiusMm);
   }
-  return linedAs(insideOut(geometry), CARTILAGE);
+  return geometry;
+}
+
+/** Inside out, as the joint's wall is. */
+export function ballGeometry(radiusMm: number, detail: number): THREE.BufferGeometry {
+  return linedAs(insideOut(new THREE.IcosahedronGeometry(radiusMm, detail)), CARTILAGE);
 }
