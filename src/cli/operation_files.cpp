@@ -73,9 +73,10 @@ simulation::Recording load_recording(const std::filesystem::path& file) {
 }
 
 simulation::Replay replay_on_its_case(const cases::CaseData& data,
-                                      const simulation::Recording& recording) {
+                                      const simulation::Recording& recording,
+                                      const std::function<void(const simulation::Snapshot&)>& see) {
   simulation::Replay replay =
-      simulation::replay(data, find_procedure(recording.procedure), recording);
+      simulation::replay(data, find_procedure(recording.procedure), recording, see);
   if (!replay.case_matches) {
     throw InvalidInput("the recording was made on another case than '" + data.pseudonym +
                        "', or on another version of it; name the right one with --case");

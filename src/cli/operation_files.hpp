@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "cases/case_data.hpp"
@@ -30,11 +31,13 @@ inline constexpr const char* kDefaultRecords = "recordings/attempts.sqlite";
 /// Reads a recording. @throws IoError  where it is missing, cut short or damaged.
 [[nodiscard]] simulation::Recording load_recording(const std::filesystem::path& file);
 
-/// Replays a recording on the case that it was made on.
+/// Replays a recording on the case that it was made on; `see` is called after each tick.
 /// @throws InvalidInput  when it was made on another case, naming --case, or with a procedure that
 ///     this program does not have.
-[[nodiscard]] simulation::Replay replay_on_its_case(const cases::CaseData& data,
-                                                    const simulation::Recording& recording);
+[[nodiscard]] simulation::Replay replay_on_its_case(
+    const cases::CaseData& data,
+    const simulation::Recording& recording,
+    const std::function<void(const simulation::Snapshot&)>& see = {});
 
 /// " (simulated)" after the name of such a case, nothing after others.
 [[nodiscard]] std::string simulated_mark(bool is_simulated);

@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/motion_table.hpp"
 #include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "core/hexadecimal.hpp"
@@ -22,13 +24,19 @@ struct ReplayArguments {
   std::string recording;
   std::string case_folder = kDefaultCase;
   std::string json;
+  std::string motion;
+  unsigned every_ms = 20;
 };
 
 void run(const ReplayArguments& arguments) {
   const simulation::Recording recording = load_recording(arguments.recording);
   const cases::CaseData data = load_case(arguments.case_folder);
   const auto before = std::chrono::steady_clock::now();
-  const simulation::Replay replay = replay_on_its_case(data, recording);
+  MotionTable motion(arguments.every_ms);
+  const simulation::Replay replay = replay_on_its_case(
+      data, recording,
+      arguments.motion.empty() ? std::function<void(const simulation::Snapshot&)>()
+                               : [&](const simulation::Snapshot& now) { motion.see(now); });
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   const std::string recorded = hexadecimal(recording.end_hash);
@@ -52,6 +60,9 @@ void run(const ReplayArguments& arguments) {
                                       {"replay_s", seconds}};
     records::write_file_atomically(arguments.json, json.dump(2) + "\n");
   }
+  if (!arguments.motion.empty()) {
+    records::write_file_atomically(arguments.motion, motion.text());
+  }
   if (!replay.hash_matches) {
     throw InvalidInput("the recording does not reproduce its state hash: it was made by " +
                        recording.program_version + ", this is " + kProgramVersion +
@@ -69,6 +80,11 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--case", arguments->case_folder, "Case that it was made on")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--motion", arguments->motion,
+                      "Write how the instruments moved to this table (.csv)");
+  command->add_option("--every", arguments->every_ms, "Milliseconds between two lines of the table")
+      ->check(CLI::Range(1U, 60000U))
+      ->capture_default_str();
   command->callback([arguments] { run(*arguments); });
 }
 

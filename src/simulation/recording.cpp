@@ -227,10 +227,14 @@ Result<Recording> decode(std::span<const std::byte> bytes) {
 
 Replay replay(const cases::CaseData& data,
               const procedure::Procedure& procedure,
-              const Recording& recording) {
+              const Recording& recording,
+              const std::function<void(const Snapshot&)>& see) {
   World world(data, procedure, recording.seed, recording.mode, recording.prepared);
   for (const InputRun& run : recording.runs) {
-    for (std::uint32_t i = 0; i < run.ticks; ++i) world.step(run.input);
+    for (std::uint32_t i = 0; i < run.ticks; ++i) {
+      world.step(run.input);
+      if (see) see(world.now());
+    }
   }
   Replay result;
   result.last = world.now();

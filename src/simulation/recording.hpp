@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -112,9 +113,11 @@ struct Replay {
 
 /// Steps a new world through the recording, as fast as it can.
 /// @param procedure  the one that the recording names.
+/// @param see        is called after each tick.
 [[nodiscard]] Replay replay(const cases::CaseData& data,
                             const procedure::Procedure& procedure,
-                            const Recording& recording);
+                            const Recording& recording,
+                            const std::function<void(const Snapshot&)>& see = {});
 
 /// The same, and the score.
 [[nodiscard]] procedure::ScoreReport score_recording(const cases::CaseData& data,
