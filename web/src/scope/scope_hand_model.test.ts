@@ -73,10 +73,19 @@ describe("an instrument in its portal", () => {
   it("presses no farther than a hand does", () => {
     const deep = { depthMm: 30, yawRad: 0, pitchRad: 0 };
     const tip = wishOf({ ...deep, depthMm: 16 }, PORTAL).tipMm;
-    const back = heldBack(deep, tip, PORTAL);
+    const back = heldBack(deep, tip, PORTAL, 4);
     expect(back.depthMm).toBeCloseTo(18.5, 6);
     const near = { ...deep, depthMm: 17 };
-    expect(heldBack(near, tip, PORTAL)).toBe(near);
+    expect(heldBack(near, tip, PORTAL, 4)).toBe(near);
+  });
+
+  it("levers no farther to the side than does harm, where something holds the tip", () => {
+    const tip = [1, 2, -17] as const; // 20 mm in, upright
+    const wide = { depthMm: 21, yawRad: 0.6, pitchRad: 0 };
+    const off = (lean: typeof wide): number => length(subtract(wishOf(lean, PORTAL).tipMm, tip));
+    expect(off(wide)).toBeGreaterThan(10);
+    expect(off(heldBack(wide, tip, PORTAL, 3))).toBeCloseTo(5, 6);
+    expect(heldBack(wide, tip, PORTAL, 0)).toBe(wide); // it is on its way
   });
 
   it("turns round and round", () => {

@@ -3,7 +3,7 @@
 //
 // Where two hands are wanted: each before or in a portal, leant about its hole, or on its way round the wrist
 // to the next one. Mouse and keys lead one of them, a gamepad or a second finger the other.
-import type { BodyPose, ExerciseMessage, Item, Vec3 } from "../protocol";
+import type { BodyPose, ExerciseMessage, Item, SnapshotMessage, Vec3 } from "../protocol";
 import { add, length, rotated, subtract } from "../tool_placement";
 import {
   advanced,
@@ -98,14 +98,15 @@ export class ScopeHands {
     }
   }
 
-  /** What a hand holds came no deeper: the wish goes back to it. */
-  holdBack(items: readonly Item[]): void {
+  /** What a hand holds came no farther: the wish goes back to it. */
+  holdBack({ items, hands }: Pick<SnapshotMessage, "items" | "hands">): void {
     for (const hand of [0, 1] as const) {
       const item = items.find((one) => one.hand === hand);
       const held = this.held[hand];
       const portal = this.portalNowOf(hand);
       if (item === undefined || portal === undefined || held.lean.depthMm < HELD_BACK_MM) continue;
-      this.held[hand] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal) };
+      const forceN = length(hands[hand]?.force_n ?? [0, 0, 0]);
+      this.held[hand] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal, forceN) };
     }
   }
 

@@ -44,6 +44,7 @@ function snapshot(tools: boolean): SnapshotMessage {
   return {
     bodies: [{ quaternion: [1, 0, 0, 0], translation_mm: [0, 0, 0] }],
     items: [item(0, "scope", 0), ...(tools ? [item(1, "shaver", 10)] : [])],
+    hands: [{ force_n: [0, 0, 0] }, { force_n: [0, 0, 0] }],
   } as unknown as SnapshotMessage;
 }
 

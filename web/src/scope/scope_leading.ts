@@ -73,7 +73,7 @@ export class ScopeLeading {
   see(snapshot: SnapshotMessage): void {
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) this.hands.poses = snapshot.bodies;
-    if (this.isPlaced) this.hands.holdBack(snapshot.items);
+    if (this.isPlaced) this.hands.holdBack(snapshot);
   }
 
   seeScope(message: ScopeMessage): void {
