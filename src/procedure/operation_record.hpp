@@ -104,6 +104,7 @@ struct ScopeRecord {
   std::array<SmoothnessFacts, kHands> smoothness{};  ///< as path_mm
   std::vector<CartilageScuff> scuff_places;          ///< the first of them
   std::uint32_t scuffs = 0;
+  std::uint32_t capsule_pushes = 0;  ///< of the scope, with more than 3 N, across from its portal
 };
 
 /// One operation, finished or not.

@@ -124,6 +124,8 @@ class Sentence {
                                                : " closed on what lines the joint");
       case EventKind::CartilagePressed:
         return subject() + " pressed on the cartilage of the " + bone() + ": it is scuffed there";
+      case EventKind::CapsulePushed:
+        return subject() + " pushes into the capsule across from its portal: draw it back";
       case EventKind::ShaverHarmed:
         return subject() + kRanAgainst[std::min<std::size_t>(place(), kRanAgainst.size() - 1)];
       case EventKind::SoundTissueShaved:
@@ -215,6 +217,8 @@ std::string_view felt(EventKind kind) {
       return "Something bends the wire: the wrist moved over it";
     case EventKind::CartilagePressed:
       return "Pressed hard on cartilage: it is scuffed there";
+    case EventKind::CapsulePushed:
+      return "Pushes into the capsule across from the portal: draw it back";
     default:
       return {};
   }
@@ -257,7 +261,7 @@ constexpr std::array<std::string_view, 43> kNames{"none",
                                                   "shaver_harmed",
                                                   "sound_tissue_shaved",
                                                   "cartilage_pressed",
-                                                  "none",
+                                                  "capsule_pushed",
                                                   "none",
                                                   "none",
                                                   "none",

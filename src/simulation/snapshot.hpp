@@ -241,16 +241,18 @@ enum class EventKind : std::uint8_t {
   ShaverHarmed = 33,
   SoundTissueShaved = 34,  ///< a piece that was to stay came off; detail: 1 of the disc's rim
   CartilagePressed = 35,   ///< in a joint, with more than 8 N; detail: body, value: N
-  PressureTooHigh = 40,    ///< of the fluid in the joint; value: mmHg
-  TissueSwells = 41,       ///< of what went into it; value: ml
-  ViewClouded = 42,        ///< blood or what lies on the lens hides the joint
-  ScrewProbed = 50,        ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
-  FluidBack = 60,          ///< through a needle that is in a joint
-  NeedleStruckBone = 61,   ///< detail: body
-  SkinCut = 62,            ///< a cut was begun
-  WaySpread = 63,          ///< down to the capsule
-  SheathIn = 64,           ///< in a joint; value: by how much it went on beyond the capsule [mm]
-  HeldBySkin = 65,         ///< what is blunt does not go through it
+  /// The scope, across from its portal, with more than 3 N; detail: portal, value: N
+  CapsulePushed = 36,
+  PressureTooHigh = 40,   ///< of the fluid in the joint; value: mmHg
+  TissueSwells = 41,      ///< of what went into it; value: ml
+  ViewClouded = 42,       ///< blood or what lies on the lens hides the joint
+  ScrewProbed = 50,       ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
+  FluidBack = 60,         ///< through a needle that is in a joint
+  NeedleStruckBone = 61,  ///< detail: body
+  SkinCut = 62,           ///< a cut was begun
+  WaySpread = 63,         ///< down to the capsule
+  SheathIn = 64,          ///< in a joint; value: by how much it went on beyond the capsule [mm]
+  HeldBySkin = 65,        ///< what is blunt does not go through it
 };
 
 struct Event {

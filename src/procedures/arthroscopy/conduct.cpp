@@ -89,6 +89,7 @@ std::vector<Measure> conduct_measures(const cases::CaseData& data,
   measures.push_back(smoothness("probe_smoothness", scope.smoothness[1]));
   measures.push_back(cartilage_scuffs(data, scope));
   measures.push_back({"pull_outs", static_cast<double>(scope.pull_outs), ""});
+  measures.push_back({"capsule_pushes", static_cast<double>(scope.capsule_pushes), ""});
   measures.push_back({"force_over_3_n_s", seconds(scope.warn_ticks),
                       "At most " + procedure::text_of(scope.most_force_n) + " N."});
   measures.push_back({"force_over_8_n_s", seconds(scope.injury_ticks), ""});

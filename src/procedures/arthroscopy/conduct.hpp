@@ -31,7 +31,7 @@ void refuse_without_places(const cases::CaseData& data,
 
 /// `points_seen`, `points_seen_share`, `points_probed`, `cartilage_seen_share`, `scope_path_mm`,
 /// `probe_path_mm`, `scope_smoothness`, `probe_smoothness`, `cartilage_scuffs`, `pull_outs`,
-/// `force_over_3_n_s`, `force_over_8_n_s`, `horizon_off_share`, `looking_s`,
+/// `capsule_pushes`, `force_over_3_n_s`, `force_over_8_n_s`, `horizon_off_share`, `looking_s`,
 /// procedure::thrift_measures, structures_struck and nearest_structures.
 [[nodiscard]] std::vector<procedure::Measure> conduct_measures(
     const cases::CaseData& data,

@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How instruments in a joint are led: how smoothly, and what cartilage they scuff.
+// How instruments in a joint are led: how smoothly, what cartilage they scuff, and whether the
+// scope is pushed through to the joint's far side.
 #include <algorithm>
 #include <cstdint>
 
@@ -18,7 +19,10 @@ constexpr double kShaftStepMm = 1.0;  // of which points are asked so far apart
 // Bone no farther from an instrument that presses: between them lies cartilage, 0.6 mm [S75], and
 // the walls' grids are off.
 constexpr double kOnBoneMm = 1.0;
-constexpr double kFacetMm = 1.5;  // a facet of cartilage lies so near, where there is any
+constexpr double kFacetMm = 1.5;        // a facet of cartilage lies so near, where there is any
+constexpr double kOnCapsuleMm = 0.5;    // a tip so near to the wall lies on it
+constexpr double kFarSideCosine = 0.5;  // a wall across the way in, within 60 degrees [E]
+constexpr double kCapsuleLetUpN = 1.0;  // with less the next push is another [E]
 
 }  // namespace
 
@@ -27,11 +31,35 @@ void World::State::watch_conduct(const Model& model, std::uint8_t hand, const It
   if (!scope_state.is_in_joint[hand] || scope_state.portal[hand] == kNoBody) {
     conduct.motion[hand] = {};
     conduct.presses[hand] = {};
+    conduct.is_on_capsule[hand] = false;
     return;
   }
   const std::size_t what = kind_of(model, item).optic ? 0 : 1;
   add_tip(conduct.motion[hand], item.tip, conduct.smoothness[what]);
   watch_press(model, hand, item);
+  if (what == 0) watch_capsule(model, hand, item);
+}
+
+/// A push counts from 3 N on; it is on the capsule where the wall lies across the way in and no
+/// bone is behind it.
+void World::State::watch_capsule(const Model& model, std::uint8_t hand, const Item& item) noexcept {
+  const double force_n = length(scope_state.felt[hand]);
+  bool& is_on_it = conduct.is_on_capsule[hand];
+  if (force_n < kCapsuleLetUpN) is_on_it = false;
+  if (is_on_it || !(force_n > detail::kWarnN)) return;
+  const std::uint8_t portal = scope_state.portal[hand];
+  const arthroscopy::OpenedSpace space =
+      joint_space_at(model, model.map->portals[portal].joint, item.tip);
+  if (!space.is_near || space.distance_mm < -kOnCapsuleMm ||
+      dot(space.outwards, way_in(model, portal).inwards) < kFarSideCosine) {
+    return;
+  }
+  const Touched bone = surface_at(item.tip);
+  const double radius_mm = kind_of(model, item).shape.greatest_radius_mm();
+  if (bone.body != kNoBody && bone.distance_mm < radius_mm + kOnBoneMm) return;
+  is_on_it = true;
+  ++conduct.capsule_pushes;
+  emit(EventKind::CapsulePushed, now.held[hand], portal, force_n);
 }
 
 void World::State::watch_press(const Model& model, std::uint8_t hand, const Item& item) noexcept {

@@ -327,6 +327,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
       state.is_in_joint[h] = false;
       conduct.motion[h] = {};
       conduct.presses[h] = {};
+      conduct.is_on_capsule[h] = false;
       continue;
     }
     follow_portal(model, h, *item);
@@ -410,6 +411,7 @@ procedure::ScopeRecord World::State::scope_record(const Model& model) const {
   record.looks.assign(looks.begin(), looks.begin() + state.look_count);
   record.smoothness = conduct.smoothness;
   record.scuffs = conduct.scuffs;
+  record.capsule_pushes = conduct.capsule_pushes;
   const std::size_t kept = std::min<std::size_t>(conduct.scuffs, conduct.places.size());
   record.scuff_places.assign(conduct.places.begin(), conduct.places.begin() + kept);
   return record;

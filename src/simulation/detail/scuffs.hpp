@@ -40,6 +40,8 @@ struct ScopeConduct {
   std::array<LastPlace, kHands> shaved{};
   std::array<procedure::CartilageScuff, kMaxScuffPlaces> places{};  ///< the first of `scuffs`
   std::uint32_t scuffs = 0;
+  std::array<bool, kHands> is_on_capsule{};  ///< a scope pushes into it, until it lets up
+  std::uint32_t capsule_pushes = 0;
 };
 
 template <Is<procedure::CartilageScuff> SomeScuff, typename Visitor>
@@ -63,7 +65,9 @@ void visit(SomeConduct& conduct, Visitor&& v) noexcept {
     v(conduct.presses[h].place);
     v(conduct.shaved[h].is_there);
     v(conduct.shaved[h].at);
+    v(conduct.is_on_capsule[h]);
   }
+  v(conduct.capsule_pushes);
   v(conduct.scuffs);
   for (auto& place : conduct.places) visit(place, v);
 }

@@ -367,6 +367,7 @@ struct World::State {
 
   // scope_conduct.cpp
   void watch_conduct(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
+  void watch_capsule(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   void watch_press(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   struct BonePlace {
     std::uint8_t body = kNoBody;
