@@ -7,17 +7,25 @@
 #include <cstddef>
 
 #include "case_io/detail/memory_room.hpp"
+#include "core/error.hpp"
 
 namespace carpus::case_io {
 namespace {
+
+/// A box so much longer than its slices that no gantry tilts so far [pixels].
+constexpr double kMostReach = 1 << 20U;
 
 /// One axis of the slices within the upright grid.
 struct Reach {
   int before = 0;  ///< pixels of the grid before the first slice's first
   int size = 0;
 
-  Reach(double drift, int pixels, int slices) {
+  Reach(double drift, int pixels, int slices, const std::string& path) {
     const double whole = drift * (slices - 1);
+    if (!(std::abs(whole) <= kMostReach)) {
+      throw IoError(path + ": its slices lie beside each other farther than any gantry tilts" +
+                    "; the header's positions are damaged: export the series again");
+    }
     const int more = static_cast<int>(std::ceil(std::abs(whole)));
     before = whole < 0 ? more : 0;
     size = pixels + more;
@@ -56,8 +64,8 @@ Grid<std::int16_t> set_upright(const Grid<std::int16_t>& slanted,
                                const SliceDrift& drift,
                                const std::string& path) {
   const GridGeometry& from = slanted.geometry();
-  const Reach x(drift.x, from.size[0], from.size[2]);
-  const Reach y(drift.y, from.size[1], from.size[2]);
+  const Reach x(drift.x, from.size[0], from.size[2], path);
+  const Reach y(drift.y, from.size[1], from.size[2], path);
   GridGeometry upright = from;
   upright.size = {x.size, y.size, from.size[2]};
   upright.origin = from.patient_from_voxel(

@@ -21,7 +21,8 @@ struct SliceDrift {
 /// between pixels by linear interpolation, what no slice reaches as dark as the darkest of them.
 /// @param slanted  values slice by slice; its geometry says where the first slice lies
 /// @param path  of a slice, for the error
-/// @throws IoError where the upright volume, larger than the slices, does not fit into memory
+/// @throws IoError where the upright volume, larger than the slices, does not fit into memory, and
+///     where the drift is none that a gantry has
 [[nodiscard]] Grid<std::int16_t> set_upright(const Grid<std::int16_t>& slanted,
                                              const SliceDrift& drift,
                                              const std::string& path);
