@@ -18,14 +18,6 @@ constexpr double kGreatest = 1000;  // of any figure, in its unit
 constexpr double kGreatestMm = 5;
 constexpr double kLeast = 1e-3;
 
-double marked(JsonFields& from, const std::string& figure, double greatest = kGreatest) {
-  JsonFields entry = from.object(figure);
-  const double value = entry.number("value", kLeast, greatest);
-  (void)entry.text("mark");
-  entry.refuse_unknown_fields();
-  return value;
-}
-
 TabledBand band_from(JsonFields& json) {
   TabledBand band;
   band.id = json.text("id");
@@ -33,8 +25,8 @@ TabledBand band_from(JsonFields& json) {
   band.joint = json.text("joint");
   band.ligaments = json.texts_or_none("ligaments");
   if (band.ligaments.empty()) json.refuse("is made of no ligament");
-  band.spacing_mm = marked(json, "spacing_mm", kGreatestMm);
-  band.whole_n_per_mm = marked(json, "whole_n_per_mm");
+  band.spacing_mm = json.marked_number("spacing_mm", kLeast, kGreatestMm);
+  band.whole_n_per_mm = json.marked_number("whole_n_per_mm", kLeast, kGreatest);
   json.refuse_unknown_fields();
   return band;
 }
@@ -42,7 +34,7 @@ TabledBand band_from(JsonFields& json) {
 BandGrade grade_from(JsonFields& json) {
   BandGrade grade;
   grade.id = json.text("id");
-  if (json.has("press_mm")) grade.press_mm = marked(json, "press_mm", kGreatestMm);
+  if (json.has("press_mm")) grade.press_mm = json.marked_number("press_mm", kLeast, kGreatestMm);
   grade.tension_n_per_mm = json.number("tension_n_per_mm", 0, kGreatest);
   grade.foundation_n_per_mm2 = json.number("foundation_n_per_mm2", kLeast, kGreatest);
   grade.along_share = json.number("along_share", kLeast, 1);
@@ -71,10 +63,10 @@ BandTable BandTable::parse(std::string_view json_text) {
   (void)json.number("schema_version", 1, 1);
   (void)json.text("fit_mark");
   for (JsonFields& each : json.objects("bands")) table.bands.push_back(band_from(each));
-  table.on_wall_mm = marked(json, "on_wall_mm", kGreatestMm);
-  table.aside_share = marked(json, "aside_share", 1);
-  table.mass_g_per_mm2 = marked(json, "mass_g_per_mm2");
-  table.damping_per_s = marked(json, "damping_per_s");
+  table.on_wall_mm = json.marked_number("on_wall_mm", kLeast, kGreatestMm);
+  table.aside_share = json.marked_number("aside_share", kLeast, 1);
+  table.mass_g_per_mm2 = json.marked_number("mass_g_per_mm2", kLeast, kGreatest);
+  table.damping_per_s = json.marked_number("damping_per_s", kLeast, kGreatest);
   for (JsonFields& each : json.objects("grades")) table.grades.push_back(grade_from(each));
   if (table.grades.empty() || table.grades.front().id != "0") json.refuse("grades: the first is 0");
   json.refuse_unknown_fields();

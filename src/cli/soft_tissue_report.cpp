@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 
+#include "arthroscopy/disc_table.hpp"
 #include "arthroscopy/yielding_figures.hpp"
 
 namespace carpus::cli {
@@ -93,13 +94,15 @@ std::string portal_table(const cases::ArthroscopicMap& map, const cases::CaseDat
 
 std::string yielding_table(const cases::CaseData& data, const cases::ArthroscopicMap& map) {
   std::string out;
+  const auto& published = arthroscopy::DiscTable::generic().published;
   print(out, "\nthe disc under a probe's 1 N; mm; published [S78] in brackets\n");
   print(out, "%-16s %18s %18s %22s %10s\n", "", "pressed, middle", "rests off by",
         "lifted by its edge", "particles");
   for (const arthroscopy::DiscFigures& f : arthroscopy::disc_figures(data, map)) {
     print(out, "%-16s %11.2f (%.1f) %11.1f (%.1f) %22.2f %10zu\n",
-          f.has_come_off ? "off the fovea" : "whole", f.press_mm, f.has_come_off ? 0.7 : 0.6,
-          f.rests_off_mm, f.has_come_off ? 1.3 : 0.0, f.lifted_mm, f.particles);
+          f.has_come_off ? "off the fovea" : "whole", f.press_mm,
+          f.has_come_off ? published.pressed_off_mm : published.pressed_whole_mm, f.rests_off_mm,
+          f.has_come_off ? published.rests_off_mm : 0.0, f.lifted_mm, f.particles);
   }
   print(out, "\nligaments under a probe's 1 N in their middle; mm, and N/mm along the fibres\n");
   print(out, "%-16s %6s %8s %9s %7s %8s %9s %11s %10s\n", "sheet", "grade", "pressed", "fitted to",

@@ -63,6 +63,14 @@ double JsonFields::number_or(const std::string& field, double low, double high, 
   return has(field) ? number(field, low, high) : absent;
 }
 
+double JsonFields::marked_number(const std::string& field, double low, double high) {
+  JsonFields entry = object(field);
+  const double value = entry.number("value", low, high);
+  (void)entry.text("mark");
+  entry.refuse_unknown_fields();
+  return value;
+}
+
 std::string JsonFields::text(const std::string& field) {
   const nlohmann::json& found = value(field);
   if (!found.is_string()) refuse(field + " is no text");

@@ -32,6 +32,8 @@ class JsonFields {
   /// Finite and within [low, high].
   [[nodiscard]] double number(const std::string& field, double low, double high);
   [[nodiscard]] double number_or(const std::string& field, double low, double high, double absent);
+  /// Of an object {"value": …, "mark": …}: a figure and where it comes from, which must be said.
+  [[nodiscard]] double marked_number(const std::string& field, double low, double high);
   /// Not empty.
   [[nodiscard]] std::string text(const std::string& field);
   [[nodiscard]] std::string text_or(const std::string& field, std::string_view absent);
