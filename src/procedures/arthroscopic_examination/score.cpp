@@ -97,6 +97,8 @@ void add_answers(std::vector<Measure>& measures, const procedure::ScopeRecord& s
     graded.value = sum.graded / sum.there * 100;
     graded.finding = sentence("", sum.misgraded, "");
   }
+  // Of a healthy wrist nothing can be missed.
+  measures.push_back({"findings_missed_share", is_healthy ? 0.0 : 100 - *found.value, ""});
   measures.push_back(std::move(found));
   measures.push_back(std::move(graded));
   measures.push_back(

@@ -118,6 +118,29 @@ TEST(ExaminationScore, WhoAnsweredNothingFoundNothing) {
             static_cast<double>(PathologyTable::generic().findings.size()));
 }
 
+bool is_fulfilled(const procedure::OperationRecord& record, const std::string& id) {
+  for (const procedure::MustHave& each : score({}, record).must_haves) {
+    if (each.id == id) return each.fulfilled;
+  }
+  ADD_FAILURE() << id << " is no must-have";
+  return false;
+}
+
+TEST(ExaminationScore, WhoMissesMoreThanHalfOrCallsEverythingTornHasNotExamined) {
+  cases::Grades truth{};
+  truth[0] = truth[2] = 2;
+  cases::Grades said = all_well();
+  EXPECT_FALSE(is_fulfilled(record_of(truth, said), "half_found"));
+  said[2] = 1;
+  EXPECT_TRUE(is_fulfilled(record_of(truth, said), "half_found")) << "one of two";
+  EXPECT_TRUE(is_fulfilled(record_of({}, all_well()), "half_found")) << "nothing to be missed";
+  said = all_well();
+  said[3] = said[4] = 1;
+  EXPECT_TRUE(is_fulfilled(record_of({}, said), "few_invented"));
+  said[5] = 1;
+  EXPECT_FALSE(is_fulfilled(record_of({}, said), "few_invented"));
+}
+
 TEST(ExaminationScore, FluidIsJudgedByWhatItHidAndWhatItDidToTheTissue) {
   auto record = record_of({}, all_well());
   EXPECT_FALSE(item(record, "clouded_share").value) << "whose scope was never in led none";
