@@ -105,12 +105,12 @@ export async function examinesRightly(browser) {
     await page.keyboard.press("Escape");
     await page.waitForFunction(() => document.querySelector("dialog[open]") === null);
     await finish(page);
-    const { items, overall } = await scoreOf(page, station);
+    const { items, overall, must_haves } = await scoreOf(page, station);
     for (const [id, wanted] of [["findings_found", 100], ["grades_right", 100], ["findings_invented", 0], ["findings_unjudged", 0], ["lesions_seen_share", 100]]) {
       const item = items.find((one) => one.id === id);
       expect(item.value === wanted, `${id}: ${JSON.stringify(item)}`);
     }
-    process.stdout.write(`  overall ${overall}\n`);
+    process.stdout.write(`  overall ${overall}; must haves ${JSON.stringify(must_haves.map((one) => [one.id, one.fulfilled]))}\n`);
   });
   await page.context().close();
   await station.stop();

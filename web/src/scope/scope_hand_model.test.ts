@@ -73,10 +73,10 @@ describe("an instrument in its portal", () => {
   it("presses no farther than a hand does", () => {
     const deep = { depthMm: 30, yawRad: 0, pitchRad: 0 };
     const tip = wishOf({ ...deep, depthMm: 16 }, PORTAL).tipMm;
-    const back = heldBack(deep, tip, PORTAL, 4);
+    const back = heldBack(deep, tip, PORTAL, { forceN: 4, goesOn: true });
     expect(back.depthMm).toBeCloseTo(18.5, 6);
     const near = { ...deep, depthMm: 17 };
-    expect(heldBack(near, tip, PORTAL, 4)).toBe(near);
+    expect(heldBack(near, tip, PORTAL, { forceN: 4, goesOn: false })).toBe(near);
   });
 
   it("levers no farther to the side than does harm, where something holds the tip", () => {
@@ -84,8 +84,11 @@ describe("an instrument in its portal", () => {
     const wide = { depthMm: 21, yawRad: 0.6, pitchRad: 0 };
     const off = (lean: typeof wide): number => length(subtract(wishOf(lean, PORTAL).tipMm, tip));
     expect(off(wide)).toBeGreaterThan(10);
-    expect(off(heldBack(wide, tip, PORTAL, 3))).toBeCloseTo(5, 6);
-    expect(heldBack(wide, tip, PORTAL, 0)).toBe(wide); // it is on its way
+    const led = (forceN: number, goesOn: boolean): number =>
+      off(heldBack(wide, tip, PORTAL, { forceN, goesOn }));
+    expect(led(3, true)).toBeCloseTo(5, 6);
+    expect(led(3, false)).toBeCloseTo(2.5, 6); // it gives way
+    expect(led(0, true)).toBe(off(wide)); // it is on its way
   });
 
   it("turns round and round", () => {

@@ -33,7 +33,8 @@ const FARTHEST_OUT_MM = -60;
 const FARTHEST_IN_MM = 30;
 /** A wish goes no farther beyond where the tip really is: enough to be felt [mm]. */
 const MOST_PRESSED_MM = 2.5;
-/** The same to the side, where something holds the tip: a hand without feeling levers hard enough to do harm, and no harder. */
+/** The same to the side, where something holds the tip, while the hand goes on: without feeling it levers hard
+ * enough to do harm, and no harder. Once it stops it gives way. */
 const MOST_LEVERED_MM = 5;
 /** Something holds the tip [N]. */
 const HELD_N = 0.5;
@@ -96,14 +97,20 @@ export function leanAt(tipMm: Vec3, portal: PortalNow): Lean {
 }
 
 /** A hand that presses against what does not yield: it goes no deeper than a little beyond the tip, nor
- * far to its side. @param forceN  on the hand */
-export function heldBack(lean: Lean, tipMm: Vec3, portal: PortalNow, forceN: number): Lean {
+ * far to its side. @param forceN  on the hand @param goesOn  it is being leaned */
+export function heldBack(
+  lean: Lean,
+  tipMm: Vec3,
+  portal: PortalNow,
+  { forceN, goesOn }: { readonly forceN: number; readonly goesOn: boolean },
+): Lean {
   const most = length(subtract(tipMm, portal.skinMm)) + MOST_PRESSED_MM;
   const back = lean.depthMm <= most ? lean : { ...lean, depthMm: most };
   const aside = subtract(wishOf(back, portal).tipMm, tipMm);
   const far = length(aside);
-  if (forceN < HELD_N || far <= MOST_LEVERED_MM) return back;
-  return leanAt(add(tipMm, scaled(aside, MOST_LEVERED_MM / far)), portal);
+  const allowed = goesOn ? MOST_LEVERED_MM : MOST_PRESSED_MM;
+  if (forceN < HELD_N || far <= allowed) return back;
+  return leanAt(add(tipMm, scaled(aside, allowed / far)), portal);
 }
 
 /** A hand goes round the wrist so far from its middle: beyond hand and thumb [mm]. */

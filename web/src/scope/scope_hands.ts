@@ -27,6 +27,8 @@ const IN_JOINT_MM_PER_S = 6;
 const OUTSIDE_MM_PER_S = 25;
 /** So near to a place of its way round the wrist it goes on to the next [mm]. */
 const ROUNDED_MM = 5;
+/** A hand that was leaned no longer ago goes on [ms]. */
+const GOES_ON_MS = 250;
 /** Farther out nothing holds a hand back [mm]. */
 const HELD_BACK_MM = 5;
 
@@ -45,6 +47,7 @@ export class ScopeHands {
     { portal: 0, lean: OUTSIDE },
     { portal: 1, lean: OUTSIDE },
   ];
+  private readonly leanedMs: [number, number] = [-Infinity, -Infinity];
   /** What is left of a hand's way round the wrist to its next portal. */
   private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
 
@@ -99,14 +102,18 @@ export class ScopeHands {
   }
 
   /** What a hand holds came no farther: the wish goes back to it. */
-  holdBack({ items, hands }: Pick<SnapshotMessage, "items" | "hands">): void {
+  holdBack({ items, hands }: Pick<SnapshotMessage, "items" | "hands">, nowMs: number): void {
     for (const hand of [0, 1] as const) {
       const item = items.find((one) => one.hand === hand);
       const held = this.held[hand];
       const portal = this.portalNowOf(hand);
       if (item === undefined || portal === undefined || held.lean.depthMm < HELD_BACK_MM) continue;
       const forceN = length(hands[hand]?.force_n ?? [0, 0, 0]);
-      this.held[hand] = { ...held, lean: heldBack(held.lean, item.tip_mm, portal, forceN) };
+      const goesOn = nowMs - this.leanedMs[hand] < GOES_ON_MS;
+      this.held[hand] = {
+        ...held,
+        lean: heldBack(held.lean, item.tip_mm, portal, { forceN, goesOn }),
+      };
     }
   }
 
@@ -128,8 +135,9 @@ export class ScopeHands {
     return this.rounds[hand][0] ?? wishOf(this.held[hand].lean, portal);
   }
 
-  lean(hand: HandIndex, yawRad: number, pitchRad: number): void {
+  lean(hand: HandIndex, yawRad: number, pitchRad: number, nowMs: number): void {
     this.rounds[hand] = []; // a hand that is led goes by itself no longer
+    this.leanedMs[hand] = nowMs;
     const held = this.held[hand];
     this.held[hand] = { ...held, lean: leaned(held.lean, yawRad, pitchRad) };
   }

@@ -73,7 +73,7 @@ export class ScopeLeading {
   see(snapshot: SnapshotMessage): void {
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) this.hands.poses = snapshot.bodies;
-    if (this.isPlaced) this.hands.holdBack(snapshot);
+    if (this.isPlaced) this.hands.holdBack(snapshot, performance.now());
   }
 
   seeScope(message: ScopeMessage): void {
@@ -218,7 +218,7 @@ export class ScopeLeading {
   }
 
   private lean(hand: HandIndex, yaw: number, pitch: number): void {
-    this.hands.lean(hand, yaw, pitch);
+    this.hands.lean(hand, yaw, pitch, performance.now());
     this.sending.mark(hand);
   }
 
