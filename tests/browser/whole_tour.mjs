@@ -60,7 +60,7 @@ export async function completesTour(browser, station) {
     expectSeen(told, expert, (await operator.exercise()).arthroscopy.points);
     await finish(page);
     const score = await scoreOf(page, station);
-    const seen = score.items.find((one) => one.id === "points_seen");
+    const seen = score.items.find((one) => one.id === "points_seen_share");
     expect(seen.points > 0, `scored: ${JSON.stringify(seen)}`);
     const wanting = score.must_haves.filter((one) => !one.fulfilled);
     expect(wanting.length === 0, `must haves: ${JSON.stringify(wanting)}`);
@@ -69,11 +69,11 @@ export async function completesTour(browser, station) {
   await page.context().close();
 }
 
-/** Nine tenths of what the expert saw: hands that wait for pictures drawn in software are not as steady. */
+/** Four fifths of what the expert saw: hands that wait for pictures drawn in software are not as steady. */
 function expectSeen(told, expert, points) {
   const missed = points.filter(({ number }) => !told.points_seen.includes(number));
   expect(
-    told.points_seen.length >= 0.9 * expert.seen,
+    told.points_seen.length >= 0.8 * expert.seen,
     `${told.points_seen.length} seen, by the expert ${expert.seen}; not: ${missed.map((one) => one.name).join("; ")}`,
   );
 }
