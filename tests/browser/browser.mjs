@@ -40,6 +40,11 @@ export async function newPage(browser, more = {}) {
   return page;
 }
 
+/** For pictures that are to be looked at: every pixel is drawn. */
+export function newPageForPictures(browser) {
+  return newPage(browser, { deviceScaleFactor: 1 });
+}
+
 /** And on a screen that is touched. */
 export function newTouchPage(browser) {
   return newPage(browser, { hasTouch: true });

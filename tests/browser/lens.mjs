@@ -6,7 +6,7 @@
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { newPage } from "./browser.mjs";
+import { newPageForPictures } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { root } from "./station.mjs";
 
@@ -72,7 +72,7 @@ function marksShown({ sidePx, fieldDeg, farMm, directions, axis, up, eyeMm }) {
 }
 
 export async function putsPointsWhereTheLensDoes(browser) {
-  const page = await newPage(browser, { deviceScaleFactor: 1 });
+  const page = await newPageForPictures(browser);
   await page.goto("about:blank");
   await page.addScriptTag({ content: await pictureScript() });
   for (const fieldDeg of FIELDS_DEG) {
