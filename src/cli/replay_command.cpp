@@ -80,10 +80,11 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--case", arguments->case_folder, "Case that it was made on")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "Write the figures to this file");
-  command->add_option("--motion", arguments->motion,
-                      "Write how the instruments moved to this table (.csv)");
+  CLI::Option* motion = command->add_option("--motion", arguments->motion,
+                                            "Write how the instruments moved to this table (.csv)");
   command->add_option("--every", arguments->every_ms, "Milliseconds between two lines of the table")
       ->check(CLI::Range(1U, 60000U))
+      ->needs(motion)
       ->capture_default_str();
   command->callback([arguments] { run(*arguments); });
 }
