@@ -239,6 +239,30 @@ async function setTaps(page, picture) {
   await picture("bubbles");
 }
 
+/** Looks about in a joint until a place of the tour is seen. How deep a key held so long leads hangs on how fast pictures come: as a person would, it goes off what it lies against, and round at every depth from there outwards, then in again. */
+async function lookAbout(page, operator, picture) {
+  const isOut = async () =>
+    /Scope outside/.test(await page.locator(".scope-status").innerText());
+  for (let turn = 0; turn < 32; ++turn) {
+    const seen = await page.locator(".scope-points .is-seen").count();
+    if (seen >= 1) return;
+    for (let i = 0; i < 20; ++i) {
+      const { touching } = (await operator.snapshot()).hands[0];
+      if (!touching || (await isOut())) break;
+      await hold(page, "d", 60);
+    }
+    if (await isOut()) {
+      await holdUntil(page, "a", "Scope in the joint by", "the scope, in again");
+      await hold(page, "a", 300);
+    } else if (turn % 4 === 3) {
+      await hold(page, "d", 300);
+    }
+    await hold(page, ",", 600);
+    await page.waitForTimeout(1300);
+    await picture(`about_${turn}`);
+  }
+}
+
 /** Through both joints, with a report of what was found. */
 export async function examination(browser, station) {
   const page = await newPage(browser);
@@ -272,16 +296,7 @@ export async function examination(browser, station) {
       "Scope in the joint by MC",
       "the scope, midcarpal",
     );
-    await hold(page, "a", 200);
-    for (let turn = 0; turn < 16; ++turn) {
-      const seen = await page.locator(".scope-points .is-seen").count();
-      if (seen >= 1 && pictures === undefined) break;
-      // How deep it went hangs on how fast pictures come: as a person would, out or in a little.
-      if (turn % 4 === 3) await hold(page, turn === 3 ? "d" : "a", 120);
-      await hold(page, ",", 600);
-      await page.waitForTimeout(1300);
-      await picture(`midcarpal_${turn}`);
-    }
+    await lookAbout(page, operator, picture);
     const seen = await page.locator(".scope-points .is-seen").count();
     expect(seen >= 1, `${seen} midcarpal places were seen`);
     await expectDrawnInTime(page, "midcarpal");
