@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
 #include "fields/distance_field.hpp"
 #include "geometry/aabb.hpp"
+#include "mesh/neighbours.hpp"
+#include "mesh/part_bridges.hpp"
 #include "mesh/simplify_in_states.hpp"
 
 namespace carpus::arthroscopy {
@@ -16,9 +19,14 @@ namespace {
 
 using soft_tissue::Lining;
 
-/// A wall vertex belongs to a ligament whose strand is so near.
-constexpr double kStrandMm = 3.0;
 constexpr double kFarMm = 4.0;
+constexpr double kNextLigamentMm = 37.0;  ///< wider than any: no two show the same bundles
+/// Of one side of the joint to the other: so near they touch, for the picture.
+constexpr float kTouchingMm = 1.5F;
+constexpr std::uint8_t kRingsAboutCut = 3;
+constexpr int kSmoothedTimes = 30;
+constexpr int kEvenedTimes = 4;
+constexpr int kRimRings = 2;
 /// With a probe's 672 and a loose body's 720 less than 15 000 triangles are drawn.
 constexpr std::size_t kMostFacets = 13500;
 /// So far scaphoid and triquetrum may part from the lunate: Geissler IV, a scope passes [E].
@@ -65,20 +73,243 @@ Nearest nearest_of(const cases::CaseData& data, const Vec3& at, Row row) {
   return best;
 }
 
-Vec3 fibre_at(const soft_tissue::SoftTissue& tissue, const Vec3& at) {
-  double least = kStrandMm * kStrandMm;
-  Vec3 way;
-  for (const soft_tissue::Ligament& ligament : tissue.ligaments) {
-    for (const soft_tissue::Strand& strand : ligament.strands) {
-      for (std::size_t i = 0; i + 1 < strand.course.size(); ++i) {
-        const double far = squared_length(strand.course[i] - at);
-        if (far >= least) continue;
-        least = far;
-        way = strand.course[i + 1] - strand.course[i];
+struct OnStrand {
+  Vec3 at;
+  double mm = kFarMm;
+  double along_mm = 0;
+};
+
+OnStrand nearest_on(const soft_tissue::Strand& strand, const Vec3& p, double reach_mm) {
+  OnStrand best;
+  best.mm = reach_mm;
+  double before = 0;
+  for (std::size_t i = 0; i + 1 < strand.course.size(); ++i) {
+    const Vec3& a = strand.course[i];
+    const Vec3 way = strand.course[i + 1] - a;
+    const double t = std::clamp(dot(p - a, way) / std::max(squared_length(way), 1e-12), 0.0, 1.0);
+    const double mm = distance(p, a + way * t);
+    if (mm < best.mm) best = {a + way * t, mm, before + t * length(way)};
+    before += length(way);
+  }
+  return best;
+}
+
+double mm_to(const soft_tissue::Ligament& ligament, const Vec3& p) {
+  double mm = kFarMm;
+  for (const soft_tissue::Strand& strand : ligament.strands) {
+    mm = std::min(mm, nearest_on(strand, p, mm).mm);
+  }
+  return mm;
+}
+
+/// Across and along the strands. Between two a place lies by its shares of the way from one to the
+/// other, so that neither coordinate jumps.
+Vec3 fibre_at(const soft_tissue::Ligament& ligament, const Vec3& p) {
+  const auto& strands = ligament.strands;
+  std::size_t nearest = 0;
+  OnStrand on;
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    const OnStrand here = nearest_on(strands[s], p, on.mm);
+    if (here.mm >= on.mm) continue;
+    nearest = s;
+    on = here;
+  }
+  const double apart_mm =
+      strands.size() > 1 ? ligament.width_mm / static_cast<double>(strands.size() - 1) : 0;
+  auto across = static_cast<double>(nearest);
+  double along_mm = on.along_mm;
+  for (const int side : {-1, 1}) {
+    if (side < 0 ? nearest == 0 : nearest + 1 == strands.size()) continue;
+    const OnStrand next =
+        nearest_on(side < 0 ? strands[nearest - 1] : strands[nearest + 1], p, 1e9);
+    const Vec3 way = next.at - on.at;
+    const double t = dot(p - on.at, way) / std::max(squared_length(way), 1e-12);
+    if (t <= 0) continue;
+    across += side * std::min(t, 1.0);
+    along_mm += std::min(t, 1.0) * (next.along_mm - on.along_mm);
+    break;
+  }
+  return {across * apart_mm, along_mm, 0};
+}
+
+/// The mean of each vertex and its neighbours, some times.
+template <typename T>
+void even_out(std::vector<T>& values, const mesh::Neighbours& neighbours, int times) {
+  for (int time = 0; time < times; ++time) {
+    const std::vector<T> before = values;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      T sum = before[v];
+      for (const std::uint32_t n : neighbours.of(v)) sum += before[n];
+      values[v] = sum / static_cast<T>(neighbours.of(v).size() + 1);
+    }
+  }
+}
+
+constexpr std::size_t kNoLigament = static_cast<std::size_t>(-1);
+
+/// By vertex which ligament lines the wall there: the nearest, in the mean of a place's
+/// surroundings, since where two lie in each other the nearest changes from vertex to vertex.
+std::vector<std::size_t> ligaments_on(const JointWall& wall,
+                                      const soft_tissue::SoftTissue& tissue,
+                                      const mesh::Neighbours& neighbours) {
+  const auto& vertices = wall.surface.vertices;
+  std::vector<std::size_t> nearest(vertices.size(), kNoLigament);
+  std::vector<double> least(vertices.size(), kFarMm);
+  for (std::size_t l = 0; l < tissue.ligaments.size(); ++l) {
+    std::vector<double> mm(vertices.size(), kFarMm);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (wall.lining[v] == Lining::Ligament) mm[v] = mm_to(tissue.ligaments[l], vertices[v]);
+    }
+    even_out(mm, neighbours, kEvenedTimes);
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (wall.lining[v] != Lining::Ligament || mm[v] >= least[v]) continue;
+      least[v] = mm[v];
+      nearest[v] = l;
+    }
+  }
+  return nearest;
+}
+
+/// Also what lies beside a ligament, so that its fibres run out under what lines the wall there.
+std::vector<std::size_t> with_rim(std::vector<std::size_t> ligament,
+                                  const mesh::Neighbours& neighbours) {
+  for (int ring = 0; ring < kRimRings; ++ring) {
+    const std::vector<std::size_t> before = ligament;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      for (const std::uint32_t n : neighbours.of(v)) {
+        if (ligament[v] == kNoLigament) ligament[v] = before[n];
       }
     }
   }
-  return normalized_or(way, {});
+  return ligament;
+}
+
+/// How far a vertex is from any that another ligament or none lines: 0 there, 1 well within.
+std::vector<float> within(const std::vector<std::size_t>& ligament,
+                          const mesh::Neighbours& neighbours) {
+  std::vector<float> share(ligament.size());
+  for (std::size_t v = 0; v < ligament.size(); ++v) {
+    const auto& about = neighbours.of(v);
+    const bool is_rim = std::any_of(about.begin(), about.end(), [&](std::uint32_t n) {
+      return ligament[n] != ligament[v] && ligament[n] != kNoLigament;
+    });
+    share[v] = ligament[v] != kNoLigament && !is_rim ? 1.0F : 0.0F;
+  }
+  even_out(share, neighbours, 1);
+  return share;
+}
+
+/// Whether a ligament binds bones of one row to each other: it goes with them.
+bool is_of_row(const soft_tissue::Ligament& ligament, const cases::CaseData& data, Row row) {
+  bool has_any = false;
+  for (const soft_tissue::Strand& strand : ligament.strands) {
+    for (const soft_tissue::Anchor& anchor : strand.anchors) {
+      const auto bone = std::find_if(data.bones.begin(), data.bones.end(),
+                                     [&](const auto& one) { return one.label == anchor.label; });
+      if (anchor.label == 0 || bone == data.bones.end() || row_of(bone->bone) != row) return false;
+      has_any = true;
+    }
+  }
+  return has_any;
+}
+
+/// By vertex of a wall, until its sides are parted.
+struct OnWall {
+  std::vector<float> gap_mm;  ///< from one side to the other
+  std::vector<bool> spans;    ///< of a ligament from one side to the other
+};
+
+OnWall line(JointWall& wall,
+            const cases::CaseData& data,
+            const soft_tissue::SoftTissue& tissue,
+            const TabledJoint& joint) {
+  OnWall on;
+  const Row near_row = row_of(joint.between[0]);
+  const Row far_row = row_of(joint.between[1]);
+  const mesh::Neighbours neighbours(wall.surface);
+  const std::vector<std::size_t> ligament = ligaments_on(wall, tissue, neighbours);
+  const std::vector<std::size_t> woven = with_rim(ligament, neighbours);
+  const std::vector<float> weave = within(woven, neighbours);
+  for (std::size_t i = 0; i < wall.surface.vertices.size(); ++i) {
+    const Vec3& at = wall.surface.vertices[i];
+    const Nearest proximal = nearest_of(data, at, near_row);
+    const Nearest distal = nearest_of(data, at, far_row);
+    const double both = proximal.mm + distal.mm;
+    double share = both > 0 ? proximal.mm / both : 0.5;
+    const soft_tissue::Ligament* lines =
+        ligament[i] == kNoLigament ? nullptr : &tissue.ligaments[ligament[i]];
+    bool spans = lines != nullptr;
+    if (wall.lining[i] == Lining::Disc) share = 0;
+    if (spans && is_of_row(*lines, data, near_row)) {
+      share = 0;
+      spans = false;
+    } else if (spans && is_of_row(*lines, data, far_row)) {
+      share = 1;
+      spans = false;
+    }
+    Vec3 fibre;
+    if (woven[i] != kNoLigament) {
+      fibre = fibre_at(tissue.ligaments[woven[i]], at);
+      fibre.x += kNextLigamentMm * static_cast<double>(woven[i]);
+      fibre.z = weave[i];
+    }
+    wall.proximal.push_back(proximal.body);
+    wall.distal.push_back(distal.body);
+    wall.distal_share.push_back(static_cast<float>(share));
+    wall.fibre.push_back(fibre);
+    on.gap_mm.push_back(static_cast<float>(both));
+    on.spans.push_back(spans);
+  }
+  return on;
+}
+
+/// About a cut all that lies between sides which nearly touch goes with its own side, and its stump
+/// is smoothed down.
+void take_sides(JointWall& wall, const OnWall& on, std::size_t first_cut) {
+  std::vector<Vec3>& vertices = wall.surface.vertices;
+  std::vector<std::uint8_t> rings(vertices.size(), 0);
+  std::fill(rings.begin() + static_cast<std::ptrdiff_t>(first_cut), rings.end(), 1);
+  for (std::uint8_t ring = 1; ring <= kRingsAboutCut; ++ring) {
+    for (const Triangle& t : wall.surface.facets) {
+      if (std::none_of(t.begin(), t.end(), [&](auto v) { return rings[v] == ring; })) continue;
+      for (const std::uint32_t v : t) {
+        if (rings[v] != 0 || on.spans[v] || on.gap_mm[v] > kTouchingMm) continue;
+        rings[v] = static_cast<std::uint8_t>(ring + 1);
+        wall.distal_share[v] = std::round(wall.distal_share[v]);
+      }
+    }
+  }
+  const mesh::Neighbours neighbours(wall.surface);
+  for (int time = 0; time < kSmoothedTimes; ++time) {
+    const std::vector<Vec3> before = vertices;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (rings[v] == 0 || rings[v] > kRingsAboutCut) continue;
+      Vec3 sum;
+      for (const std::uint32_t n : neighbours.of(v)) sum += before[n];
+      vertices[v] = sum * (1.0 / static_cast<double>(neighbours.of(v).size()));
+    }
+  }
+}
+
+/// Where forearm and row, or the rows, touch as scanned the space has a bridge, which the opened
+/// joint would draw out to a peg: no tissue is there.
+void part(JointWall& wall, const OnWall& on) {
+  const std::size_t count = wall.surface.vertices.size();
+  mesh::PartedBridges parted =
+      mesh::part_bridges(wall.surface.vertices, wall.surface.facets, wall.distal_share,
+                         [&](std::uint32_t v) { return on.spans[v]; });
+  wall.parted = parted.bridges;
+  wall.surface.facets = std::move(parted.facets);
+  for (const mesh::CutVertex& c : parted.cuts) {
+    const Vec3 a = wall.surface.vertices[c.a];
+    wall.surface.vertices.push_back(a + (wall.surface.vertices[c.b] - a) * c.share);
+    wall.lining.push_back(wall.lining[c.a]);
+    wall.fibre.push_back(wall.fibre[c.a]);
+    wall.proximal.push_back(wall.proximal[c.a]);
+    wall.distal.push_back(wall.distal[c.a]);
+    wall.distal_share.push_back(std::round(wall.distal_share[c.a]));
+  }
+  take_sides(wall, on, count);
 }
 
 JointWall wall_of(const cases::CaseData& data,
@@ -89,18 +320,7 @@ JointWall wall_of(const cases::CaseData& data,
   wall.joint = joint.id;
   wall.surface = space.surface;
   wall.lining = space.lining;
-  for (std::size_t i = 0; i < wall.surface.vertices.size(); ++i) {
-    const Vec3& at = wall.surface.vertices[i];
-    const Nearest proximal = nearest_of(data, at, row_of(joint.between[0]));
-    const Nearest distal = nearest_of(data, at, row_of(joint.between[1]));
-    const bool is_disc = wall.lining[i] == Lining::Disc;
-    const double both = proximal.mm + distal.mm;
-    wall.proximal.push_back(proximal.body);
-    wall.distal.push_back(distal.body);
-    wall.distal_share.push_back(
-        static_cast<float>(is_disc ? 0.0 : (both > 0 ? proximal.mm / both : 0.5)));
-    wall.fibre.push_back(wall.lining[i] == Lining::Ligament ? fibre_at(tissue, at) : Vec3{});
-  }
+  part(wall, line(wall, data, tissue, joint));
   return wall;
 }
 

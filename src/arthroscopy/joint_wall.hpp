@@ -19,11 +19,15 @@ struct JointWall {
   TriangleMesh surface;  ///< outward from the joint's space, frame Patient as scanned [mm]
   // By vertex:
   std::vector<soft_tissue::Lining> lining;
-  std::vector<Vec3> fibre;             ///< unit, along the ligament; zero where there is none
+  /// Across and along a ligament's strands [mm], far apart for two ligaments; z: 1 well on one,
+  /// less towards another, 0 on none.
+  std::vector<Vec3> fibre;
   std::vector<std::uint8_t> proximal;  ///< body that it goes with: of the proximal side ...
   std::vector<std::uint8_t> distal;    ///< ... and of the distal one
   std::vector<float> distal_share;     ///< of that one's motion, 0 to 1
   double simplified_by_mm = 0;         ///< against the space's surface, however the joint is opened
+  std::size_t parted =
+      0;  ///< places where both sides touched as scanned, cut through so that they can part
 };
 
 /// Of the joints that a scope looks into (data/portals.json), as far as their spaces could be made;

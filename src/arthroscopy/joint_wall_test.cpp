@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "arthroscopy/generic_wrist_test_support.hpp"
+#include "mesh/genus.hpp"
 
 namespace carpus::arthroscopy {
 namespace {
@@ -28,6 +31,44 @@ TEST(JointWall, OfBothJointsIsClosedAndDrawnInTime) {
       EXPECT_NEAR(volume_of(wall.surface), space.volume_mm3, 0.005 * space.volume_mm3);
     }
   }
+}
+
+TEST(JointWall, BonesThatTouchedInTheScanAreBridgedByNothing) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  std::size_t parted = 0;
+  for (const JointWall& wall : make_joint_walls(wrist.data, wrist.tissue)) {
+    for (const auto& space : wrist.tissue.spaces) {
+      if (space.id != wall.joint) continue;
+      EXPECT_EQ(mesh::genus_of(wall.surface),
+                mesh::genus_of(space.surface) - static_cast<int>(wall.parted));
+    }
+    parted += wall.parted;
+  }
+  EXPECT_GT(parted, 0U);
+}
+
+TEST(JointWall, FibresRunOnFromVertexToVertexOfALigament) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  std::size_t woven = 0;
+  for (const JointWall& wall : make_joint_walls(wrist.data, wrist.tissue)) {
+    for (const Triangle& t : wall.surface.facets) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = wall.fibre[t[k]];
+        const Vec3 b = wall.fibre[t[(k + 1) % 3]];
+        if (a.z < 0.9 || b.z < 0.9) continue;
+        ++woven;
+        const double apart_mm =
+            distance(wall.surface.vertices[t[k]], wall.surface.vertices[t[(k + 1) % 3]]);
+        // Strands fan out, and their ends lie a stretch apart.
+        EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y), 4 * apart_mm + 1.5);
+      }
+    }
+    for (std::size_t v = 0; v < wall.fibre.size(); ++v) {
+      EXPECT_GE(wall.fibre[v].z, 0);
+      EXPECT_LE(wall.fibre[v].z, 1);
+    }
+  }
+  EXPECT_GT(woven, 1000U);
 }
 
 }  // namespace

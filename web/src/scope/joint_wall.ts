@@ -16,8 +16,6 @@ export interface JointWall {
   readonly joint: string;
   readonly geometry: THREE.BufferGeometry;
   readonly triangles: number;
-  /** As scanned, Patient [mm]. */
-  readonly middle: THREE.Vector3;
   /** Lays it where the bones are now. @param poses  of the bodies, in the case's order */
   pose(poses: readonly BodyPose[]): void;
   /** What of it yields. @param bodies  names, in the case's order */
@@ -89,7 +87,6 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
   return {
     joint,
     geometry,
-    middle: geometry.boundingSphere?.center.clone() ?? new THREE.Vector3(),
     triangles: (surface.getIndex()?.count ?? 0) / 3,
     pose: (poses) => {
       for (let v = 0; v < count; ++v) {
@@ -103,7 +100,15 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
       geometry.computeBoundingSphere();
     },
     setSheets: (plans, bodies) => {
-      const wall = { rest, normals: normals(), isDisc };
+      const values = (of: typeof share): number[] =>
+        Array.from({ length: count }, (_, v) => of.getX(v));
+      const wall = {
+        rest,
+        normals: normals(),
+        isDisc,
+        distalShare: values(share),
+        distal: values(distal),
+      };
       sheets = plans.map((plan) =>
         plan.joint === joint ? new WallSheet(wall, plan, bodies.indexOf(plan.body)) : undefined,
       );

@@ -76,10 +76,7 @@ export class ScopePicture {
     this.walls = new Map(
       walls.map((wall) => [
         wall.joint,
-        new THREE.Mesh(
-          wall.geometry,
-          wetMaterial(this.lens, false, wall.middle, this.lesions, this.hole),
-        ),
+        new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, this.lesions, this.hole)),
       ]),
     );
     this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));

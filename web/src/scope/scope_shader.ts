@@ -83,7 +83,6 @@ precision highp float;
 uniform vec3 eye, axis, lamp;
 uniform float isMetal, exposure;
 uniform vec4 shines;
-uniform vec3 middle;
 varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
@@ -96,6 +95,7 @@ float power28(float x) {
   float x4 = x * x * x * x, x8 = x4 * x4;
   return x4 * x8 * x8 * x8;
 }
+const mat3 ASLANT = mat3(0.36, 0.48, -0.80, -0.80, 0.60, 0.0, 0.48, 0.64, 0.60);
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
 ${LESIONS_GLSL}
 ${FLUID_GLSL}
@@ -122,26 +122,22 @@ void main() {
   vec3 cartilage = mix(vec3(0.80, 0.83, 0.82), vec3(0.93, 0.90, 0.83), soft);
   vec3 disc = mix(vec3(0.80, 0.72, 0.56), vec3(0.93, 0.88, 0.76), cloudy(vAt * 1.7));
   vec3 bone = mix(vec3(0.80, 0.68, 0.50), vec3(0.86, 0.76, 0.60), soft);
-  // Fibres: fine along, coarse across.
-  vec3 f = length(vFibre) > 0.1 ? normalize(vFibre) : vec3(0.0, 0.0, 1.0);
-  // From the joint's middle: far from it a fibre that turns a little would shift them by millimetres.
-  vec3 p = vAt - middle;
-  vec3 across = p - f * dot(p, f);
-  float strand = noise(across * 2.6 + f * dot(p, f) * 0.25);
-  float strand2 = noise(across * 5.2 + f * dot(p, f) * 0.4 + 3.7);
-  float bundle = 0.6 * strand + 0.4 * strand2;
-  // Where they turn within a facet the pattern would run through it many times: there is none.
-  float turning = length(fwidth(across)) / max(length(fwidth(vAt)), 1e-6);
-  bundle = mix(bundle, 0.5, smoothstep(1.1, 1.6, turning));
-  // Nor between fibres of two ways.
-  bundle = mix(0.5, bundle, smoothstep(0.7, 0.97, length(vFibre)));
-  bundle = mix(bundle, 0.5, smoothstep(0.05, 0.18, length(fwidth(vAt))));
+  // Bundles of fibres: long along a ligament's strands, narrow across; they lie in the tissue and go with it.
+  vec2 weave = vFibre.xy + 0.35 * (soft - 0.5);
+  float bundle = 0.6 * noise(vec3(2.6 * weave.x, 0.25 * weave.y, 0.5)) +
+    0.4 * noise(vec3(5.2 * weave.x, 0.4 * weave.y, 3.7));
+  // None between two ligaments, nor where they are crowded, nor finer than the picture's points.
+  vec2 pace = fwidth(vAt.xy) + fwidth(vAt.yz);
+  float crowded = length(fwidth(vFibre.xy)) / max(length(pace), 1e-6);
+  bundle = mix(bundle, 0.5, max(smoothstep(1.5, 3.0, crowded), smoothstep(0.05, 0.18, length(pace))));
+  bundle = mix(0.5, bundle, smoothstep(0.0, 0.8, vFibre.z));
   vec3 ligament = mix(vec3(0.70, 0.56, 0.43), vec3(0.94, 0.88, 0.78), smoothstep(0.2, 0.75, bundle));
   // Synovium with its vessels: thin ridges of noise.
   float ridge = 1.0 - abs(2.0 * noise(vAt * 1.5 + 2.0 * soft) - 1.0);
   float twig = 1.0 - abs(2.0 * noise(vAt * 2.9 + 11.0) - 1.0);
   float vessel = 0.8 * smoothstep(0.955, 0.998, ridge) + 0.5 * smoothstep(0.94, 0.995, twig);
-  float villi = noise(vAt * 3.4);
+  // Its grid aslant and bent: straight, it would be seen in the glints.
+  float villi = noise(ASLANT * vAt * 3.4 + 1.6 * (soft - 0.5));
   vec3 synovium = mix(vec3(0.66, 0.25, 0.19), vec3(0.90, 0.62, 0.50), 0.55 * soft + 0.45 * villi);
   synovium = mix(synovium, vec3(0.50, 0.04, 0.04), 0.6 * clamp(vessel, 0.0, 1.0));
 
@@ -228,11 +224,9 @@ void main() {
   gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
 }`;
 
-/** @param middle  of the joint, as scanned */
 export function wetMaterial(
   lens: LensUniforms,
   isMetal: boolean,
-  middle = new THREE.Vector3(),
   lesions: LesionUniforms = lesionUniforms(),
   hole: HoleUniforms = holeUniforms(),
 ): THREE.ShaderMaterial {
@@ -242,7 +236,6 @@ export function wetMaterial(
       ...lesions,
       ...hole,
       isMetal: { value: isMetal ? 1 : 0 },
-      middle: { value: middle },
       shines: { value: new THREE.Vector4() },
     },
     vertexShader: VERTEX,

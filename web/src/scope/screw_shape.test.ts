@@ -29,7 +29,6 @@ function flatWall(z: number): JointWall {
     joint: "radiocarpal",
     geometry,
     triangles: 2,
-    middle: new THREE.Vector3(),
     pose: () => undefined,
     setSheets: () => undefined,
     cutDisc: () => undefined,

@@ -19,6 +19,8 @@ const wall = {
   rest,
   normals: new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, -1]),
   isDisc: [false, false, false],
+  distalShare: [1, 1, 1],
+  distal: [0, 0, 0],
 };
 
 describe("a ligament of the wall", () => {
@@ -43,11 +45,35 @@ describe("a ligament of the wall", () => {
     expect(position[2]).toBeCloseTo(2, 5);
   });
 
+  it("does not take along what touches it from the other side, whichever that is", () => {
+    for (const [distal, distalShare] of [
+      [0, 0],
+      [1, 1],
+    ] as const) {
+      const touching = {
+        ...wall,
+        distal: [distal, distal, distal],
+        distalShare: [distalShare, distalShare, distalShare],
+      };
+      const sheet = new WallSheet(touching, ligament([[0, 0, 0.5]]), 0);
+      sheet.yield([0, 0, 800]);
+      const position = new Float32Array(rest);
+      sheet.addTo(position, rest, [REST, REST]);
+      expect([...position]).toEqual([...rest]);
+    }
+  });
+
   it("goes along less and less beyond its rim", () => {
     const xs = [0, 1, 1.5, 2, 3];
     const row = new Float32Array(xs.flatMap((x) => [x, 0, 0]));
     const normals = new Float32Array(xs.flatMap(() => [0, 0, 1]));
-    const along = { rest: row, normals, isDisc: xs.map(() => false) };
+    const along = {
+      rest: row,
+      normals,
+      isDisc: xs.map(() => false),
+      distalShare: xs.map(() => 1),
+      distal: xs.map(() => 0),
+    };
     const sheet = new WallSheet(along, ligament([[0, 0, 0.5]]), 0);
     sheet.yield([0, 0, 1000]);
     const position = new Float32Array(row);

@@ -16,6 +16,10 @@ export interface ScannedWall {
   /** Out of the joint, three a vertex. */
   readonly normals: Float32Array;
   readonly isDisc: readonly boolean[];
+  /** By vertex, 0 to 1: of the motion of the bones on the joint's distal side. */
+  readonly distalShare: readonly number[];
+  /** By vertex the bone on that side which it lies nearest to, by its place in the case's order. */
+  readonly distal: readonly number[];
 }
 
 interface Bound {
@@ -55,7 +59,7 @@ export class WallSheet {
     private readonly plan: SheetPlan,
     private readonly body: number,
   ) {
-    this.bound = boundTo(wall, plan);
+    this.bound = boundTo(wall, plan, body);
   }
 
   /** As of the message `sheet`. */
@@ -121,8 +125,9 @@ export class WallSheet {
 }
 
 /** The wall near the sheet, each vertex with the places that it goes with. */
-function boundTo(wall: ScannedWall, plan: SheetPlan): readonly Bound[] {
+function boundTo(wall: ScannedWall, plan: SheetPlan, body: number): readonly Bound[] {
   const all: Bound[] = [];
+  const isDistal = wall.distal.includes(body);
   const { rest, normals } = wall;
   const reachMm = plan.kind === "disc" ? DISC_REACH_MM : LIGAMENT_REACH_MM;
   for (let vertex = 0; 3 * vertex < rest.length; ++vertex) {
@@ -145,7 +150,8 @@ function boundTo(wall: ScannedWall, plan: SheetPlan): readonly Bound[] {
     const goes =
       plan.kind === "disc"
         ? goesWithDisc(nearest.mm, wall.isDisc[vertex] === true)
-        : goesWithLigament(nearest.mm, under);
+        : goesWithLigament(nearest.mm, under) *
+          onSide(isDistal ? (wall.distalShare[vertex] ?? 0) : 1 - (wall.distalShare[vertex] ?? 0));
     if (goes === 0) continue;
     const parts = near.map(({ mm }) => 1 / (mm * mm + 0.04));
     const sum = parts.reduce((a, b) => a + b, 0);
@@ -169,6 +175,11 @@ function goesWithLigament(mm: number, underMm: number): number {
   const near = (LIGAMENT_REACH_MM - mm) / (LIGAMENT_REACH_MM - LIGAMENT_WHOLE_MM);
   const under = (underMm + BEFORE_MM) / (UNDER_WHOLE_MM + BEFORE_MM);
   return smooth(near) * smooth(under);
+}
+
+/** What lies on the other side of the joint may touch it as scanned, and does not go along. */
+function onSide(share: number): number {
+  return smooth((share - 0.25) / 0.5);
 }
 
 function smooth(share: number): number {
