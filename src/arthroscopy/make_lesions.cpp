@@ -5,6 +5,7 @@
 // onto the wall by the wall's distance.
 #include "arthroscopy/make_lesions.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "core/rng.hpp"
@@ -41,6 +42,7 @@ class LesionMaker {
   }
 
   cases::JointLesions make() {
+    settle();
     for (std::size_t f = 0; f < table_.findings.size(); ++f) {
       // The same draws for every grade: one finding's place does not hang on another's grade.
       const Vec3 aside = Vec3{rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)};
@@ -58,12 +60,43 @@ class LesionMaker {
     return std::move(made_);
   }
 
+  /// A grade that goes with another finding's brings that along, and is told where both are there.
+  void settle() {
+    for (std::size_t f = 0; f < table_.findings.size(); ++f) {
+      const std::vector<Grade>& grades = table_.scale_of(f).grades;
+      std::uint8_t& grade = made_.grades[f];
+      if (grade >= grades.size()) continue;
+      if (const auto& with = grades[grade].with; with && can_show(with->finding)) {
+        made_.grades[with->finding] = std::max(made_.grades[with->finding], with->grade);
+      } else if (with) {
+        for (std::uint8_t g = 0; g < grades.size(); ++g) {
+          if (grades[g].id == grades[grade].more_than) grade = g;
+        }
+      }
+      for (std::size_t g = 0; g < grades.size(); ++g) {
+        const auto& with = grades[g].with;
+        if (grades[g].more_than != grades[grade].id || !with) continue;
+        if (can_show(with->finding) && made_.grades[with->finding] >= with->grade) {
+          grade = static_cast<std::uint8_t>(g);
+          break;
+        }
+      }
+    }
+  }
+
  private:
   [[nodiscard]] const cases::TourPoint* point(const std::string& id) const {
     for (const cases::TourPoint& each : map_.points) {
       if (each.id == id) return &each;
     }
     return nullptr;
+  }
+
+  /// Of a ligament: whether the case has both of its places.
+  [[nodiscard]] bool can_show(std::size_t finding) const {
+    const auto& line = table_.findings[finding].line;
+    return !line ||
+           (point(line->in_radiocarpal) != nullptr && point(line->in_midcarpal) != nullptr);
   }
 
   void add(std::size_t finding,
@@ -87,6 +120,20 @@ class LesionMaker {
     }
     if (!what.among.empty()) return add_loose(what, lesion, choice);
     add_disc_tear(table_.scale_of(finding).grades[grade].id, how, lesion);
+    if (how.beside) add_beside(*how.beside, lesion);
+  }
+
+  void add_beside(const PatchBeside& patch, Lesion lesion) {
+    const cases::TourPoint* near = point(patch.near);
+    if (near == nullptr) return;
+    cases::TourPoint place = *near;
+    for (std::size_t b = 0; b < data_.bones.size(); ++b) {
+      if (name_of(data_.bones[b].bone) == patch.on) place.body = static_cast<std::uint8_t>(b);
+    }
+    lesion.look = patch.shows;
+    lesion.radius_mm = patch.radius_mm;
+    lesion.passes_mm = 0;
+    lay(lesion, place, place.at + radial_ * patch.radially_mm, {}, 0);
   }
 
   /// Both joints show a ligament's line; only what has a step shows from distal.
@@ -138,7 +185,7 @@ class LesionMaker {
       lay(lesion, *middle, middle->at + radial_ * kRadialOfMiddleMm, volar_, how.length_mm);
     } else if (kind == "1D" && middle != nullptr) {
       lay(lesion, *middle, middle->at + radial_ * kToRimMm, volar_, how.length_mm);
-    } else if (kind == "2C" && middle != nullptr) {
+    } else if (kind.starts_with('2') && middle != nullptr) {
       lay(lesion, *middle, middle->at, radial_, how.length_mm);
     } else if (kind == "1B" && edge != nullptr) {
       lay(lesion, *edge, edge->at, volar_, how.length_mm);
@@ -211,7 +258,7 @@ cases::Grades grades_by(std::uint64_t seed, const PathologyTable& table) {
   bool has_any = false;
   for (std::size_t f = 0; f < table.findings.size(); ++f) {
     const bool is_there = rng.uniform() < table.findings[f].chance;
-    const auto wrong = table.scale_of(f).grades.size() - 1;
+    const auto wrong = table.scale_of(f).drawn();
     const auto grade = static_cast<std::uint8_t>(1 + rng.below(wrong));
     if (is_healthy || !is_there) continue;
     grades[f] = grade;
@@ -219,7 +266,7 @@ cases::Grades grades_by(std::uint64_t seed, const PathologyTable& table) {
   }
   // Not healthy by another name.
   if (!is_healthy && !has_any && !table.findings.empty()) {
-    grades[0] = static_cast<std::uint8_t>(1 + rng.below(table.scale_of(0).grades.size() - 1));
+    grades[0] = static_cast<std::uint8_t>(1 + rng.below(table.scale_of(0).drawn()));
   }
   return grades;
 }

@@ -76,11 +76,14 @@ TEST(GradesBy, HealthyWristsAndEveryGradeOccurAsOftenAsTheTableSays) {
   }
   EXPECT_NEAR(healthy, table().healthy_share * kSeeds, 0.02 * kSeeds);
   for (std::size_t f = 0; f < table().findings.size(); ++f) {
-    const auto grades = table().scale_of(f).grades.size();
+    const auto grades = table().scale_of(f).drawn() + 1;
     const double wrong = kSeeds - count[f][0];
     const double expected = (1 - table().healthy_share) * table().findings[f].chance;
     // The first stands in where nothing else is wrong.
     EXPECT_NEAR(wrong / kSeeds, expected, f == 0 ? 0.05 : 0.025) << table().findings[f].id;
+    for (std::size_t g = grades; g < table().scale_of(f).grades.size(); ++g) {
+      EXPECT_EQ(count[f][g], 0) << "prepared alone";
+    }
     for (std::size_t g = 1; g < grades; ++g) {
       EXPECT_NEAR(count[f][g], wrong / static_cast<double>(grades - 1), 0.25 * wrong)
           << table().findings[f].id << " " << g;
@@ -139,8 +142,9 @@ TEST(MakeLesions, EachFindingShowsOnTheWallOfItsJoint) {
       const JointLesions made = with(id, g);
       ASSERT_FALSE(made.lesions.empty()) << id << " " << int{g};
       EXPECT_EQ(made.grades[f], g);
+      const auto& brings = table().scale_of(f).grades[g].with;
       for (const Lesion& lesion : made.lesions) {
-        EXPECT_EQ(lesion.finding, f);
+        EXPECT_TRUE(lesion.finding == f || (brings && lesion.finding == brings->finding));
         EXPECT_NEAR(length(lesion.outwards), 1, 1e-9);
         const double off = lesion.look == cases::LesionLook::Loose ? lesion.radius_mm + 0.3 : 0.3;
         for (const Vec3& end : {lesion.from, lesion.to}) {
@@ -194,6 +198,65 @@ TEST(MakeLesions, WhatTheCaseHasNoPlaceForIsWell) {
   const JointLesions made = make_lesions(wrist.data, less, table(), grades, 1);
   EXPECT_EQ(made.grades[finding("scapholunate")], 0);
   EXPECT_EQ(made.grades[finding("disc")], 1);
+}
+
+std::uint8_t palmer(const std::string& id) {
+  const auto& grades = table().scale_of(finding("disc")).grades;
+  const auto at =
+      std::find_if(grades.begin(), grades.end(), [&](const Grade& each) { return each.id == id; });
+  return static_cast<std::uint8_t>(at - grades.begin());
+}
+
+/// [K, B9]: worn, with the lunate's cartilage too, through, with the lunotriquetral ligament,
+/// arthritis.
+TEST(MakeLesions, PalmersSecondClassIsOfSeveralPlacesTogether) {
+  const std::size_t disc = finding("disc");
+  const std::size_t torn = finding("lunotriquetral");
+  const std::size_t lunate = body_of(BoneId::Lunate);
+  const auto on_lunate = [&](const JointLesions& made) {
+    return std::count_if(made.lesions.begin(), made.lesions.end(), [&](const Lesion& lesion) {
+      return lesion.finding == disc && lesion.body == lunate;
+    });
+  };
+  const auto is_holed = [&](const JointLesions& made) {
+    return std::any_of(made.lesions.begin(), made.lesions.end(), [&](const Lesion& lesion) {
+      return lesion.finding == disc && lesion.passes_mm > 0;
+    });
+  };
+  struct Expected {
+    const char* id;
+    int on_lunate;
+    bool is_holed;
+    int torn;
+  };
+  for (const Expected& e :
+       {Expected{"2A", 0, false, 0}, Expected{"2B", 1, false, 0}, Expected{"2C", 0, true, 0},
+        Expected{"2D", 0, true, 3}, Expected{"2E", 1, true, 3}}) {
+    const JointLesions made = with("disc", palmer(e.id));
+    EXPECT_EQ(made.grades[disc], palmer(e.id)) << e.id;
+    EXPECT_EQ(on_lunate(made), e.on_lunate) << e.id;
+    EXPECT_EQ(is_holed(made), e.is_holed) << e.id;
+    EXPECT_EQ(made.grades[torn], e.torn) << e.id;
+    EXPECT_EQ(made.shift_of(lunate, 69) != Vec3{}, e.torn > 0) << e.id;
+  }
+}
+
+TEST(MakeLesions, AHoleInTheDiscBesideATornLunotriquetralLigamentIsToldAsBoth) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  Grades grades{};
+  grades[finding("disc")] = palmer("2C");
+  const auto disc_with = [&](std::uint8_t torn, const cases::ArthroscopicMap& map) {
+    grades[finding("lunotriquetral")] = torn;
+    return make_lesions(wrist.data, map, table(), grades, 1).grades[finding("disc")];
+  };
+  EXPECT_EQ(disc_with(2, wrist.map), palmer("2C")) << "attenuated is not torn";
+  EXPECT_EQ(disc_with(3, wrist.map), palmer("2D"));
+  EXPECT_EQ(disc_with(4, wrist.map), palmer("2D"));
+  cases::ArthroscopicMap less = wrist.map;
+  std::erase_if(less.points, [](const auto& point) { return point.id == "lt_gap"; });
+  EXPECT_EQ(disc_with(4, less), palmer("2C")) << "a ligament that has no place is well";
+  grades[finding("disc")] = palmer("2D");
+  EXPECT_EQ(disc_with(0, less), palmer("2C"));
 }
 
 TEST(PathologyTable, NamesTheEntryThatIsWrong) {

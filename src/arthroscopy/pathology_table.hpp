@@ -4,6 +4,7 @@
 // What may be wrong in an examined wrist, as data (data/pathology.json).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,21 @@
 #include "cases/joint_lesions.hpp"
 
 namespace carpus::arthroscopy {
+
+/// What else shows where a grade is.
+struct PatchBeside {
+  std::string near;        ///< id of a tour's point
+  std::string on;          ///< bone that it goes with
+  double radially_mm = 0;  ///< from that point, of the generic wrist
+  cases::LesionLook shows = cases::LesionLook::Bare;
+  double radius_mm = 0;
+};
+
+/// A grade of another finding, or a worse one where that scale is ordered.
+struct WithGrade {
+  std::size_t finding = 0;
+  std::uint8_t grade = 0;
+};
 
 struct Grade {
   std::string id;     ///< "II"
@@ -22,6 +38,11 @@ struct Grade {
   double gap_mm = 0;
   double step_mm = 0;
   double passes_mm = 0;
+  bool is_drawn = true;  ///< else it is there where it was prepared, or made of another grade
+  std::optional<PatchBeside> beside;
+  std::optional<WithGrade> with;
+  std::string
+      more_than;  ///< id of a grade of the same scale, which this one is where `with` is there
 };
 
 struct Scale {
@@ -29,6 +50,9 @@ struct Scale {
   std::string name;
   bool is_ordered = false;    ///< a grade beside the true one is nearly right
   std::vector<Grade> grades;  ///< the first is that of what is well
+
+  /// How many of those that are wrong are drawn by a seed: they stand first.
+  [[nodiscard]] std::size_t drawn() const;
 };
 
 /// Of a ligament between two bones: where its line shows, and which bones part.

@@ -34,7 +34,8 @@ std::vector<std::string> findings_without_place(const cases::CaseData& data,
   }
   std::vector<std::string> labels;
   for (std::size_t f = 0; f < table.findings.size(); ++f) {
-    if (shown[f] != pathology.grades[f]) labels.push_back(table.findings[f].label);
+    // Another grade than the one that was chosen is one that another finding brought along.
+    if (shown[f] == 0 && pathology.grades[f] != 0) labels.push_back(table.findings[f].label);
   }
   return labels;
 }

@@ -3,7 +3,7 @@
 //
 // What is wrong in a case's joints, for instructors: at random, nothing, as chosen, or as a number draws
 // it. The host keeps it beside the case, and refuses whoever is no instructor.
-import { fetchCasePathology, savePathology } from "../case_data";
+import { fetchCasePathology, inOrder, savePathology } from "../case_data";
 import { button, make, setText } from "../dom";
 import type { CasePathology, Finding } from "../protocol";
 import "./pathology.css";
@@ -139,7 +139,7 @@ export class PathologyDialog {
     const choice = make(
       "select",
       { id: `pathology-${finding.id}` },
-      ...finding.grades.map((grade) => make("option", { value: grade.id }, grade.label)),
+      ...inOrder(finding.grades).map((grade) => make("option", { value: grade.id }, grade.label)),
     );
     choice.addEventListener("change", () => {
       this.draft = withGrade(this.draft, finding.id, choice.value);

@@ -3,6 +3,7 @@
 //
 // The report of an examination: of each structure one grade, the healthy one to choose like any other; none
 // is chosen beforehand. Each choice is told at once, the newest counts.
+import { inOrder } from "../case_data";
 import { button, make, setText } from "../dom";
 import { reportOf, WHAT_IS_ASKED } from "./findings_words_model";
 import type { Plan } from "./scope_plan";
@@ -62,7 +63,7 @@ export class FindingsDialog {
             finding.label,
             ...(finding.scale === "" ? [] : [make("small", {}, ` ${finding.scale}`)]),
           ),
-          ...finding.grades.map((grade) =>
+          ...inOrder(finding.grades).map((grade) =>
             make(
               "label",
               { title: grade.label },
