@@ -8,8 +8,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 
+#include "cli/tick_timing.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "core/version.hpp"
@@ -32,34 +32,9 @@ constexpr int kWarmUpTicks = 200;
 /// Operations after which a scene that a scripted trainee should reach is given up.
 constexpr std::uint64_t kMostOperations = 12;
 
-double processor_us() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
-}
-
-float timed_step(World& world, const Input& input) {
-  const double before = processor_us();
-  world.step(input);
-  return static_cast<float>(processor_us() - before);
-}
-
 double heap_mib() {
   const struct mallinfo2 info = ::mallinfo2();
   return static_cast<double>(info.uordblks + info.hblkhd) / (1024.0 * 1024.0);
-}
-
-/// Everything stays where it is.
-Input at_rest(const Snapshot& now) {
-  Input input;
-  input.wrist = now.wrist;
-  for (std::size_t hand = 0; hand < simulation::kHands; ++hand) {
-    const std::uint8_t item = now.hands[hand].item;
-    const auto& view = now.items[item < simulation::kMaxItems ? item : 0];
-    input.hands[hand].tip_in_patient = view.tip_in_patient;
-    input.hands[hand].shaft_in_patient = view.shaft_in_patient;
-  }
-  return input;
 }
 
 /// A scene whose input is a function of time.
