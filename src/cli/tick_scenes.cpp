@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "cli/crowded_joint_scenes.hpp"
 #include "cli/tick_timing.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -317,6 +318,9 @@ TickBench time_ticks(const cases::CaseData& data,
   }
   if (trainee::is_arthroscopy(procedure)) {
     look_round(data, procedure, ticks, bench);
+    for (SceneTimes& times : time_crowded_joints(data, procedure, ticks)) {
+      bench.scenes.push_back(std::move(times));
+    }
     cost_of_exercise(data, procedure, bench.costs);
     return bench;
   }

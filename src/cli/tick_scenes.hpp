@@ -40,7 +40,8 @@ struct TickBench {
 /// target), `wrist_moving` (through all of its range, an instrument at the bone), `drilling` and
 /// `screw_going_in` (of whole operations by the scripted expert); of an arthroscopy `quiet`,
 /// `scope_in_joint` and, as far as the expert comes to it, `disc_yields`, `ligament_yields`,
-/// `disc_and_ligament` and, with a shaver, `shaving` (while it runs).
+/// `disc_and_ligament` and, with a shaver, `shaving` (while it runs), then those of
+/// crowded_joint_scenes.hpp.
 /// @param ticks  measured a scene.
 [[nodiscard]] TickBench time_ticks(const cases::CaseData& data,
                                    const procedure::Procedure& procedure,
