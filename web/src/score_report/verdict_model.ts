@@ -41,8 +41,8 @@ export function verdictText(report: Told): string {
       return "✕ Void: it ended before there was anything to judge. What is true of this case stays closed.";
     }
     return good
-      ? "✓ The joint was looked into."
-      : "✕ The joint was not looked into: nothing earns points without it.";
+      ? "✓ All conditions below are fulfilled."
+      : "✕ A condition below is not fulfilled: nothing earns points without it.";
   }
   if (report.is_void === true) {
     return isDeclined(report)
