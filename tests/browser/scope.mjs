@@ -13,8 +13,10 @@ import { Operator } from "./operator.mjs";
 const TRAINEE = "Browser test, scope";
 /** What is in the fluid is drawn at once. */
 const CALLS_OF_FLUID = 1;
+/** Its focus goes over the whole picture so often, a triangle each. */
+const CALLS_OF_FOCUS = 5;
 /** At most so much is drawn for the scope's picture. */
-const MOST_CALLS = 3 + CALLS_OF_FLUID;
+const MOST_CALLS = 3 + CALLS_OF_FLUID + CALLS_OF_FOCUS;
 const MOST_TRIANGLES = 15_000;
 
 /** Of what the scope's picture shows now. */

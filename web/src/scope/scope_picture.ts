@@ -12,6 +12,7 @@ import { ScopeBeads } from "./scope_beads";
 import type { Bead } from "./scope_drill_model";
 import { ScopeFilm } from "./scope_film";
 import { ScopeFluid } from "./scope_fluid";
+import { ScopeFocus } from "./scope_focus";
 import { lesionUniforms, scuffed, setLesions, type Lesion, type Painted } from "./scope_lesions";
 import { rodGeometries } from "./scope_rod";
 import { ScopeScrew } from "./scope_screw";
@@ -34,6 +35,9 @@ const EXPOSED_EVERY_MS = 200;
 const EXPOSED_PX = 16;
 /** Drawn at most so large across, and less where the machine is slow [device px]. */
 const LARGEST_PX = 900;
+
+/** Written anew for each picture. */
+const SKIN = new THREE.Vector3();
 
 export class ScopePicture {
   readonly canvas: HTMLCanvasElement;
@@ -60,6 +64,7 @@ export class ScopePicture {
   private readonly backdrop = new ScopeBackdrop(this.lens);
   private readonly fluid = new ScopeFluid(this.lens);
   private readonly film = new ScopeFilm(this.lens);
+  private readonly focus = new ScopeFocus(this.lens, this.film.mesh);
   private high: Vec3 = [0, 0, 1];
   private readonly small = smallContext();
   /** When light was measured last: at the first picture it is right at once. */
@@ -70,6 +75,7 @@ export class ScopePicture {
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(1);
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader does it
+    this.renderer.info.autoReset = false; // a picture is drawn in several goes
     this.canvas = this.renderer.domElement;
     this.canvas.className = "scope-picture";
     this.canvas.setAttribute("aria-label", "The arthroscope's picture");
@@ -90,7 +96,6 @@ export class ScopePicture {
       this.beads.group,
       this.screw.group,
       this.fluid.mesh,
-      this.film.mesh,
     );
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
@@ -106,6 +111,11 @@ export class ScopePicture {
   /** @param fieldDeg  across the picture */
   setField(fieldDeg: number): void {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
+  }
+
+  /** @param step  of the camera head's ring, as focus_model.ts has it */
+  setFocus(step: number): void {
+    this.focus.step = step;
   }
 
   /** What is wrong in the joints of this exercise. @param bodies  names in the order of the poses */
@@ -206,7 +216,13 @@ export class ScopePicture {
       performance.now(),
     );
     this.film.lay(skin !== undefined);
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.info.reset();
+    this.focus.draw(this.renderer, {
+      scene: this.scene,
+      camera: this.camera,
+      sizePx: size,
+      behindMm: skin === undefined ? undefined : eye.value.distanceTo(SKIN.set(...skin.skinMm)),
+    });
     this.expose(performance.now());
   }
 
@@ -233,6 +249,7 @@ export class ScopePicture {
     this.pieces.dispose();
     this.fluid.dispose();
     this.film.dispose();
+    this.focus.dispose();
     this.screw.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
