@@ -374,6 +374,76 @@ export async function examination(browser, station) {
   await page.context().close();
 }
 
+/** How much points of the scope's picture stand out from those beside them, in levels of green: what blur takes first. @return of all, and of each of 10 by 10 parts of its middle */
+function detailOf(canvas) {
+  const side = canvas.width;
+  const still = document.createElement("canvas");
+  still.width = still.height = side;
+  const context = still.getContext("2d");
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, side, side);
+  const green = (x, y) => data[4 * (y * side + x) + 1];
+  const sums = new Array(100).fill(0);
+  const counts = new Array(100).fill(0);
+  for (let y = 1; y + 1 < side; ++y) {
+    for (let x = 1; x + 1 < side; ++x) {
+      const away = Math.hypot(x - side / 2, y - side / 2) / (side / 2);
+      if (away > 0.9) continue;
+      const part =
+        10 * Math.floor((10 * y) / side) + Math.floor((10 * x) / side);
+      sums[part] += (2 * green(x, y) - green(x - 1, y) - green(x + 1, y)) ** 2;
+      sums[part] += (2 * green(x, y) - green(x, y - 1) - green(x, y + 1)) ** 2;
+      counts[part] += 2;
+    }
+  }
+  const add = (a, b) => a + b;
+  return {
+    whole: Math.sqrt(sums.reduce(add) / counts.reduce(add)),
+    parts: sums.map((sum, i) => Math.sqrt(sum / Math.max(1, counts[i]))),
+  };
+}
+
+/** Set for far what is near gets soft, by keys, buttons and wheel; and sharp again. */
+async function turnFocus(page, picture) {
+  const reads = (words) =>
+    page.locator(".scope-focus", { hasText: words }).waitFor();
+  const detail = async () => {
+    await page.waitForTimeout(1500); // its light settles too
+    return page.locator("canvas.scope-picture").evaluate(detailOf);
+  };
+  await reads("Focus 6 mm · sharp from 3.1 mm");
+  const before = await detail();
+  await picture("well_set");
+  for (let i = 0; i < 6; ++i) await page.keyboard.press("BracketRight");
+  await reads("Focus far");
+  const far = await detail();
+  await picture("far");
+  await page.getByRole("button", { name: "Focus −" }).click();
+  await reads("Focus 30 mm");
+  await page.locator("canvas.scope-picture").hover();
+  await page.keyboard.down("Shift");
+  await page.mouse.wheel(0, 100);
+  await reads("Focus 15 mm");
+  await page.keyboard.up("Shift");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("BracketLeft");
+  await reads("Focus 6 mm");
+  const again = await detail();
+  // How near the tissue lies hangs on how deep the scope came: some of it does.
+  const kept = before.parts
+    .map((detail, i) => far.parts[i] / detail)
+    .filter((_, i) => before.parts[i] > 0.7)
+    .sort((a, b) => a - b);
+  const few = kept[3]; // four parts are more than chance
+  process.stdout.write(
+    `  detail ${before.whole.toFixed(2)}, set for far ${far.whole.toFixed(2)}, of what is near ${few?.toFixed(2)} of it, again ${again.whole.toFixed(2)}\n`,
+  );
+  expect(few < 0.6, `set for far what is near keeps ${few} of its detail`);
+  expect(
+    Math.abs(again.whole - before.whole) < 0.1 * before.whole,
+    `set again it is another picture: ${again.whole} instead of ${before.whole}`,
+  );
+}
+
 /** The first exercise: what is asked for, the ring, and its mark in practice alone. */
 export async function basics(browser, station) {
   const page = await newPage(browser);
@@ -407,6 +477,12 @@ export async function basics(browser, station) {
     await words.waitFor();
     expect(/^1 of 3/.test(await words.innerText()), await words.innerText());
     await page.locator(".scope-drill-ring").waitFor();
+    if (mode === "practice") {
+      await turnFocus(page, async (name) => {
+        if (pictures === undefined) return;
+        await page.screenshot({ path: join(pictures, `focus_${name}.png`) });
+      });
+    }
     let most = 0;
     for (let turn = 0; turn < (pictures === undefined ? 3 : 8); ++turn) {
       await hold(page, ",", 500);

@@ -100,6 +100,10 @@ export const HELP: readonly HelpGroup[] = [
         keys: "{KeyG}",
         text: "close the jaws, or open them: a punch bites as they close; hold: a shaver's pedal",
       },
+      {
+        keys: "{BracketLeft} / {BracketRight}, Shift + wheel",
+        text: "focus the camera head nearer / farther",
+      },
       { keys: "{KeyV}", text: "the next portal" },
       { keys: "7 / 8 / 9", text: "panorama / level, both in practice alone / findings" },
     ],

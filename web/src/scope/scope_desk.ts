@@ -8,6 +8,7 @@ import { make } from "../dom";
 import type { ExerciseMessage, ScopeMessage, SheetMessage, SnapshotMessage } from "../protocol";
 import { add, dot, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
+import { FocusControls } from "./focus_controls";
 import { FluidControls } from "./fluid_controls";
 import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
 import { ScopeDrillOverlay } from "./scope_drill";
@@ -15,7 +16,7 @@ import { beadsOf } from "./scope_drill_model";
 import { makeScopeControls, offerScopeAids, WHY_NO_AID } from "./scope_controls";
 import type { JointWall } from "./joint_wall";
 import type { HandIndex } from "./scope_hands";
-import type { ScopeAct } from "./scope_keys";
+import { focusBy, type ScopeAct } from "./scope_keys";
 import { ScopeLeading, type LeadingRoom } from "./scope_leading";
 import { listenForScope, type ScopeAsked } from "./scope_listening";
 import { PicturePace } from "./picture_pace";
@@ -48,6 +49,10 @@ export class ScopeDesk {
   private readonly drill = new ScopeDrillOverlay();
   private readonly fluid = new FluidControls((act) => {
     this.actOnFluid(act);
+  });
+  /** A wish of whoever looks at this page: the host is not told, and counts as seen what it would else. */
+  private readonly focus = new FocusControls((step) => {
+    this.picture?.setFocus(step);
   });
   private picture: ScopePicture | undefined;
   private readonly pace = new PicturePace();
@@ -88,8 +93,8 @@ export class ScopeDesk {
     this.findings = new FindingsDialog((finding, grade) => {
       this.room.answer(finding, grade);
     });
-    this.controls.append(this.fluid.taps);
-    this.readings.column.children[0]?.after(this.fluid.reading);
+    this.controls.append(this.focus.ring, this.fluid.taps);
+    this.readings.column.children[0]?.after(this.fluid.reading, this.focus.reading);
     this.element.append(
       this.readings.column,
       this.drill.element,
@@ -133,6 +138,7 @@ export class ScopeDesk {
     this.picture.setWrong(this.plan.lesions, this.plan.pieces, bodies);
     this.picture.setScrew(this.plan.screw, bodies);
     this.picture.setBeads([]);
+    this.focus.reset();
     this.findings.set(this.plan.findings, this.plan.screw);
     for (const wall of this.walls) wall.setSheets(this.plan.sheets, bodies);
     this.controls.classList.toggle("asks", this.plan.findings.length > 0);
@@ -311,6 +317,10 @@ export class ScopeDesk {
         return;
       case "switch_hand":
         this.leading.switchHands();
+        return;
+      case "focus_nearer":
+      case "focus_farther":
+        this.focus.turn(focusBy(act));
     }
   }
 

@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { scopeAct, scopeMotion } from "./scope_keys";
+import { focusBy, scopeAct, scopeMotion } from "./scope_keys";
 
 describe("keys of the scope", () => {
   it("turn the shaft apart from the camera head", () => {
@@ -13,6 +13,13 @@ describe("keys of the scope", () => {
     expect(scopeMotion("ArrowUp", false)).toEqual({ kind: "lean", yaw: 0, pitch: 1 });
     expect(scopeMotion("KeyD", false)).toEqual({ kind: "advance", by: -1 });
     expect(scopeMotion("KeyJ", false)).toBeUndefined();
+  });
+  it("turn the focus ring, nearer and farther", () => {
+    expect(scopeAct("BracketLeft")).toBe("focus_nearer");
+    expect(scopeAct("BracketRight")).toBe("focus_farther");
+    expect(focusBy("focus_nearer")).toBe(1);
+    expect(focusBy("focus_farther")).toBe(-1);
+    expect(focusBy("level")).toBe(0);
   });
   it("leave the other keys to the room", () => {
     expect(scopeAct("KeyH")).toBe("switch_hand");

@@ -10,7 +10,21 @@ export type ScopeMotion =
   /** A shaver's pedal is down. */
   | { readonly kind: "run" };
 
-export type ScopeAct = "switch_hand" | "next_portal" | "panorama" | "level" | "findings" | "jaws";
+export type ScopeAct =
+  | "switch_hand"
+  | "next_portal"
+  | "panorama"
+  | "level"
+  | "findings"
+  | "jaws"
+  | "focus_nearer"
+  | "focus_farther";
+
+/** Steps of the focus ring; 0: it is something else. */
+export function focusBy(act: ScopeAct): number {
+  if (act === "focus_nearer") return 1;
+  return act === "focus_farther" ? -1 : 0;
+}
 
 const LEANS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-1, 0],
@@ -58,6 +72,10 @@ export function scopeAct(code: string): ScopeAct | undefined {
       return "level";
     case "Digit9":
       return "findings";
+    case "BracketLeft":
+      return "focus_nearer";
+    case "BracketRight":
+      return "focus_farther";
     default:
       return undefined;
   }

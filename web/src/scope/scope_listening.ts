@@ -5,7 +5,7 @@
 import { fluidAct } from "./fluid_controls";
 import type { FluidAct } from "./fluid_model";
 import type { Lead } from "./scope_hands";
-import { scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
+import { focusBy, scopeAct, scopeMotion, type ScopeAct, type ScopeMotion } from "./scope_keys";
 import { ScopePointers, type PointerAsk } from "./scope_pointers";
 import { hasJaws, type ToolKind } from "./scope_tools";
 
@@ -66,8 +66,10 @@ function listenToKeys(asked: ScopeAsked, signal: AbortSignal): void {
       event.preventDefault();
       event.stopImmediatePropagation();
       if (motion !== undefined) asked.press(event.code, motion);
-      else if (act !== undefined && !event.repeat) asked.act(act);
-      else if (tap !== undefined && !event.repeat) asked.actOnFluid(tap);
+      else if (act !== undefined) {
+        // A ring is turned on while its key is held.
+        if (!event.repeat || focusBy(act) !== 0) asked.act(act);
+      } else if (tap !== undefined && !event.repeat) asked.actOnFluid(tap);
     },
     { signal, capture: true },
   );
@@ -146,7 +148,10 @@ function listenToMouse(picture: HTMLElement, asked: ScopeAsked, signal: AbortSig
     "wheel",
     (event) => {
       event.preventDefault();
-      asked.advance(-Math.sign(event.deltaY) * WHEEL_MM);
+      // With Shift many browsers turn it across.
+      const away = -Math.sign(event.deltaY === 0 ? event.deltaX : event.deltaY);
+      if (!event.shiftKey) asked.advance(away * WHEEL_MM);
+      else if (away !== 0) asked.act(away > 0 ? "focus_farther" : "focus_nearer");
     },
     { signal, passive: false },
   );
