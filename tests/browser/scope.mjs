@@ -14,7 +14,7 @@ const TRAINEE = "Browser test, scope";
 /** What is in the fluid is drawn at once. */
 const CALLS_OF_FLUID = 1;
 /** Its focus goes over the whole picture so often, a triangle each. */
-const CALLS_OF_FOCUS = 5;
+export const CALLS_OF_FOCUS = 5;
 /** At most so much is drawn for the scope's picture. */
 const MOST_CALLS = 3 + CALLS_OF_FLUID + CALLS_OF_FOCUS;
 const MOST_TRIANGLES = 15_000;
@@ -547,7 +547,7 @@ export async function removal(browser, station) {
       await page.waitForFunction(
         (calls) =>
           Number(document.querySelector(".scope").dataset.calls) === calls,
-        2 + lesions.length + CALLS_OF_FLUID, // the wall, what lies about it, a ball each
+        2 + lesions.length + CALLS_OF_FLUID + CALLS_OF_FOCUS, // the wall, what lies about it, a ball each
       );
       await page.keyboard.press("h");
       await operator.until(
@@ -602,8 +602,12 @@ export async function shaving(browser, station) {
       expect(await button("Pedal").isVisible(), "no pedal");
       expect(!(await button("Jaws").isVisible()), "jaws, and nothing has any");
       await bringInScope(page, operator);
-      await page.waitForFunction(() =>
-        [3, 4].includes(Number(document.querySelector(".scope").dataset.calls)),
+      await page.waitForFunction(
+        (focus) =>
+          [3, 4].includes(
+            Number(document.querySelector(".scope").dataset.calls) - focus,
+          ),
+        CALLS_OF_FOCUS,
       ); // the wall, what lies about it, all tufts at once, what drifts in the fluid where it shows
       const { shaft_deg: scopeDeg } = await told();
       await page.keyboard.press("h");
