@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,35 @@ inline constexpr int kCellsAcross = 4;
 struct PortalLandmark {
   std::string portal;
   std::string landmark;
+  /// Ids of tendons, arteries and nerves (data/structures.json) beside it, each told how near
+  /// anything came.
+  std::vector<std::string> endangers = {};
+  /// Tendons that are drawn aside as the way is spread: what goes in by it then harms none of them.
+  std::vector<std::string> draws_aside = {};
+  /// Cut and spread before the needle: it goes in on the ground of the wound.
+  bool is_opened_first = false;
+  /// Farther off its way, on its side of the wrist, lies what is not generated: whether that was
+  /// harmed nobody can say, and nothing there counts as unharmed.
+  std::optional<double> judged_mm = std::nullopt;
+  std::string beyond = {};  ///< what lies there: "the median nerve"
+};
+
+/// A portal that is not asked for, and why.
+struct PortalLeftOut {
+  std::string portal;
+  std::string why;
 };
 
 struct PortalMaking {
   std::string first;                      ///< id of the portal that is made first: "3-4"
   std::vector<std::string> second;        ///< of these the seed draws one that the case has
   std::vector<PortalLandmark> landmarks;  ///< one of each
-  double touch_n = 0.0;                   ///< with less a finger feels nothing
-  double bone_mm = 0.0;                   ///< bone so near under the skin feels hard
-  double deepest_mm = 0.0;                ///< bone below that no finger feels
+  std::vector<PortalLeftOut> left_out;
+  /// A second portal is asked for only where the case has all that it endangers.
+  bool needs_structures = false;
+  double touch_n = 0.0;         ///< with less a finger feels nothing
+  double bone_mm = 0.0;         ///< bone so near under the skin feels hard
+  double deepest_mm = 0.0;      ///< bone below that no finger feels
   double cord_deep_mm = 0.0;    ///< a tendon deeper under the skin is no cord under a finger
   double fascia_mm = 0.0;       ///< tendons lie below it, nerves and arteries do not
   double skin_mm = 0.0;         ///< a cut no deeper is of the skin alone: nothing else lies in it
@@ -86,12 +107,25 @@ struct PortalMade {
   WayMade sheath;          ///< as it came in first
   CutMade cut;
   double overrun_mm = 0.0;  ///< by which the sheath went on beyond the capsule, at most
+  /// How far off the portal's way a needle, the blade or the sheath went in at most, on its side of
+  /// the wrist.
+  double strayed_mm = 0.0;
   bool operator==(const PortalMade&) const = default;
 };
 
+/// By the portal's id; nullptr where none is declared.
+[[nodiscard]] inline const PortalLandmark* landmark_of(const PortalMaking& making,
+                                                       const std::string& portal) noexcept {
+  for (const PortalLandmark& each : making.landmarks) {
+    if (each.portal == portal) return &each;
+  }
+  return nullptr;
+}
+
 struct MakingFacts {
   std::array<PortalMade, kPortalsMade> portal{};
-  std::uint8_t made = 0;  ///< so many are: the sheath is in, or was
+  std::array<std::uint8_t, kPortalsMade> asked{};  ///< of the map's portals; 0 in the state
+  std::uint8_t made = 0;                           ///< so many are: the sheath is in, or was
   bool operator==(const MakingFacts&) const = default;
 };
 

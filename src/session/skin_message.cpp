@@ -67,7 +67,7 @@ std::string with_second_portal(std::string text,
                                const procedure::Procedure& procedure,
                                std::uint64_t seed) {
   if (!procedure.making || data.arthroscopy == nullptr) return text;
-  const auto asked = simulation::asked_portals(*data.arthroscopy, *procedure.making, seed);
+  const auto asked = simulation::asked_portals(data, *procedure.making, seed);
   if (!asked) return text;
   const cases::Portal& second = data.arthroscopy->portals[asked->back()];
   replace(text, "{second_landmarks}", second.landmarks);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "simulation/asked_portals.hpp"
@@ -98,14 +100,15 @@ TEST(SkinSurface, TellsDepthAndWayOutOfAPlate) {
 }
 
 TEST(AskedPortals, TheSeedDrawsTheSecondAmongThoseThatTheCaseHas) {
-  const cases::ArthroscopicMap& map = *wrist_with_skin().arthroscopy;
+  cases::CaseData more = wrist_with_skin();
   procedure::PortalMaking wanted = figures();
-  EXPECT_EQ((*asked_portals(map, wanted, 5))[1], 1);
+  EXPECT_EQ((*asked_portals(more, wanted, 5))[1], 1);
   wanted.second = {"6R"};
-  EXPECT_FALSE(asked_portals(map, wanted, 5).has_value());
-  cases::ArthroscopicMap more = map;
-  more.portals.push_back(map.portals[1]);
-  more.portals.back().id = "6R";
+  EXPECT_FALSE(asked_portals(more, wanted, 5).has_value());
+  cases::ArthroscopicMap map = *more.arthroscopy;
+  map.portals.push_back(map.portals[1]);
+  map.portals.back().id = "6R";
+  more.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
   wanted.second = {"4-5", "6R"};
   bool has_both[2] = {false, false};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -286,6 +289,58 @@ TEST(PortalMaking, InTheFatABladeHarmsANerveAndNotYetATendonAndTheStrikerIsNamed
   EXPECT_EQ(near(1).by, tool("blade_15"));
   maker.enter(8);
   EXPECT_EQ(near(1).by, tool("blade_15")) << "though the sheath came nearer afterwards";
+}
+
+TEST(PortalMaking, ANeedleHarmsWhatItIsLedThroughThoughItFindsNoJoint) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.prick(11, 0, 5.8);
+  EXPECT_FALSE(maker.made().needle.is_in);
+  EXPECT_EQ(maker.made().passes, 1);
+  const auto nerve = world.operation_record().structures[1];
+  EXPECT_TRUE(nerve.was_struck);
+  EXPECT_EQ(nerve.by, tool("needle_22g"));
+}
+
+TEST(PortalMaking, HowFarOffAnythingWentInIsKeptAndFromTheOtherSideDoesNotCount) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.prick(0, 0, 9);
+  EXPECT_LT(maker.made().strayed_mm, 0.1);
+  maker.prick(6, 0, 3);
+  EXPECT_LT(maker.made().strayed_mm, 0.1) << "no pass";
+  maker.prick(6, 0, 5.8);
+  EXPECT_NEAR(maker.made().strayed_mm, 6.0, 0.2);
+  maker.cut(-9, 2.5);
+  EXPECT_NEAR(maker.made().strayed_mm, std::hypot(9.0, 2.5), 0.4);
+}
+
+/// A tendon straight in the way.
+const cases::CaseData& wrist_with_tendon_in_the_way() {
+  static const cases::CaseData data = [] {
+    cases::CaseData made = wrist_with_skin();
+    made.structures = {tube("fcr", anatomy::StructureKind::Tendon, 2.0, 4)};
+    return made;
+  }();
+  return data;
+}
+
+TEST(PortalMaking, ATendonThatIsDrawnAsideIsNotHarmedOnceTheWayIsSpread) {
+  procedure::Procedure opened = making();
+  opened.making->landmarks[0].draws_aside = {"fcr"};
+  opened.making->landmarks[0].is_opened_first = true;
+  const auto struck = [](const procedure::Procedure& how) {
+    World world(wrist_with_tendon_in_the_way(), how, 1);
+    Maker maker(world);
+    maker.cut(2.0, 1.7);
+    maker.spread(2.0);
+    maker.prick(2.0);
+    maker.enter(2.0);
+    EXPECT_EQ(world.now().skin.facts.made, 1);
+    return std::pair(world.operation_record().structures[0].was_struck, maker.made().out_of_order);
+  };
+  EXPECT_EQ(struck(opened), std::pair(false, std::uint8_t{0}));
+  EXPECT_EQ(struck(making()), std::pair(true, procedure::kCutBeforeNeedle));
 }
 
 TEST(PortalMaking, TheStateComesBackFromItsBytesAndGoesOnAlike) {

@@ -121,19 +121,26 @@ World::Model::Model(const cases::CaseData& case_data,
 void World::Model::open_skin() {
   map = data.arthroscopy.get();
   if (map == nullptr) return;
-  const auto portals = asked_portals(*map, *procedure.making, seed);
+  const auto portals = asked_portals(data, *procedure.making, seed);
   if (!portals) return;
   asked = *portals;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const cases::Portal& portal = map->portals[asked[i]];
-    for (const procedure::PortalLandmark& each : procedure.making->landmarks) {
-      if (each.portal != portal.id) continue;
-      for (const cases::FeltLandmark& mark : map->landmarks) {
-        if (mark.id == each.landmark) felt_first[i] = {mark.at, mark.body};
-      }
-      if (const cases::Portal* other = cases::find_portal(*map, each.landmark)) {
-        felt_first[i] = {other->skin, other->body};
-      }
+    const procedure::PortalLandmark* declared =
+        procedure::landmark_of(*procedure.making, portal.id);
+    if (declared == nullptr) continue;
+    for (const cases::FeltLandmark& mark : map->landmarks) {
+      if (mark.id == declared->landmark) felt_first[i] = {mark.at, mark.body};
+    }
+    if (const cases::Portal* other = cases::find_portal(*map, declared->landmark)) {
+      felt_first[i] = {other->skin, other->body};
+    }
+    is_opened_first[i] = declared->is_opened_first;
+    for (std::size_t s = 0; s < data.structures.size() && s < cases::kMaxStructures; ++s) {
+      const auto& aside = declared->draws_aside;
+      const bool is_drawn =
+          std::find(aside.begin(), aside.end(), data.structures[s].id) != aside.end();
+      if (is_drawn) drawn_aside[i] |= 1U << s;
     }
   }
   skin.emplace(data.skin, map->portals[asked[0]].skin, kSkinMm);

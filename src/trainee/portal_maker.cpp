@@ -57,7 +57,7 @@ ScriptedPortalMaker::ScriptedPortalMaker(const cases::CaseData& data,
       rng_(seed + 77),
       tremor_(skill_.tremor_mm, Rng(seed + 1)) {
   const procedure::Opening opening = procedure.opening(data);
-  const auto asked = simulation::asked_portals(*data.arthroscopy, *procedure.making, seed);
+  const auto asked = simulation::asked_portals(data, *procedure.making, seed);
   if (!asked) throw InvalidInput("making portals: this wrist has no second portal");
   asked_ = *asked;
   wrist_ = opening.wrist;
@@ -81,17 +81,16 @@ ScriptedPortalMaker::Portal ScriptedPortalMaker::portal_now(std::size_t which) c
              portal.capsule_mm,
              {}};
   now.landmark = now.skin;
-  for (const procedure::PortalLandmark& each : procedure_.making->landmarks) {
-    if (each.portal != portal.id) continue;
-    for (const cases::FeltLandmark& mark : map.landmarks) {
-      if (mark.id != each.landmark) continue;
-      // Over the bone, as far out as the skin is at the portal.
-      const Vec3 at = (poses_[mark.body] * Point<frame::Bone>{mark.at}).v;
-      now.landmark = at;
-    }
-    if (const cases::Portal* other = cases::find_portal(map, each.landmark)) {
-      now.landmark = (poses_[other->body] * Point<frame::Bone>{other->skin}).v;
-    }
+  const procedure::PortalLandmark* declared = procedure::landmark_of(*procedure_.making, portal.id);
+  if (declared == nullptr) return now;
+  now.is_opened_first = declared->is_opened_first;
+  for (const cases::FeltLandmark& mark : map.landmarks) {
+    if (mark.id != declared->landmark) continue;
+    // Over the bone, as far out as the skin is at the portal.
+    now.landmark = (poses_[mark.body] * Point<frame::Bone>{mark.at}).v;
+  }
+  if (const cases::Portal* other = cases::find_portal(map, declared->landmark)) {
+    now.landmark = (poses_[other->body] * Point<frame::Bone>{other->skin}).v;
   }
   return now;
 }
@@ -165,7 +164,8 @@ void ScriptedPortalMaker::plan_portal() {
   feel(at_.skin, out);
   found_ = at_.skin + across(at_.inwards) * (rng_.normal() * skill_.place_error_mm);
   found_way_ = at_.inwards;
-  if (!(rng_.uniform() < skill_.skips)) {
+  skips_needle_ = rng_.uniform() < skill_.skips;
+  if (!skips_needle_ && !at_.is_opened_first) {
     take("needle_22g");
     plan_prick(true);
   }
@@ -212,6 +212,7 @@ void ScriptedPortalMaker::plan_way_in(const simulation::Snapshot& now) {
     const simulation::CutView& cut = now.skin.cuts[now.skin.cut_count - 1];
     found_ = (cut.from_in_patient + cut.to_in_patient) / 2.0;
   }
+  cut_at_ = found_;
   const HandPose before{found_ - found_way_ * kOutsideMm, -found_way_};
   if (!(rng_.uniform() < skill_.skips)) {
     take("mosquito_clamp");
@@ -222,6 +223,21 @@ void ScriptedPortalMaker::plan_way_in(const simulation::Snapshot& now) {
     tasks_.back().opens = true;
     go(before, kDrawsMmPerS);
   }
+  if (!skips_needle_ && at_.is_opened_first) {
+    take("needle_22g");
+    plan_prick(true);
+    Task end;
+    end.to = planned_;
+    end.ends = true;
+    tasks_.push_back(end);
+    return;
+  }
+  plan_sheath_and_end();
+}
+
+/// By the cut, whatever the needle found beside it.
+void ScriptedPortalMaker::plan_sheath_and_end() {
+  if (at_.is_opened_first) found_ = cut_at_;
   take("scope_sheath_1_9");
   plan_sheath();
   Task last;
@@ -307,6 +323,10 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
         lead_blade(now);
       }
       if (done.looks) plan_way_in(now);
+      if (done.ends) {
+        planned_ = hand_;
+        plan_sheath_and_end();
+      }
       if (done.enters && now.skin.facts.made <= which_ && entries_ < kMostEntries) {
         std::deque<Task> rest;
         rest.swap(tasks_);

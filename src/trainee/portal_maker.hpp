@@ -72,6 +72,7 @@ class ScriptedPortalMaker {
     bool looks = false;       ///< at the cut: by that it goes on
     bool enters = false;      ///< tried again where it did not go in
     bool plans = false;       ///< the next portal, once it is begun
+    bool ends = false;        ///< with the sheath, once the needle was in the opened way
     bool finishes = false;
   };
   struct Portal {
@@ -79,6 +80,7 @@ class ScriptedPortalMaker {
     Vec3 inwards;
     double capsule_mm = 0.0;
     Vec3 landmark;
+    bool is_opened_first = false;
   };
 
   [[nodiscard]] Portal portal_now(std::size_t which) const;
@@ -88,6 +90,7 @@ class ScriptedPortalMaker {
   void lead_blade(const simulation::Snapshot& now);
   void plan_way_in(const simulation::Snapshot& now);
   void plan_sheath();
+  void plan_sheath_and_end();
   void feel(const Vec3& at, const Vec3& out);
   void take(const char* id);
   void go(const HandPose& to, double mm_per_s, double dwell_s = 0.0);
@@ -115,6 +118,8 @@ class ScriptedPortalMaker {
   double lifted_mm_ = 0.0;  ///< of the blade, so that it keeps its depth
   Vec3 found_;              ///< where the needle was pricked last, on the skin
   Vec3 found_way_;          ///< and which way
+  Vec3 cut_at_;             ///< the middle of the last cut
+  bool skips_needle_ = false;
   int pricks_ = 0;
   int entries_ = 0;
   bool has_planned_ = false;

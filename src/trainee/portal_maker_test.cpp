@@ -16,9 +16,11 @@ using namespace simulation::box_joint;  // NOLINT(google-build-using-namespace)
 
 constexpr Tick kLongest = 240'000;
 
-simulation::Snapshot operate(Skill skill, std::uint64_t seed) {
-  simulation::World world(wrist_with_skin(), making(), seed);
-  ScriptedPortalMaker hands(wrist_with_skin(), making(), skill, seed);
+simulation::Snapshot operate(Skill skill,
+                             std::uint64_t seed,
+                             const procedure::Procedure& procedure = making()) {
+  simulation::World world(wrist_with_skin(), procedure, seed);
+  ScriptedPortalMaker hands(wrist_with_skin(), procedure, skill, seed);
   while (!hands.is_done() && world.now().tick < kLongest) world.step(hands.next(world.now()));
   EXPECT_TRUE(hands.is_done());
   return world.now();
@@ -50,6 +52,18 @@ TEST(ScriptedPortalMaker, ANoviceCutsDeeperAndGoesInFarther) {
     novice_deep += operate(Skill::Novice, seed).skin.facts.portal[0].cut.deepest_mm;
   }
   EXPECT_GT(novice_deep, expert_deep + 3.0);
+}
+
+TEST(ScriptedPortalMaker, WhatIsOpenedFirstIsPrickedInTheWound) {
+  procedure::Procedure opened = making();
+  opened.making->landmarks[1].is_opened_first = true;
+  const simulation::Snapshot last = operate(Skill::Expert, 1, opened);
+  ASSERT_EQ(last.skin.facts.made, procedure::kPortalsMade);
+  for (const procedure::PortalMade& made : last.skin.facts.portal) {
+    EXPECT_TRUE(made.needle.is_in);
+    EXPECT_TRUE(made.is_spread);
+    EXPECT_EQ(made.out_of_order, 0);
+  }
 }
 
 TEST(ScriptedPortalMaker, TheSameSeedIsTheSameHands) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "anatomy/structure_table.hpp"
+
 namespace carpus::procedure::detail {
 namespace {
 
@@ -12,8 +14,41 @@ constexpr double kMostN = 40.0;
 constexpr double kMostS = 10.0;
 
 bool is_named(const PortalMaking& making, const std::string& portal) {
-  return std::any_of(making.landmarks.begin(), making.landmarks.end(),
-                     [&](const PortalLandmark& each) { return each.portal == portal; });
+  return landmark_of(making, portal) != nullptr;
+}
+
+PortalLandmark read_landmark(JsonFields& fields) {
+  PortalLandmark read;
+  read.portal = fields.text("portal");
+  read.landmark = fields.text("felt");
+  read.endangers = fields.texts_or_none("endangers");
+  read.draws_aside = fields.texts_or_none("draws_aside");
+  read.is_opened_first = fields.boolean_or("opened_first", false);
+  for (const auto* ids : {&read.endangers, &read.draws_aside}) {
+    for (const std::string& id : *ids) {
+      if (anatomy::StructureTable::generic().find(id) == nullptr) {
+        fields.refuse("there is no structure " + id);
+      }
+    }
+  }
+  if (fields.has("judged_mm")) {
+    read.judged_mm = fields.number("judged_mm", 0.1, kMostMm);
+    read.beyond = fields.text("beyond");
+  }
+  fields.refuse_unknown_fields();
+  return read;
+}
+
+void read_left_out(JsonFields& fields, PortalMaking& making) {
+  if (!fields.has("left_out")) return;
+  for (JsonFields& each : fields.objects("left_out")) {
+    making.left_out.push_back({each.text("portal"), each.text("why")});
+    each.refuse_unknown_fields();
+    const std::string& portal = making.left_out.back().portal;
+    if (portal == making.first || std::count(making.second.begin(), making.second.end(), portal)) {
+      fields.refuse("left_out: " + portal + " is asked for");
+    }
+  }
 }
 
 void read_palpation(JsonFields fields, PortalMaking& making) {
@@ -53,14 +88,15 @@ PortalMaking read_portal_making(JsonFields& fields) {
   making.second = fields.texts_or_none("second");
   if (making.second.empty()) fields.refuse("second: name at least one portal");
   for (JsonFields& each : fields.objects("landmarks")) {
-    making.landmarks.push_back({each.text("portal"), each.text("felt")});
-    each.refuse_unknown_fields();
+    making.landmarks.push_back(read_landmark(each));
   }
   if (!is_named(making, making.first)) fields.refuse("landmarks: none is said for the first");
   for (const std::string& second : making.second) {
     if (second == making.first) fields.refuse("second: the first is made already");
     if (!is_named(making, second)) fields.refuse("landmarks: none is said for " + second);
   }
+  making.needs_structures = fields.boolean_or("needs_structures", false);
+  read_left_out(fields, making);
   read_palpation(fields.object("palpation"), making);
   read_tools(fields.object("tools"), making);
   (void)fields.text("mark");

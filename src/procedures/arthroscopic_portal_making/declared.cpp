@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "procedure/second_portals.hpp"
 #include "procedures/arthroscopy/conduct.hpp"
 
 namespace carpus::procedures::arthroscopic_portal_making {
@@ -48,38 +49,46 @@ bool has_spread(const Situation& now) noexcept {
 }
 bool is_finishing(const Situation& now) noexcept { return now.is_finishing; }
 
-procedure::Opening opening(const cases::CaseData& data) {
+procedure::Opening opening(const cases::CaseData& data) { return opened(declared(), data); }
+
+}  // namespace
+
+std::span<const NamedPredicate> named_predicates() {
+  static constexpr std::array kPredicates{NamedPredicate{"is_pulled", is_pulled},
+                                          NamedPredicate{"has_felt_1", has_felt<0>},
+                                          NamedPredicate{"has_needled_1", has_needled<0>},
+                                          NamedPredicate{"has_cut_1", has_cut<0>},
+                                          NamedPredicate{"has_spread_1", has_spread<0>},
+                                          NamedPredicate{"is_made_1", is_made<0>},
+                                          NamedPredicate{"has_felt_2", has_felt<1>},
+                                          NamedPredicate{"has_needled_2", has_needled<1>},
+                                          NamedPredicate{"has_cut_2", has_cut<1>},
+                                          NamedPredicate{"has_spread_2", has_spread<1>},
+                                          NamedPredicate{"is_made_2", is_made<1>},
+                                          NamedPredicate{"is_finishing", is_finishing}};
+  return kPredicates;
+}
+
+procedure::Opening opened(const procedure::Procedure& graded, const cases::CaseData& data) {
   procedure::Opening opened = arthroscopy::opening(data, "making portals");
   if (data.skin.facets.empty()) {
     throw InvalidInput("making portals: the case has no skin; choose another case");
   }
-  const procedure::PortalMaking& making = *declared().making;
-  const bool has_second = std::any_of(
-      making.second.begin(), making.second.end(),
-      [&](const std::string& id) { return cases::find_portal(*data.arthroscopy, id) != nullptr; });
-  if (!has_second) throw InvalidInput("making portals: this wrist has no second portal");
+  const procedure::PortalMaking& making = *graded.making;
+  if (procedure::second_portals(data, making).empty()) {
+    std::string asked;
+    for (const std::string& id : making.second) asked += (asked.empty() ? "" : ", ") + id;
+    throw InvalidInput("making portals: this wrist has no room for a second portal, or not what " +
+                       std::string("lies beside one, of: ") + asked + "; choose another case");
+  }
   opened.tip_in_target = data.arthroscopy->portals.front().skin + opened.shaft_in_target * kWaitsMm;
   return opened;
 }
 
-}  // namespace
-
 const procedure::Procedure& declared() {
   static const procedure::Procedure kDeclared = [] {
-    constexpr std::array kPredicates{NamedPredicate{"is_pulled", is_pulled},
-                                     NamedPredicate{"has_felt_1", has_felt<0>},
-                                     NamedPredicate{"has_needled_1", has_needled<0>},
-                                     NamedPredicate{"has_cut_1", has_cut<0>},
-                                     NamedPredicate{"has_spread_1", has_spread<0>},
-                                     NamedPredicate{"is_made_1", is_made<0>},
-                                     NamedPredicate{"has_felt_2", has_felt<1>},
-                                     NamedPredicate{"has_needled_2", has_needled<1>},
-                                     NamedPredicate{"has_cut_2", has_cut<1>},
-                                     NamedPredicate{"has_spread_2", has_spread<1>},
-                                     NamedPredicate{"is_made_2", is_made<1>},
-                                     NamedPredicate{"is_finishing", is_finishing}};
-    procedure::Procedure read =
-        procedure::read_procedure(json(), "arthroscopic_portal_making/procedure.json", kPredicates);
+    procedure::Procedure read = procedure::read_procedure(
+        json(), "arthroscopic_portal_making/procedure.json", named_predicates());
     read.opening = opening;
     read.score = score;
     return read;

@@ -5,6 +5,7 @@
 // procedure.json and what of it needs code.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "procedure/procedure.hpp"
@@ -17,6 +18,18 @@ namespace carpus::procedures::arthroscopic_portal_making {
 /// Read once, on the first call. @throws InvalidInput  when procedure.json is wrong.
 [[nodiscard]] const procedure::Procedure& declared();
 
+/// Of its steps, in any grade of difficulty.
+[[nodiscard]] std::span<const procedure::NamedPredicate> named_predicates();
+
+/// How it begins, or why it cannot, in any grade.
+[[nodiscard]] procedure::Opening opened(const procedure::Procedure& graded,
+                                        const cases::CaseData& data);
+/// By that one's rules (docs/scoring.md).
+[[nodiscard]] procedure::ScoreReport scored(const procedure::Procedure& graded,
+                                            const cases::CaseData& data,
+                                            const procedure::OperationRecord& record);
+
+/// By the rules in procedure.json.
 [[nodiscard]] procedure::ScoreReport score(const cases::CaseData& data,
                                            const procedure::OperationRecord& record);
 

@@ -5,12 +5,15 @@
 // first, what was struck (docs/scoring.md defines each). Care is praised once both are made: who
 // does nothing harms nothing.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "cases/laid_structures.hpp"
 #include "core/units.hpp"
 #include "procedure/harm_measures.hpp"
 #include "procedure/thrift_measures.hpp"
@@ -82,12 +85,81 @@ double felt_share(const PortalMade& made, int cells) {
   return (share(made.landmark_felt) + share(made.place_felt)) / 2;
 }
 
+std::string words_of(const cases::Structure& structure,
+                     const procedure::NearStructure& near,
+                     const procedure::PortalLandmark& portal) {
+  if (near.was_struck) return structure.name + " struck";
+  const auto& aside = portal.draws_aside;
+  if (std::find(aside.begin(), aside.end(), structure.id) != aside.end()) {
+    return structure.name + " not struck";  // of what went by it while drawn aside nothing is kept
+  }
+  // A tendon gives way to what is thin or blunt.
+  if (near.least_mm < 0.0) return structure.name + " pushed aside";
+  return structure.name + " " + text_of(near.least_mm) + " mm";
+}
+
+/// How near anything came to the nerves and arteries that a portal endangers; its tendons, which
+/// are pushed aside, are told with them.
+Measure endangered(std::string_view id,
+                   const cases::CaseData& data,
+                   const procedure::OperationRecord& record,
+                   const procedure::PortalLandmark* portal,
+                   bool is_made) {
+  Measure measure{id, {}, ""};
+  measure.applies = !data.structures.empty();
+  if (portal == nullptr) return measure;
+  for (const std::string& each : portal->endangers) {
+    for (const procedure::NearStructure& near : record.structures) {
+      if (near.structure >= data.structures.size()) continue;
+      const cases::Structure& structure = data.structures[near.structure];
+      if (structure.id != each || !(near.least_mm < cases::kFarFromStructureMm)) continue;
+      if (is_made && structure.kind != anatomy::StructureKind::Tendon) {
+        measure.value = std::min(measure.value.value_or(near.least_mm), near.least_mm);
+      }
+      measure.finding +=
+          measure.finding.empty()
+              ? "Nearest in this operation, of what lies beside " + portal->portal + ": "
+              : ", ";
+      measure.finding += words_of(structure, near, *portal);
+    }
+  }
+  if (!measure.finding.empty()) measure.finding += ".";
+  return measure;
+}
+
+/// What lies where nothing is generated was not spared for all that anyone knows.
+void leave_unjudged(Measure& struck,
+                    const PortalMade& made,
+                    const procedure::PortalLandmark* portal) {
+  if (portal == nullptr || !portal->judged_mm || !(made.strayed_mm > *portal->judged_mm)) return;
+  struck.finding += " At " + portal->portal + " something went in " + text_of(made.strayed_mm) +
+                    " mm off its way. Beyond " + text_of(*portal->judged_mm) + " mm lies " +
+                    portal->beyond + ", not generated: whether that was harmed nobody can say.";
+  if (struck.value && *struck.value <= 0.0) struck.value.reset();
+}
+
+/// Those that were asked for, in order.
+std::array<const procedure::PortalLandmark*, procedure::kPortalsMade> asked_landmarks(
+    const procedure::PortalMaking& making,
+    const cases::CaseData& data,
+    const procedure::MakingFacts& facts) {
+  std::array<const procedure::PortalLandmark*, procedure::kPortalsMade> found{};
+  if (data.arthroscopy == nullptr) return found;
+  const std::vector<cases::Portal>& portals = data.arthroscopy->portals;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (facts.asked[i] >= portals.size()) continue;
+    found[i] = procedure::landmark_of(making, portals[facts.asked[i]].id);
+  }
+  return found;
+}
+
 }  // namespace
 
-procedure::ScoreReport score(const cases::CaseData& data,
-                             const procedure::OperationRecord& record) {
+procedure::ScoreReport scored(const procedure::Procedure& graded,
+                              const cases::CaseData& data,
+                              const procedure::OperationRecord& record) {
   const procedure::MakingFacts facts = record.making.value_or(procedure::MakingFacts{});
-  std::vector<Measure> measures = procedure::thrift_measures(declared(), record, {});
+  std::vector<Measure> measures = procedure::thrift_measures(graded, record, {});
   measures.push_back({"portals_made", static_cast<double>(facts.made), ""});
   add_portal(measures, kFirst, facts.portal[0], facts.made > 0);
   add_portal(measures, kSecond, facts.portal[1], facts.made > 1);
@@ -98,7 +170,7 @@ procedure::ScoreReport score(const cases::CaseData& data,
   double overrun = 0;
   double direction = 0;
   for (const PortalMade& made : facts.portal) {
-    felt += felt_share(made, declared().making->cells) / procedure::kPortalsMade;
+    felt += felt_share(made, graded.making->cells) / procedure::kPortalsMade;
     passes += made.passes;
     strikes += made.bone_strikes;
     wrong += std::popcount(made.out_of_order);
@@ -107,6 +179,10 @@ procedure::ScoreReport score(const cases::CaseData& data,
   }
   Measure struck =
       procedure::structures_struck(data, record, " met the ", procedure::ThroughSkin::Portal);
+  const auto asked = asked_landmarks(*graded.making, data, facts);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    leave_unjudged(struck, facts.portal[i], asked[i]);
+  }
   std::vector<Measure> care{
       {"palpated_share", 100 * felt, ""}, {"needle_passes", passes, ""},
       {"bone_strikes", strikes, ""},      {"out_of_order", wrong, ""},
@@ -116,12 +192,19 @@ procedure::ScoreReport score(const cases::CaseData& data,
     if (facts.made < procedure::kPortalsMade) each.value.reset();
     measures.push_back(std::move(each));
   }
+  measures.push_back(endangered("first_endangered_mm", data, record, asked[0], facts.made > 0));
+  measures.push_back(endangered("second_endangered_mm", data, record, asked[1], facts.made > 1));
   for (Measure& near : procedure::nearest_structures(data, record, "Nothing came near one.")) {
     measures.push_back(std::move(near));
   }
   procedure::ScoreReport report;
-  procedure::grade(report, declared().rules, measures);
+  procedure::grade(report, graded.rules, measures);
   return report;
+}
+
+procedure::ScoreReport score(const cases::CaseData& data,
+                             const procedure::OperationRecord& record) {
+  return scored(declared(), data, record);
 }
 
 }  // namespace carpus::procedures::arthroscopic_portal_making

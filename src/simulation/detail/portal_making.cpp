@@ -18,9 +18,10 @@ using instruments::SkinWork;
 
 namespace {
 
-constexpr double kCutBeginsMm = 0.2;  // below the skin
-constexpr double kOffMarkMm = 1.0;    // of the marked way: a hand so near has kept to it [E]
-constexpr double kSameCutMm = 1.0;    // a blade so near to a cut's end goes on with it [E]
+constexpr double kCutBeginsMm = 0.2;     // below the skin
+constexpr double kOffMarkMm = 1.0;       // of the marked way: a hand so near has kept to it [E]
+constexpr double kSameSideCosine = 0.5;  // of a way in to the portal's [E]
+constexpr double kSameCutMm = 1.0;       // a blade so near to a cut's end goes on with it [E]
 
 double squared_aside(const Vec3& off, const Vec3& way) noexcept {
   return squared_length(off - way * dot(off, way));
@@ -51,7 +52,9 @@ void World::State::watch_blade(const Model& model,
                                std::uint8_t hand,
                                const SkinPlace& at) noexcept {
   const procedure::PortalMaking& figures = *model.procedure.making;
-  if (structures.size() == 0 || at.depth_mm <= figures.skin_mm) return;
+  if (at.depth_mm <= figures.skin_mm) return;
+  note_strayed(model, asked_now(), at.point, -at.normal);
+  if (structures.size() == 0) return;
   const Vec3 below_skin = at.point - at.normal * figures.skin_mm;
   const Vec3 below_fascia = at.point - at.normal * figures.fascia_mm;
   structures.follow({poses.data(), snapshot.body_count});
@@ -63,6 +66,17 @@ void World::State::watch_blade(const Model& model,
     const double gap = structures.gap_mm(i, tip, is_tendon ? below_fascia : below_skin, least);
     note_harm(hand, i, gap, gap < 0.0);
   }
+}
+
+/// Only where it goes in from the portal's side: on the other lies what is generated for others.
+void World::State::note_strayed(const Model& model,
+                                std::size_t asked,
+                                const Vec3& at,
+                                const Vec3& towards) noexcept {
+  const WayIn marked = way_in(model, model.asked[asked]);
+  if (!(dot(towards, marked.inwards) > kSameSideCosine)) return;
+  double& most = making.facts.portal[asked].strayed_mm;
+  most = std::max(most, std::sqrt(squared_aside(at - marked.skin, marked.inwards)));
 }
 
 void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPlace& at) noexcept {
@@ -83,7 +97,7 @@ void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPla
       const std::size_t asked = asked_now();
       procedure::PortalMade& made = making.facts.portal[asked];
       if (made.cuts < 255) ++made.cuts;
-      if (!made.needle.is_in && making.facts.made <= asked) {
+      if (!made.needle.is_in && making.facts.made <= asked && !model.is_opened_first[asked]) {
         made.out_of_order |= procedure::kCutBeforeNeedle;
       }
       under.cut = worked.cut_count;
@@ -161,6 +175,8 @@ void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
     } else if (under.is_deep && under.travel_mm < tool.reaim_mm) {
       under.is_deep = false;
     }
+    // Into a joint or not: what it is led through it harms.
+    if (under.is_deep && !under.is_through) note_line_in(model, hand);
   }
   if (!under.is_through) return;
   if (work == SkinWork::Sheath && under.is_told) {
@@ -189,21 +205,27 @@ void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
 /// Nerves and arteries are struck by a touch. Of tendons a way through the middle harms [E], where
 /// nothing was spread aside for what is thick a touch.
 void World::State::note_line_in(const Model& model, std::uint8_t hand) noexcept {
+  const UnderSkin& under = making.worked.hands[hand];
+  note_strayed(model, under.portal, under.entry, under.towards);
   if (structures.size() == 0) return;
   structures.follow({poses.data(), snapshot.body_count});
-  const UnderSkin& under = making.worked.hands[hand];
   const instruments::Instrument& kind = kind_of(model, *in_hand(hand));
-  const bool is_forced = kind.skin->work == SkinWork::Sheath &&
-                         (under.cut == kNoCut || !making.worked.cuts[under.cut].is_spread);
-  const Vec3 inner = under.entry + under.towards * under.capsule_mm;
+  const bool is_spread = under.cut != kNoCut && making.worked.cuts[under.cut].is_spread;
+  const bool is_forced = kind.skin->work == SkinWork::Sheath && !is_spread;
+  const Vec3 inner =
+      under.entry + under.towards * (under.is_through ? under.capsule_mm : under.travel_mm);
   const WayIn marked = way_in(model, model.asked[under.portal]);
   const Vec3 capsule = marked.skin + marked.inwards * marked.capsule_mm;
+  note_strayed(model, under.portal, inner, under.towards);
   const double radius_mm = kind.shape.greatest_radius_mm();
   for (std::size_t i = 0; i < structures.size(); ++i) {
-    const double gap = structures.gap_mm(i, under.entry, inner) - radius_mm;
+    if (is_spread && (model.drawn_aside[under.portal] >> i & 1U) != 0) continue;
+    // Nearer than ever before, or what is touched anew.
+    const double known = std::max(0.0, structure_state.harm[i].least_mm) + radius_mm;
+    const double gap = structures.gap_mm(i, under.entry, inner, known) - radius_mm;
     const bool is_tendon = structures.kind(i) == anatomy::StructureKind::Tendon;
     double least = 0.0;
-    if (is_tendon && !is_forced) {
+    if (is_tendon && !is_forced && gap < 0.0) {
       // Nor where this wrist's tendons leave the marked way no room: as in note_way_in.
       const double on_mark = structures.gap_mm(i, capsule, marked.skin) - radius_mm - kOffMarkMm;
       // What is thin or blunt pushes a tendon aside unless it goes through its middle half.
@@ -216,6 +238,7 @@ void World::State::note_line_in(const Model& model, std::uint8_t hand) noexcept 
 procedure::MakingFacts World::State::making_facts(const Model& model) const noexcept {
   procedure::MakingFacts facts = making.facts;
   if (!model.makes_portals()) return facts;
+  facts.asked = model.asked;
   for (std::size_t c = 0; c < making.worked.cut_count; ++c) {
     const SkinCut& cut = making.worked.cuts[c];
     if (cut.portal < facts.made) continue;

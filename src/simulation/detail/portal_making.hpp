@@ -123,6 +123,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(made.cut.along_cosine);
     v(made.cut.off_mm);
     v(made.overrun_mm);
+    v(made.strayed_mm);
   }
   v(state.facts.made);
   for (auto& felt : state.felt) {

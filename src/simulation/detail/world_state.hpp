@@ -81,6 +81,8 @@ struct World::Model {
     std::uint8_t body = 0;
   };
   std::array<LandmarkPlace, procedure::kPortalsMade> felt_first{};
+  std::array<std::uint32_t, procedure::kPortalsMade> drawn_aside{};  ///< bit i: structure i
+  std::array<bool, procedure::kPortalsMade> is_opened_first{};
   [[nodiscard]] bool makes_portals() const noexcept { return skin.has_value(); }
   detail::DrillPlan drill;    ///< of a procedure that declares one
   bool has_punch = false;     ///< on the tray, and there is tissue to be taken away
@@ -521,6 +523,10 @@ struct World::State {
   void watch_blade(const Model& model, std::uint8_t hand, const detail::SkinPlace& at) noexcept;
   void watch_making(const Model& model, std::uint8_t hand) noexcept;
   void note_line_in(const Model& model, std::uint8_t hand) noexcept;
+  void note_strayed(const Model& model,
+                    std::size_t asked,
+                    const Vec3& at,
+                    const Vec3& towards) noexcept;
   void note_under(const Model& model, std::uint8_t hand) noexcept;
   [[nodiscard]] procedure::WayMade way_made(const Model& model,
                                             const detail::UnderSkin& under) const noexcept;
