@@ -8,11 +8,14 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "arthroscopy/portal_table.hpp"
 #include "cases/make_hand_motion.hpp"
 #include "cases/synthetic_case_test_support.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "procedure/second_portals.hpp"
 #include "procedures/dorsal_scaphoid_fixation/declared.hpp"
 #include "procedures/volar_scaphoid_fixation/declared.hpp"
 
@@ -59,8 +62,9 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 11U);
+  ASSERT_EQ(built_in().all().size(), 12U);
   EXPECT_NE(built_in().find("arthroscopic_portal_making"), nullptr);
+  EXPECT_NE(built_in().find("arthroscopic_portal_making_harder"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_basics_harder"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_disc_debridement"), nullptr);
@@ -92,6 +96,10 @@ TEST(BuiltIn, EachCanBeDoneAndScored) {
   for (const procedure::Procedure* each : built_in().all()) {
     ASSERT_NE(each->opening, nullptr) << each->id;
     ASSERT_NE(each->score, nullptr) << each->id;
+    if (each->making && each->making->needs_structures) {
+      EXPECT_THROW((void)each->opening(data), InvalidInput) << "nothing lies beside a portal";
+      continue;
+    }
     // A screw is laid between the walls of joints, which this wrist lacks.
     if (each->controls_screw) {
       EXPECT_THROW((void)each->opening(data), InvalidInput);
@@ -117,6 +125,44 @@ TEST(BuiltIn, EachCanBeDoneAndScored) {
       EXPECT_EQ(step.instruction.back(), '.') << each->id << " " << step.id;
     }
   }
+}
+
+/// Every portal of the table is asked for in one of both grades, or left out for a reason.
+TEST(BuiltIn, NoPortalIsPassedOverInSilence) {
+  std::vector<std::string> known;
+  for (const char* id : {"arthroscopic_portal_making", "arthroscopic_portal_making_harder"}) {
+    const procedure::PortalMaking& making = *built_in().find(id)->making;
+    known.insert(known.end(), making.second.begin(), making.second.end());
+    for (const procedure::PortalLeftOut& each : making.left_out) known.push_back(each.portal);
+    for (const procedure::PortalLandmark& each : making.landmarks) {
+      EXPECT_FALSE(each.endangers.empty()) << each.portal;
+    }
+    EXPECT_EQ(making.first, "3-4");
+  }
+  known.emplace_back("3-4");
+  std::sort(known.begin(), known.end());
+  std::vector<std::string> all;
+  for (const auto& portal : arthroscopy::PortalTable::generic().portals) all.push_back(portal.id);
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(known, all);
+}
+
+TEST(BuiltIn, APortalWhoseDangersAreNotThereIsNotAskedFor) {
+  const auto* harder = built_in().find("arthroscopic_portal_making_harder");
+  cases::CaseData data = wrist();
+  cases::ArthroscopicMap map = *data.arthroscopy;
+  map.portals.push_back(map.portals[1]);
+  map.portals.back().id = "6U";
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  data.structures.clear();
+  EXPECT_TRUE(procedure::second_portals(data, *harder->making).empty());
+  EXPECT_THROW((void)harder->opening(data), InvalidInput);
+  for (const char* id : {"dsbun", "ecu"}) {
+    data.structures.emplace_back();
+    data.structures.back().id = id;
+  }
+  EXPECT_EQ(procedure::second_portals(data, *harder->making), std::vector<std::uint8_t>{2});
+  EXPECT_NO_THROW((void)harder->opening(data));
 }
 
 TEST(BuiltIn, PortalsAreMadeThroughSkinAndTwo) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "procedures/arthroscopic_portal_making/declared.hpp"
+#include "procedures/arthroscopic_portal_making_harder/declared.hpp"
 
 namespace carpus::procedures::arthroscopic_portal_making {
 namespace {
@@ -105,6 +107,69 @@ TEST(PortalMakingScore, WhatIsTouchedOnceIsNotFelt) {
   EXPECT_LT(once, 0.65 * whole);
   const double spot_alone = after("palpated_share", [](auto& made) { made.landmark_felt = 0; });
   EXPECT_LT(spot_alone, 0.8 * whole);
+}
+
+/// Portals 3-4 and VR of a wrist with its artery, the palmar branch and the flexor.
+cases::CaseData wrist_with_vr() {
+  cases::CaseData data;
+  cases::ArthroscopicMap map;
+  for (const char* id : {"3-4", "VR"}) {
+    map.portals.emplace_back();
+    map.portals.back().id = id;
+  }
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  const auto add = [&data](const char* id, anatomy::StructureKind kind) {
+    cases::Structure made;
+    made.id = made.name = id;
+    made.kind = kind;
+    data.structures.push_back(made);
+  };
+  add("radial_artery", anatomy::StructureKind::Artery);
+  add("median_palmar", anatomy::StructureKind::Nerve);
+  add("fcr", anatomy::StructureKind::Tendon);
+  return data;
+}
+
+procedure::ScoreItem harder_item(const procedure::OperationRecord& record, const char* id) {
+  const procedure::ScoreReport report =
+      arthroscopic_portal_making_harder::declared().score(wrist_with_vr(), record);
+  for (const procedure::ScoreItem& item : report.items) {
+    if (item.id == id) return item;
+  }
+  ADD_FAILURE() << id;
+  return {};
+}
+
+TEST(PortalMakingScore, TellsHowNearAnythingCameToWhatThePortalEndangers) {
+  procedure::OperationRecord record = perfect();
+  record.making->asked = {0, 1};
+  record.structures = {{0, 5.8, false, 0}, {1, 2.4, false, 0}, {2, -0.5, false, 0}};
+  const procedure::ScoreItem told = harder_item(record, "second_endangered_mm");
+  EXPECT_DOUBLE_EQ(*told.value, 2.4) << "of a tendon that gives way nothing is judged";
+  EXPECT_NE(told.reason.find("radial_artery 5.8 mm, median_palmar 2.4 mm, fcr not struck."),
+            std::string::npos)
+      << told.reason;
+  record.structures[1] = {1, -0.1, true, 0};
+  EXPECT_DOUBLE_EQ(harder_item(record, "structures_struck").points, 0.0);
+  EXPECT_NE(harder_item(record, "second_endangered_mm").reason.find("median_palmar struck"),
+            std::string::npos);
+  record.making->made = 1;
+  EXPECT_FALSE(harder_item(record, "second_endangered_mm").value.has_value());
+}
+
+TEST(PortalMakingScore, WhereNothingIsGeneratedNothingWasSpared) {
+  procedure::OperationRecord record = perfect();
+  record.making->asked = {0, 1};
+  record.making->portal[1].strayed_mm = 4.0;
+  EXPECT_GT(harder_item(record, "structures_struck").points, 0.0);
+  record.making->portal[1].strayed_mm = 7.0;
+  const procedure::ScoreItem unjudged = harder_item(record, "structures_struck");
+  EXPECT_FALSE(unjudged.value.has_value());
+  EXPECT_DOUBLE_EQ(unjudged.points, 0.0);
+  EXPECT_NE(unjudged.reason.find("the median nerve"), std::string::npos);
+  record.making->portal[1].strayed_mm = 0.0;
+  record.making->portal[0].strayed_mm = 7.0;
+  EXPECT_GT(harder_item(record, "structures_struck").points, 0.0) << "round 3-4 all is generated";
 }
 
 TEST(PortalMakingScore, ASheathWithoutANeedleBeforeItEarnsNothingForOne) {
