@@ -6,7 +6,7 @@ import { make, setText } from "../dom";
 import { heldItem, type HandIndex } from "../operation";
 import type { ExerciseMessage, Instrument, SkinMessage, SnapshotMessage, Vec3 } from "../protocol";
 import "./skin_desk.css";
-import { skinWords, whyHeldBySkin, worksOnSkin } from "./skin_words_model";
+import { skinWords, whyHeldBySkin, whyNotSwung, worksOnSkin } from "./skin_words_model";
 
 /** Beside the place, so that neither finger nor needle hides it [CSS px]. */
 const ASIDE_PX = 56;
@@ -55,6 +55,11 @@ export class SkinDesk {
   /** Why mouse and arrows would not move what this hand holds. */
   whyHeld(s: SnapshotMessage | undefined, hand: HandIndex): string | undefined {
     return this.isHere ? whyHeldBySkin(this.last?.hands[hand], this.workOf(s, hand)) : undefined;
+  }
+
+  /** Why what this hand holds would not be laid where one looks. */
+  whyNotSwung(s: SnapshotMessage | undefined, hand: HandIndex): string | undefined {
+    return this.isHere ? whyNotSwung(this.workOf(s, hand)) : undefined;
   }
 
   showReadings(s: SnapshotMessage | undefined, hand: HandIndex): void {

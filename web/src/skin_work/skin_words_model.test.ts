@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { SkinMessage } from "../protocol";
-import { skinWords, whyHeldBySkin, worksOnSkin } from "./skin_words_model";
+import { skinWords, whyHeldBySkin, whyNotSwung, worksOnSkin } from "./skin_words_model";
 
 const still: SkinMessage["hands"][number] = {
   felt: "nothing",
@@ -37,6 +37,15 @@ describe("whyHeldBySkin", () => {
     expect(whyHeldBySkin({ ...still, under_mm: 1 }, "needle")).toBeUndefined();
     expect(whyHeldBySkin({ ...still, under_mm: 6 }, "incise")).toBeUndefined();
     expect(whyHeldBySkin(undefined, "sheath")).toBeUndefined();
+  });
+});
+
+describe("whyNotSwung", () => {
+  it("lets a fingertip go round, and nothing that pricks, cuts or inks", () => {
+    expect(whyNotSwung("palpate")).toBeUndefined();
+    expect(whyNotSwung("none")).toBeUndefined();
+    for (const work of ["mark", "needle", "incise", "spread", "sheath"] as const)
+      expect(whyNotSwung(work)).toContain("fingertip");
   });
 });
 

@@ -44,6 +44,12 @@ export function skinWords(hand: HandOnSkin | undefined, work: Instrument["skin_w
   }
 }
 
+/** Why it is not swung to another side of the limb; undefined: it is. */
+export function whyNotSwung(work: Instrument["skin_work"]): string | undefined {
+  if (work === "palpate" || work === "none") return undefined;
+  return "On its way round it would go into the skin: lay a fingertip there first, what you take then begins before that place.";
+}
+
 /** Why mouse and arrows do not move what is deep under the skin; undefined: they do. */
 export function whyHeldBySkin(
   hand: HandOnSkin | undefined,

@@ -82,6 +82,8 @@ export interface HandHandlers {
   worksOnSkin(): boolean;
   /** Why what this hand holds would not go aside under the skin; undefined: it would. */
   whyHeldBySkin(hand: HandIndex): string | undefined;
+  /** Why what this hand holds would not be laid where one looks; undefined: it would. */
+  whyNotSwung(hand: HandIndex): string | undefined;
   /** Whether a fragment goes where a hand takes it by this instrument. */
   isJoystick(instrument: string): boolean;
   snapshot(): SnapshotMessage | undefined;
@@ -506,6 +508,11 @@ export class Hand {
   /** Lays the tip onto the bone in the middle of the picture and the shaft along the sight. */
   aimAlongSight(): void {
     if (!this.isFree()) return;
+    const why = this.handlers.whyNotSwung(this.moved);
+    if (why !== undefined) {
+      this.handlers.say(why);
+      return;
+    }
     const { canvas } = this.theatre;
     const box = canvas.getBoundingClientRect();
     const [x, y] = [box.left + box.width / 2, box.top + box.height / 2];

@@ -356,6 +356,7 @@ export class TrainPage {
       },
       worksOnSkin: () => this.skin.isOn,
       whyHeldBySkin: (hand) => this.skin.whyHeld(this.seen.latest, hand),
+      whyNotSwung: (hand) => this.skin.whyNotSwung(this.seen.latest, hand),
       label: (body) => this.seen.label(body),
       say: (hint) => {
         this.panels.notice.say(hint);
