@@ -123,5 +123,24 @@ export async function makesPortals(browser, station) {
     await page.getByText("3-4: needle off its place").first().waitFor();
     await picture("score");
   });
+  await check(page, "another side of the limb is gone round to with a fingertip alone", async () => {
+    await operator.start(station.url, TRAINEE, "arthroscopic_portal_making_harder", "practice");
+    await atRest(operator);
+    const held = async () => Operator.held(await operator.snapshot());
+    const before = await held();
+    await operator.take("needle_22g");
+    await page.getByRole("button", { name: "Volar", exact: true }).click();
+    await page.keyboard.press("Enter");
+    await page.getByText("lay a fingertip there first").waitFor();
+    const still = await held();
+    expect(dot(still.shaft, before.shaft) > 0.99, "a needle was swung round");
+    await operator.take("fingertip");
+    await page.keyboard.press("Enter");
+    await operator.until((s) => dot(Operator.held(s).shaft, before.shaft) < -0.7, "the finger from volar");
+    await operator.take("needle_22g");
+    expect(dot((await held()).shaft, before.shaft) < -0.7, "the needle begins elsewhere");
+    expect((await hand()).under_mm === 0, "it pricked on its way");
+    await picture("volar");
+  });
   await page.context().close();
 }
