@@ -29,6 +29,7 @@ struct PartedBridges {
   std::size_t bridges = 0;  ///< how many were cut
 };
 
+/// @param vertices  in any one frame [mm]
 /// @param facets  of a closed, oriented 2-manifold
 /// @param level   by vertex: of one side below 0.5, of the other above
 /// @param spans   whether a vertex is of what truly goes across; a bridge that is mostly of such
