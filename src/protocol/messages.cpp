@@ -497,6 +497,7 @@ void read(FieldReader& in, Skin& out) {
   in.list("ink_mm", 0, 96, 10000.0, 0.0, out.ink_mm);
   in.records("cuts", 0, 8, out.cuts);
   out.made = in.integer("made", 0, 2);
+  in.records("ways", 0, 2, out.ways);
   if (in.has("spot_mm")) out.spot_mm = in.vec3("spot_mm", 10000.0, 0.0);
   if (in.has("landmark_mm")) out.landmark_mm = in.vec3("landmark_mm", 10000.0, 0.0);
 }
@@ -507,6 +508,7 @@ void write(FieldWriter& out, const Skin& in) {
   out.list("ink_mm", in.ink_mm);
   out.records("cuts", in.cuts);
   out.value("made", in.made);
+  out.records("ways", in.ways);
   if (in.spot_mm) {
     out.vec3("spot_mm", *in.spot_mm);
   } else {

@@ -418,6 +418,9 @@ struct Skin {
   std::vector<SkinCut> cuts;
   /// portals, so far 0 to 2
   std::int64_t made = 0;
+  /// those by which joints are entered, as they were made; none where the procedure goes in by none
+  /// of its own
+  std::vector<Portal> ways;
   /// where the next portal goes through the skin; in practice, once a ghost was asked for
   std::optional<Vec3> spot_mm;
   /// what is felt for before it, likewise

@@ -14,6 +14,7 @@
 #include "arthroscopy/pathology_table.hpp"
 #include "session/body_names.hpp"
 #include "session/descriptions.hpp"
+#include "simulation/asked_portals.hpp"
 #include "simulation/lesions_of.hpp"
 #include "simulation/questions.hpp"
 
@@ -193,6 +194,21 @@ protocol::JointFluid fluid_of(const simulation::FluidView& fluid) {
           to(fluid.smear_depth, kShare)};
 }
 
+/// By the procedure's portals, bit by bit: of those that are to be made where they should lead.
+std::uint32_t joints_led_to(const cases::CaseData& data,
+                            const procedure::Procedure& procedure,
+                            std::uint64_t seed) {
+  constexpr std::uint32_t kAll = ~0U;
+  if (!procedure.making) return kAll;
+  const auto asked = simulation::asked_portals(data, *procedure.making, seed);
+  std::uint32_t joints = 0;
+  if (!asked) return kAll;
+  for (const std::uint8_t portal : *asked) {
+    joints |= 1U << data.arthroscopy->portals[portal].joint;
+  }
+  return joints;
+}
+
 }  // namespace
 
 std::optional<protocol::Arthroscopy> arthroscopy_of(
@@ -214,11 +230,14 @@ std::optional<protocol::Arthroscopy> arthroscopy_of(
   message.distal = data.arthroscopy->distal;
   const BodyNames names(data);
   for (const cases::Portal& portal : data.arthroscopy->portals) {
+    if (procedure.making) break;  // where those lie that are to be made is nothing to be told
     message.portals.push_back({portal.id, portal.name, data.arthroscopy->joints[portal.joint].id,
                                portal.landmarks, portal.skin, portal.inwards, portal.capsule_mm,
                                names.name(portal.body)});
   }
+  const std::uint32_t joints = joints_led_to(data, procedure, seed);
   for (const cases::TourPoint& point : data.arthroscopy->points) {
+    if ((joints >> point.joint & 1U) == 0) continue;
     message.points.push_back({point.number, point.name, point.found_by,
                               data.arthroscopy->joints[point.joint].id, point.is_probed, point.at,
                               names.name(point.body)});

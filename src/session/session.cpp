@@ -112,7 +112,7 @@ std::vector<protocol::HostMessage> Session::update(const simulation::Snapshot& n
   std::optional<protocol::Scope> scope = scope_message(data_, procedure_, now);
   if (scope && scope != sent_scope_) messages.emplace_back(*scope);
   sent_scope_ = std::move(scope);
-  std::optional<protocol::Skin> skin = skin_message(now);
+  std::optional<protocol::Skin> skin = skin_message(data_, bodies_, now);
   if (skin && skin != sent_skin_) messages.emplace_back(*skin);
   sent_skin_ = std::move(skin);
   for (std::size_t s = 0; s < now.sheet_count; ++s) {

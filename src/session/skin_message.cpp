@@ -27,9 +27,23 @@ void replace(std::string& text, const std::string& what, const std::string& by) 
   }
 }
 
+void add_ways(protocol::Skin& message,
+              const cases::ArthroscopicMap& map,
+              const BodyNames& names,
+              const simulation::SkinView& skin) {
+  for (std::size_t i = 0; i < skin.way_count; ++i) {
+    const simulation::OwnWayView& way = skin.ways[i];
+    const cases::Portal& portal = map.portals[way.portal];
+    message.ways.push_back({portal.id, portal.name, map.joints[way.joint].id, portal.landmarks,
+                            way.skin, way.inwards, way.capsule_mm, names.name(portal.body)});
+  }
+}
+
 }  // namespace
 
-std::optional<protocol::Skin> skin_message(const simulation::Snapshot& now) {
+std::optional<protocol::Skin> skin_message(const cases::CaseData& data,
+                                           const BodyNames& names,
+                                           const simulation::Snapshot& now) {
   const simulation::SkinView& skin = now.skin;
   if (!skin.is_there) return std::nullopt;
   protocol::Skin message;
@@ -53,6 +67,7 @@ std::optional<protocol::Skin> skin_message(const simulation::Snapshot& now) {
                             to_steps(cut.to_in_patient, kPlaceSteps), cut.is_spread});
   }
   message.made = skin.facts.made;
+  if (data.arthroscopy != nullptr) add_ways(message, *data.arthroscopy, names, skin);
   const auto ghost = static_cast<unsigned>(procedure::Aid::Ghost);
   const bool is_asked = (now.aids >> ghost & 1U) != 0;
   if (now.mode == procedure::Mode::Practice && is_asked) {

@@ -9,13 +9,16 @@
 #include "cases/case_data.hpp"
 #include "procedure/procedure.hpp"
 #include "protocol/messages.hpp"
+#include "session/body_names.hpp"
 #include "simulation/snapshot.hpp"
 
 namespace carpus::session {
 
 /// Skin as it is worked on now; none where the procedure makes no portals. What shows a portal's
 /// place is in it in practice alone, once a ghost was asked for.
-[[nodiscard]] std::optional<protocol::Skin> skin_message(const simulation::Snapshot& now);
+[[nodiscard]] std::optional<protocol::Skin> skin_message(const cases::CaseData& data,
+                                                         const BodyNames& names,
+                                                         const simulation::Snapshot& now);
 
 /// A step's text with the second portal's name and landmarks in place of {second} and
 /// {second_landmarks}; as it is where the procedure makes no portals.

@@ -121,6 +121,16 @@ struct CutView {
 inline constexpr std::size_t kMaxInk = 96;
 inline constexpr std::size_t kMaxCuts = 8;
 
+/// A portal as it was made. Frame Bone of the body that the portal goes with.
+struct OwnWayView {
+  std::uint8_t portal = 0;  ///< in ArthroscopicMap::portals
+  std::uint8_t joint = 0;   ///< in ArthroscopicMap::joints: the one that it leads into
+  Vec3 skin;
+  Vec3 inwards;             ///< unit
+  double capsule_mm = 0.0;  ///< from the skin
+  bool operator==(const OwnWayView&) const = default;
+};
+
 /// Closed skin that is worked on, of a procedure that makes portals.
 struct SkinView {
   bool is_there = false;
@@ -137,6 +147,9 @@ struct SkinView {
   std::uint8_t cut_count = 0;
   Vec3 spot{};      ///< where the portal that is next goes through the skin: an aid shows it
   Vec3 landmark{};  ///< and what is felt for before it, on the skin
+  /// Of procedures that go in by the portals that were made.
+  std::array<OwnWayView, procedure::kPortalsMade> ways{};
+  std::uint8_t way_count = 0;
   bool operator==(const SkinView&) const = default;
 };
 

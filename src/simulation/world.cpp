@@ -82,8 +82,9 @@ World::Model::Model(const cases::CaseData& case_data,
   }
   fracture = detail::fracture_in(case_data, kinds);
   for (const InstrumentIndex index : declared.tray) {
-    if (catalogue[index].enters_joints) map = case_data.arthroscopy.get();
+    has_joint_tools = has_joint_tools || catalogue[index].enters_joints;
   }
+  if (has_joint_tools) map = case_data.arthroscopy.get();
   if (declared.making) open_skin();
   if (map != nullptr) lesions = lesions_of(case_data, declared, seed, prepared);
   has_punch = !pieces().empty() && std::any_of(declared.tray.begin(), declared.tray.end(),

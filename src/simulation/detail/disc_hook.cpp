@@ -26,7 +26,7 @@ bool World::State::is_by_edge(const Model& model, std::uint8_t hand) noexcept {
   const Item* item = in_hand(hand);
   const std::uint8_t portal = scope_state.portal[hand];
   if (item == nullptr || !enters_joints(model, *item) || portal == detail::kNoPortal ||
-      !scope_state.is_in_joint[hand] || model.map->portals[portal].joint != disc.joint) {
+      !scope_state.is_in_joint[hand] || joint_of(model, portal) != disc.joint) {
     return false;
   }
   const instruments::Instrument& kind = kind_of(model, *item);
@@ -47,7 +47,7 @@ void World::State::hook_disc(const Model& model, std::array<yielding::Tip, kHand
     const Item* item = in_hand(h);
     const bool is_in = item != nullptr && enters_joints(model, *item) &&
                        scope_state.is_in_joint[h] && scope_state.portal[h] != detail::kNoPortal &&
-                       model.map->portals[scope_state.portal[h]].joint == disc.joint;
+                       joint_of(model, scope_state.portal[h]) == disc.joint;
     const bool is_gone = hooked < disc.net.size() && sheets[kDiscSheet].is_cut(hooked);
     if (!is_in || is_gone) hooked = kNothingHooked;
     if (hooked >= disc.net.size()) continue;

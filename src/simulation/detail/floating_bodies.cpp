@@ -45,8 +45,8 @@ bool World::State::is_seen_beside(const Model& model, std::uint8_t hand, const V
   const auto other = static_cast<std::uint8_t>(1U - hand);
   const Item* scope = in_hand(other);
   if (scope == nullptr || !scope_state.is_in_joint[other]) return false;
-  const std::uint8_t joint = model.map->portals[scope_state.portal[other]].joint;
-  if (joint != model.map->portals[scope_state.portal[hand]].joint) return false;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[other]);
+  if (joint != joint_of(model, scope_state.portal[hand])) return false;
   const auto sight = sight_of(model, *scope);
   return sight && sees(model, joint, *sight, at);
 }
@@ -85,7 +85,7 @@ void World::State::close_jaws(const Model& model, std::uint8_t hand, const Item&
   procedure::LooseFacts& done = loose_state.done;
   ++done.closings;
   if (!is_seen_beside(model, hand, item.tip)) ++done.unseen_closings;
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
   const Vec3 mouth = item.tip + item.shaft * kMouthMm;
   std::size_t nearest = kMaxLooseBodies;
   double least = kSqueezedMm;
@@ -162,7 +162,7 @@ void World::State::float_loose(const Model& model, std::size_t which) noexcept {
   for (std::uint8_t h = 0; h < kHands; ++h) {
     const Item* item = in_hand(h);
     if (item == nullptr || !scope_state.is_in_joint[h] ||
-        model.map->portals[scope_state.portal[h]].joint != kind.joint) {
+        joint_of(model, scope_state.portal[h]) != kind.joint) {
       continue;
     }
     body.is_afloat = true;

@@ -66,13 +66,14 @@ detail::FluidAround World::State::around_fluid(const Model& model) noexcept {
       detail::bleed(fluid, table, table.bleeding.injury_ml_per_s2 * kTickSeconds);
     }
     if (!kind_of(model, *item).optic) continue;
-    detail::go_to_joint(fluid, table, model.map->portals[scope_state.portal[h]].joint);
+    detail::go_to_joint(fluid, table, joint_of(model, scope_state.portal[h]));
     around.sheath_mm = 2.0 * kind_of(model, *item).shape.greatest_radius_mm();
     around.lens_touches = is_held_back(h, *item);
   }
   for (std::size_t p = 0; p < model.map->portals.size(); ++p) {
     const bool stands_open = (fluid.made & ~fluid.occupied) >> p & 1U;
-    if (stands_open && model.map->portals[p].joint == fluid.joint) ++around.open_portals;
+    if (stands_open && joint_of(model, static_cast<std::uint8_t>(p)) == fluid.joint)
+      ++around.open_portals;
   }
   around.suction_ml_per_s = suction_ml_per_s;
   return around;

@@ -80,7 +80,7 @@ void World::State::note_felt(const Model& model, const SkinPlace& at) noexcept {
   if (making.facts.made > asked || made.passes > 0) return;
   const procedure::PortalMaking& figures = *model.procedure.making;
   const std::array<Vec3, 2> places{skin_at(model, landmark_now(model, asked)).point,
-                                   way_in(model, model.asked[asked]).skin};
+                                   marked_way(model, model.asked[asked]).skin};
   const Vec3 distal = (poses[model.map->forearm] * Direction<frame::Bone>{model.map->distal}).v;
   const Vec3 along = normalized_or(distal - at.normal * dot(distal, at.normal), distal);
   const Vec3 across = cross(at.normal, along);

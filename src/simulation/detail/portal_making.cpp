@@ -73,7 +73,7 @@ void World::State::note_strayed(const Model& model,
                                 std::size_t asked,
                                 const Vec3& at,
                                 const Vec3& towards) noexcept {
-  const WayIn marked = way_in(model, model.asked[asked]);
+  const WayIn marked = marked_way(model, model.asked[asked]);
   if (!(dot(towards, marked.inwards) > kSameSideCosine)) return;
   double& most = making.facts.portal[asked].strayed_mm;
   most = std::max(most, std::sqrt(squared_aside(at - marked.skin, marked.inwards)));
@@ -126,7 +126,7 @@ void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPla
 
 procedure::WayMade World::State::way_made(const Model& model,
                                           const UnderSkin& under) const noexcept {
-  const WayIn marked = way_in(model, model.asked[under.portal]);
+  const WayIn marked = marked_way(model, model.asked[under.portal]);
   const Vec3 inner = under.entry + under.towards * under.capsule_mm;
   procedure::WayMade way;
   way.is_in = true;
@@ -137,6 +137,19 @@ procedure::WayMade World::State::way_made(const Model& model,
   const Vec3 aside = normalized_or(cross(distal, marked.inwards), {1, 0, 0});
   const Vec3 seen = normalized_or(under.towards - aside * dot(under.towards, aside), aside);
   way.tilt_cosine = std::clamp(dot(seen, marked.inwards), -1.0, 1.0);
+  return way;
+}
+
+detail::OwnWay World::State::way_as_made(const Model& model,
+                                         const UnderSkin& under) const noexcept {
+  const std::uint8_t portal = model.asked[under.portal];
+  const Pose<frame::Bone, frame::Patient>& from = inverses[model.map->portals[portal].body];
+  const Vec3 tip = under.entry + under.towards * under.travel_mm;
+  detail::OwnWay way;
+  way.skin = (from * Point<frame::Patient>{under.entry}).v;
+  way.inwards = (from * Direction<frame::Patient>{under.towards}).v;
+  way.capsule_mm = under.capsule_mm;
+  way.joint = joint_at(model, tip).value_or(model.map->portals[portal].joint);
   return way;
 }
 
@@ -154,7 +167,7 @@ procedure::CutMade World::State::cut_made(const Model& model,
   const Vec3 distal = model.map->distal;
   const double cosine = dot(along, normalized_or(distal - out * dot(distal, out), distal));
   made.along_cosine = std::min(1.0, cosine < 0.0 ? -cosine : cosine);
-  const Vec3 spot = as_scanned(model, way_in(model, model.asked[under.portal]).skin);
+  const Vec3 spot = as_scanned(model, marked_way(model, model.asked[under.portal]).skin);
   const double share = std::clamp(dot(spot - cut.from, along), 0.0, made.length_mm);
   made.off_mm = distance(spot, cut.from + along * share);
   return made;
@@ -194,6 +207,7 @@ void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
   emit(EventKind::SheathIn, now.held[hand], 0, under.travel_mm - under.capsule_mm);
   if (making.facts.made != under.portal) return;
   made.sheath = way_made(model, under);
+  making.ways[under.portal] = way_as_made(model, under);
   made.cut = cut_made(model, under);
   made.is_cut = true;
   made.is_spread = under.cut != kNoCut && making.worked.cuts[under.cut].is_spread;
@@ -214,7 +228,7 @@ void World::State::note_line_in(const Model& model, std::uint8_t hand) noexcept 
   const bool is_forced = kind.skin->work == SkinWork::Sheath && !is_spread;
   const Vec3 inner =
       under.entry + under.towards * (under.is_through ? under.capsule_mm : under.travel_mm);
-  const WayIn marked = way_in(model, model.asked[under.portal]);
+  const WayIn marked = marked_way(model, model.asked[under.portal]);
   const Vec3 capsule = marked.skin + marked.inwards * marked.capsule_mm;
   note_strayed(model, under.portal, inner, under.towards);
   const double radius_mm = kind.shape.greatest_radius_mm();

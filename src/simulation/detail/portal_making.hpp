@@ -6,6 +6,7 @@
 // procedure makes none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,15 @@ struct UnderSkin {
   std::uint32_t ticks = 0;    ///< in the joint, or spreading
 };
 
+/// The way by which a sheath came into a joint first. Frame Bone of the body that the portal goes
+/// with.
+struct OwnWay {
+  Vec3 skin;
+  Vec3 inwards{0, 0, -1};   ///< unit
+  double capsule_mm = 0.0;  ///< from the skin
+  std::uint8_t joint = 0;   ///< that it came into: not always the portal's
+};
+
 /// What an undo brings back.
 struct Worked {
   std::array<Vec3, kMaxInk> ink{};  ///< as scanned
@@ -66,6 +76,8 @@ struct MakingState {
   procedure::MakingFacts facts;
   std::array<FeltPlace, 2> felt{};  ///< of the landmark, of the portal's own
   std::array<FeltView, kHands> feels{};
+  /// Of the portals that are made; of procedures that go in by them.
+  std::array<OwnWay, procedure::kPortalsMade> ways{};
 };
 
 template <typename SomeWay, typename Visitor>
@@ -130,6 +142,24 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(felt.cell);
     v(felt.ticks);
   }
+}
+
+template <Is<MakingState> SomeState, typename Visitor>
+void visit_ways(SomeState& state, Visitor&& v) noexcept {
+  for (std::size_t i = 0; i < state.facts.made && i < state.ways.size(); ++i) {
+    auto& way = state.ways[i];
+    v(way.skin);
+    v(way.inwards);
+    v(way.capsule_mm);
+    v(way.joint);
+  }
+}
+
+/// Whether a tick could have left them.
+[[nodiscard]] inline bool are_possible_ways(const MakingState& state, std::size_t joints) noexcept {
+  return std::all_of(state.ways.begin(), state.ways.end(), [joints](const OwnWay& way) {
+    return way.joint < joints && way.capsule_mm >= 0.0 && squared_length(way.inwards) > 0.0;
+  });
 }
 
 /// Whether a tick could have left it.

@@ -169,6 +169,7 @@ void World::State::update_hash(const Model& model) noexcept {
     if (model.procedure.fluid) visit(fluid, fields);
     if (model.procedure.controls_screw) visit(screw_state, fields);
     if (model.makes_portals()) visit(making, fields);
+    if (model.goes_in_by_own()) visit_ways(making, fields);
   }
   if (spent.shot_count > 0) detail::visit_shot(shots[spent.shot_count - 1], fields);
   tissue.cuts().add_to(hash);

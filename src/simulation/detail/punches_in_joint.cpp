@@ -76,7 +76,7 @@ void World::State::bite_off(const Model& model,
 void World::State::close_punch(const Model& model, std::uint8_t hand, const Item& item) noexcept {
   const instruments::Bite& jaws = *kind_of(model, item).bite;
   const Vec3 middle = detail::jaws_middle(jaws, item.tip, item.shaft);
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
   const NearPiece piece = piece_by_jaws(model, joint, middle);
   const Touched bone = surface_at(middle);
   const double cartilage_mm =

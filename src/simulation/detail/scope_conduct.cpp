@@ -48,8 +48,7 @@ void World::State::watch_capsule(const Model& model, std::uint8_t hand, const It
   if (force_n < kCapsuleLetUpN) is_on_it = false;
   if (is_on_it || !(force_n > detail::kWarnN)) return;
   const std::uint8_t portal = scope_state.portal[hand];
-  const arthroscopy::OpenedSpace space =
-      joint_space_at(model, model.map->portals[portal].joint, item.tip);
+  const arthroscopy::OpenedSpace space = joint_space_at(model, joint_of(model, portal), item.tip);
   if (!space.is_near || space.distance_mm < -kOnCapsuleMm ||
       dot(space.outwards, way_in(model, portal).inwards) < kFarSideCosine) {
     return;

@@ -87,7 +87,7 @@ void World::State::watch_drill(const Model& model) noexcept {
     if (item == nullptr || !scope_state.is_in_joint[h]) continue;
     if (const auto looks_out = sight_of(model, *item)) {
       sight = looks_out;
-      joint = model.map->portals[scope_state.portal[h]].joint;
+      joint = joint_of(model, scope_state.portal[h]);
       detail::watch_look(drill_state, drill, drill_look(model, *item, *sight));
     } else {
       probe = item;

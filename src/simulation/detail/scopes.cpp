@@ -30,6 +30,7 @@ constexpr double kPivotMm = 3.0;       // deeper than this the hole leads the sh
 constexpr double kTunnelMm = 2.0;      // soft tissue gives so much aside of the way to the capsule
 constexpr double kWallMm = 0.3;        // a rigid wall, less the roughness of its grid
 constexpr double kKeptOutMm = 3.0;     // skin and fat keep a tip so far from the joint elsewhere
+constexpr double kDentMm = 1.0;        // so far closed skin gives way
 constexpr double kFarOutMm = 100.0;
 constexpr double kLeftMm = 1.0;  // so far back through the capsule it has come out
 constexpr double kSightStepMm = 0.5;
@@ -49,11 +50,38 @@ bool World::State::enters_joints(const Model& model, const Item& item) const noe
   return model.map != nullptr && !item.is_fixed() && kind_of(model, item).enters_joints;
 }
 
-World::State::WayIn World::State::way_in(const Model& model, std::uint8_t portal) const noexcept {
+World::State::WayIn World::State::marked_way(const Model& model,
+                                             std::uint8_t portal) const noexcept {
   const cases::Portal& at = model.map->portals[portal];
   const detail::BodyPose& pose = poses[at.body];
   return {(pose * Point<frame::Bone>{at.skin}).v, (pose * Direction<frame::Bone>{at.inwards}).v,
           at.capsule_mm};
+}
+
+World::State::WayIn World::State::way_in(const Model& model, std::uint8_t portal) const noexcept {
+  const detail::OwnWay* own = own_way(model, portal);
+  if (own == nullptr) return marked_way(model, portal);
+  const detail::BodyPose& pose = poses[model.map->portals[portal].body];
+  return {(pose * Point<frame::Bone>{own->skin}).v, (pose * Direction<frame::Bone>{own->inwards}).v,
+          own->capsule_mm};
+}
+
+const detail::OwnWay* World::State::own_way(const Model& model,
+                                            std::uint8_t portal) const noexcept {
+  if (!model.goes_in_by_own()) return nullptr;
+  for (std::size_t i = 0; i < making.facts.made && i < making.ways.size(); ++i) {
+    if (model.asked[i] == portal) return &making.ways[i];
+  }
+  return nullptr;
+}
+
+bool World::State::is_open(const Model& model, std::uint8_t portal) const noexcept {
+  return !model.goes_in_by_own() || own_way(model, portal) != nullptr;
+}
+
+std::uint8_t World::State::joint_of(const Model& model, std::uint8_t portal) const noexcept {
+  const detail::OwnWay* own = own_way(model, portal);
+  return own != nullptr ? own->joint : model.map->portals[portal].joint;
 }
 
 /// The shaft runs through the hole in the skin once the tip is well in.
@@ -91,6 +119,10 @@ World::State::Wall World::State::wall_at(const Model& model,
   const std::uint8_t portal = scope_state.portal[hand];
   if (portal == kNoPortal) {
     Wall deepest;
+    if (model.goes_in_by_own()) {
+      const detail::SkinPlace at = skin_at(model, tip);
+      deepest = {at.depth_mm - kDentMm, at.normal};
+    }
     for (std::uint8_t joint = 0; joint < model.map->joints.size(); ++joint) {
       const arthroscopy::OpenedSpace space = joint_space_at(model, joint, tip);
       const double deep = space.is_near ? kKeptOutMm - space.distance_mm : 0.0;
@@ -98,15 +130,14 @@ World::State::Wall World::State::wall_at(const Model& model,
     }
     return deepest;
   }
-  const arthroscopy::OpenedSpace space =
-      joint_space_at(model, model.map->portals[portal].joint, tip);
+  const arthroscopy::OpenedSpace space = joint_space_at(model, joint_of(model, portal), tip);
   const auto sheet = sheet_at(model, hand, tip, space.outwards);
   const bool is_clear =
       sheet ? sheet->depth_mm <= 0.0 : space.is_near && space.distance_mm <= kWallMm;
   if (is_clear) return {};
   const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
-  if (is_in_hole(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
-  if (is_in_cut_disc(model, model.map->portals[portal].joint, tip, thick_mm)) return {};
+  if (is_in_hole(model, joint_of(model, portal), tip, thick_mm)) return {};
+  if (is_in_cut_disc(model, joint_of(model, portal), tip, thick_mm)) return {};
   if (sheet) return *sheet;
   const WayIn way = way_in(model, portal);
   const double deep = dot(tip - way.skin, way.inwards);
@@ -138,7 +169,7 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
       const Vec3& along = wish.shaft_in_patient;
       const bool is_led_there = length(to_hole - along * dot(to_hole, along)) <= kHoleMm;
       const bool is_taken = state.portal[1U - hand] == p;
-      if (!is_taken && is_led_there && deep >= 0.0 && deep <= kFunnelMm &&
+      if (!is_taken && is_open(model, p) && is_led_there && deep >= 0.0 && deep <= kFunnelMm &&
           length(aside) <= nearest && -dot(item.shaft, way.inwards) >= kFacingCosine) {
         portal = p;
         nearest = length(aside);
@@ -150,8 +181,7 @@ void World::State::follow_portal(const Model& model, std::uint8_t hand, const It
   const double deep = dot(item.tip - way.skin, way.inwards);
   bool& is_in = state.is_in_joint[hand];
   const bool is_scope = kind_of(model, item).optic.has_value();
-  const arthroscopy::OpenedSpace space =
-      joint_space_at(model, model.map->portals[portal].joint, item.tip);
+  const arthroscopy::OpenedSpace space = joint_space_at(model, joint_of(model, portal), item.tip);
   const double out_mm = space.is_near ? space.distance_mm : kFarOutMm;
   if (!is_in && out_mm < 0.0) {
     is_in = true;
@@ -292,7 +322,7 @@ bool World::State::is_held_back(std::uint8_t hand, const Item& item) const noexc
 
 void World::State::note_probing(const Model& model, std::uint8_t hand, const Item& item) noexcept {
   if (!is_held_back(hand, item)) return;
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
   for (const cases::TourPoint& point : model.map->points) {
     if (!point.is_probed || point.joint != joint ||
         has_bit(scope_state.points_probed, point.number))
@@ -333,7 +363,7 @@ void World::State::watch_scopes(const Model& model) noexcept {
     follow_portal(model, h, *item);
     watch_conduct(model, h, *item);
     if (!state.is_in_joint[h] || state.portal[h] == kNoPortal) continue;
-    const std::uint8_t joint = model.map->portals[state.portal[h]].joint;
+    const std::uint8_t joint = joint_of(model, state.portal[h]);
     const std::size_t what = kind_of(model, *item).optic ? 0 : 1;
     state.path_mm[what] += distance(state.last_tip[h], item->tip);
     state.last_tip[h] = item->tip;
@@ -368,7 +398,7 @@ procedure::ScopeFacts World::State::scope_facts(const Model& model) const noexce
   for (std::size_t h = 0; h < kHands && model.map != nullptr; ++h) {
     const std::uint8_t portal = scope_state.portal[h];
     if (portal == kNoPortal) continue;
-    facts.joint[h] = model.map->portals[portal].joint;
+    facts.joint[h] = joint_of(model, portal);
     facts.portal_number[h] = model.map->portals[portal].number;
   }
   facts.is_in_joint = scope_state.is_in_joint;

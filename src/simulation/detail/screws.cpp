@@ -56,7 +56,7 @@ void World::State::probe_screw(const Model& model, std::uint8_t hand, const Item
   if (!model.lesions || !model.lesions->screw) return;
   const bool is_on_metal = metal_at(model, hand, item.tip, item.shaft).depth_mm > -kAtMetalMm;
   if (!is_on_metal && !is_held_back(hand, item)) return;
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
   for (std::size_t site = 0; site < model.lesions->lesions.size(); ++site) {
     if (model.lesions->lesions[site].joint != joint) continue;
     if ((screw_state.done.probed >> site & 1U) != 0) continue;

@@ -81,7 +81,7 @@ void World::State::run_shaver(const Model& model, std::uint8_t hand, const Item&
     return;
   }
   ++done.running_ticks;
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
   const bool has_fluid = model.procedure.fluid.has_value() && joint == fluid.joint;
   if (has_fluid) draw_fluid(detail::FluidTable::generic().joint.shaver_ml_per_s);
   const instruments::Instrument& kind = kind_of(model, item);

@@ -173,8 +173,14 @@ void World::State::publish_skin(const Model& model) noexcept {
     const detail::SkinCut& cut = making.worked.cuts[i];
     view.cuts[i] = {as_it_lies(model, cut.from), as_it_lies(model, cut.to), cut.spread_mm > 0.0};
   }
+  view.way_count = 0;
+  for (std::size_t i = 0; model.goes_in_by_own() && i < making.facts.made; ++i) {
+    const detail::OwnWay& way = making.ways[i];
+    view.ways[view.way_count++] = {model.asked[i], way.joint, way.skin, way.inwards,
+                                   way.capsule_mm};
+  }
   const std::size_t asked = asked_now();
-  view.spot = way_in(model, model.asked[asked]).skin;
+  view.spot = marked_way(model, model.asked[asked]).skin;
   view.landmark = skin_at(model, landmark_now(model, asked)).point;
 }
 

@@ -84,6 +84,7 @@ std::vector<std::byte> World::write_state() const {
     if (model_->procedure.fluid) visit(state.fluid, fields);
     if (model_->procedure.controls_screw) visit(state.screw_state, fields);
     if (model_->makes_portals()) visit(state.making, fields);
+    if (model_->goes_in_by_own()) visit_ways(state.making, fields);
   }
   for (std::size_t i = 0; i < state.spent.shot_count; ++i) {
     detail::visit_shot(state.shots[i], fields);
@@ -167,6 +168,10 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
     if (model_->makes_portals()) {
       visit(making, fields);
       is_sound = is_sound && detail::is_possible(making);
+    }
+    if (model_->goes_in_by_own()) {
+      visit_ways(making, fields);
+      is_sound = is_sound && detail::are_possible_ways(making, model_->map->joints.size());
     }
   }
   const detail::StateBounds bounds{model_->data.bones.size(),

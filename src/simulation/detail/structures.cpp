@@ -127,10 +127,11 @@ void World::State::note_harm(std::uint8_t hand,
 /// skin. Nerves and arteries are struck by a touch; tendons are spread aside, so that only a way
 /// through the middle of one harms it [E], and not the marked way itself, where no other was left.
 void World::State::note_way_in(const Model& model, std::uint8_t hand, const Item& item) noexcept {
-  if (structures.size() == 0) return;
+  // A way that was made was judged as it was made.
+  if (structures.size() == 0 || model.goes_in_by_own()) return;
   structures.follow({poses.data(), snapshot.body_count});
   const std::uint8_t portal = scope_state.portal[hand];
-  const WayIn marked = way_in(model, portal);
+  const WayIn marked = marked_way(model, portal);
   const Vec3 capsule = marked.skin + marked.inwards * marked.capsule_mm;
   const Vec3 back = item.tip + item.shaft * distance(item.tip, marked.skin);
   const double radius_mm = kind_of(model, item).shape.greatest_radius_mm();

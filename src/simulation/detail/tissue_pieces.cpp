@@ -91,7 +91,7 @@ bool World::State::is_patch_seen(const Model& model,
   const Item& item = now.items[now.held[hand]];
   const auto sight = sight_of(model, item);
   if (!sight) return false;
-  const std::uint8_t joint = model.map->portals[scope_state.portal[hand]].joint;
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
   const std::span<const TissuePiece> pieces = model.pieces();
   std::array<std::uint8_t, cases::kMaxPieces> left{};
   std::size_t count = 0;

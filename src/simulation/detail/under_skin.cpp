@@ -27,12 +27,13 @@ constexpr double kSinksMm = 0.3;    // so deep a blunt tip has slipped into a cu
 
 }  // namespace
 
-bool World::State::is_in_any_joint(const Model& model, const Vec3& at) const noexcept {
+std::optional<std::uint8_t> World::State::joint_at(const Model& model,
+                                                   const Vec3& at) const noexcept {
   for (std::uint8_t joint = 0; joint < model.map->joints.size(); ++joint) {
     const arthroscopy::OpenedSpace space = joint_space_at(model, joint, at);
-    if (space.is_near && space.distance_mm < 0.0) return true;
+    if (space.is_near && space.distance_mm < 0.0) return joint;
   }
-  return false;
+  return std::nullopt;
 }
 
 /// The cut that what is so thick slips into here.
@@ -108,7 +109,7 @@ void World::State::advance_under_skin(const Model& model,
       if (strikes < 0xFFFF) ++strikes;
       return emit(EventKind::NeedleStruckBone, now.held[hand], bone.body, 0.0);
     }
-    if (!under.is_through && is_in_any_joint(model, tip)) {
+    if (!under.is_through && joint_at(model, tip)) {
       if (pressed_n < kind.skin->capsule_n) return;
       under.is_through = true;
       under.capsule_mm = next;

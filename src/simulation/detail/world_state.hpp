@@ -83,7 +83,10 @@ struct World::Model {
   std::array<LandmarkPlace, procedure::kPortalsMade> felt_first{};
   std::array<std::uint32_t, procedure::kPortalsMade> drawn_aside{};  ///< bit i: structure i
   std::array<bool, procedure::kPortalsMade> is_opened_first{};
+  bool has_joint_tools = false;  ///< on the tray: what enters joints
   [[nodiscard]] bool makes_portals() const noexcept { return skin.has_value(); }
+  /// Its joints are entered by portals that were made before, and by no other.
+  [[nodiscard]] bool goes_in_by_own() const noexcept { return makes_portals() && has_joint_tools; }
   detail::DrillPlan drill;    ///< of a procedure that declares one
   bool has_punch = false;     ///< on the tray, and there is tissue to be taken away
   double cartilage_mm = 0.0;  ///< over bone (data/tissue_feel.json), of what has jaws that bite
@@ -331,7 +334,16 @@ struct World::State {
     Vec3 out;
   };
   [[nodiscard]] bool enters_joints(const Model& model, const detail::Item& item) const noexcept;
+  /// As the case's map has it.
+  [[nodiscard]] WayIn marked_way(const Model& model, std::uint8_t portal) const noexcept;
+  /// By which one goes in: the marked one, or as it was made.
   [[nodiscard]] WayIn way_in(const Model& model, std::uint8_t portal) const noexcept;
+  /// nullptr where that is not made, or none are.
+  [[nodiscard]] const detail::OwnWay* own_way(const Model& model,
+                                              std::uint8_t portal) const noexcept;
+  [[nodiscard]] bool is_open(const Model& model, std::uint8_t portal) const noexcept;
+  /// Into which a portal leads.
+  [[nodiscard]] std::uint8_t joint_of(const Model& model, std::uint8_t portal) const noexcept;
   [[nodiscard]] Vec3 led_by_portal(const Model& model,
                                    std::uint8_t hand,
                                    const Vec3& tip,
@@ -511,7 +523,8 @@ struct World::State {
   [[nodiscard]] std::uint8_t cut_at(const Model& model,
                                     const Vec3& at,
                                     double radius_mm) const noexcept;
-  [[nodiscard]] bool is_in_any_joint(const Model& model, const Vec3& at) const noexcept;
+  [[nodiscard]] std::optional<std::uint8_t> joint_at(const Model& model,
+                                                     const Vec3& at) const noexcept;
   void come_into_skin(const Model& model, std::uint8_t hand, const Vec3& entry) noexcept;
   void leave_skin(std::uint8_t hand) noexcept;
   void spread_way(const Model& model, std::uint8_t hand) noexcept;
@@ -530,6 +543,8 @@ struct World::State {
   void note_under(const Model& model, std::uint8_t hand) noexcept;
   [[nodiscard]] procedure::WayMade way_made(const Model& model,
                                             const detail::UnderSkin& under) const noexcept;
+  [[nodiscard]] detail::OwnWay way_as_made(const Model& model,
+                                           const detail::UnderSkin& under) const noexcept;
   [[nodiscard]] procedure::CutMade cut_made(const Model& model,
                                             const detail::UnderSkin& under) const noexcept;
   [[nodiscard]] procedure::MakingFacts making_facts(const Model& model) const noexcept;

@@ -105,7 +105,7 @@ void World::State::find_sheets(const Model& model) noexcept {
     double least = 0.0;
     for (std::uint8_t s = 0; s < model.sheets.size(); ++s) {
       const YieldingSheet& sheet = model.sheets[s];
-      if (sheet.joint != model.map->portals[portal].joint || sheet.net.size() == 0) continue;
+      if (sheet.joint != joint_of(model, portal) || sheet.net.size() == 0) continue;
       const yielding::Tip tip = tip_on(model, sheet, *item, item->tip);
       if (distance(tip.at, sheet.middle) > sheet.reach_mm + tip.radius_mm + kDeepMm) continue;
       const UnderTip under = under_tip(model, s, tip);

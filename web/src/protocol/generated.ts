@@ -1403,6 +1403,8 @@ export interface SkinMessage {
   readonly cuts: readonly SkinCut[];
   /** portals, so far 0 to 2 */
   readonly made: number;
+  /** those by which joints are entered, as they were made; none where the procedure goes in by none of its own */
+  readonly ways: readonly Portal[];
   /** where the next portal goes through the skin; in practice, once a ghost was asked for */
   readonly spot_mm: Vec3 | null;
   /** what is felt for before it, likewise */

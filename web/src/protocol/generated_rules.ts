@@ -744,6 +744,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
     ink_mm: {"type": "array", "of": {"type": "vec3", "limit": 10000}, "max_items": 96},
     cuts: {"type": "array", "of": {"type": "skin_cut"}, "max_items": 8},
     made: {"type": "integer", "min": 0, "max": 2},
+    ways: {"type": "array", "of": {"type": "portal"}, "max_items": 2},
     spot_mm: {"type": "vec3", "limit": 10000, "optional": true},
     landmark_mm: {"type": "vec3", "limit": 10000, "optional": true},
   },
