@@ -21,7 +21,7 @@ import { ScopeLeading, type LeadingRoom } from "./scope_leading";
 import { listenForScope, type ScopeAsked } from "./scope_listening";
 import { PicturePace } from "./picture_pace";
 import { ScopePicture } from "./scope_picture";
-import { cutPlaces, DISC_JOINT, type Plan } from "./scope_plan";
+import { areAtScope, cutPlaces, DISC_JOINT, type Plan, type PlanPortal } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
 import { hasJaws, type ToolKind } from "./scope_tools";
 import type { SecondLead } from "./second_lead";
@@ -65,6 +65,9 @@ export class ScopeDesk {
   private readonly leading: ScopeLeading;
   private inflow = { mmhg: 0, askedMs: -Infinity };
   private hasPanorama = true;
+  /** Its portals are made in the exercise: there is no scope to be led before. */
+  private makesPortals = false;
+  private isShown = false;
   /** Of the scope's rounded tip. */
   private radiusMm = 1;
 
@@ -106,9 +109,9 @@ export class ScopeDesk {
     listenForScope(this.element, this.asked(), signal);
   }
 
-  /** Whether the exercise is led from here. */
+  /** Whether the hands are led from here. */
   get isOn(): boolean {
-    return this.plan !== undefined;
+    return this.isShown;
   }
 
   /** What the host said of it last. */
@@ -123,12 +126,11 @@ export class ScopeDesk {
     this.snapshot = undefined;
     this.leading.begin(exercise);
     this.inflow = { mmhg: 0, askedMs: -Infinity };
-    const isOn = this.plan !== undefined && this.walls.length > 0;
-    this.element.hidden = this.controls.hidden = !isOn;
-    this.room.stage.classList.toggle("is-panorama", isOn);
-    this.room.stage.hidden = isOn && (this.isAssessed || !this.hasPanorama);
+    const isThere = this.plan !== undefined && this.walls.length > 0;
+    this.makesPortals = isThere && this.plan?.portals.length === 0;
+    this.show(isThere && !this.makesPortals);
     offerScopeAids(this.controls, this.isAssessed);
-    if (!isOn || this.plan === undefined) return;
+    if (!isThere || this.plan === undefined) return;
     if (this.picture === undefined) {
       this.picture = new ScopePicture(this.walls);
       this.element.prepend(this.picture.canvas);
@@ -145,6 +147,40 @@ export class ScopeDesk {
     this.showTool();
     const scope = exercise.instruments.find((one) => one.id === this.plan?.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
+    this.showPoints();
+  }
+
+  private show(isShown: boolean): void {
+    this.isShown = isShown;
+    this.element.hidden = this.controls.hidden = !isShown;
+    this.room.stage.classList.toggle("is-panorama", isShown);
+    this.room.stage.hidden = isShown && (this.isAssessed || !this.hasPanorama);
+  }
+
+  /** Portals as they were made. */
+  seeWays(ways: readonly PlanPortal[]): void {
+    if (!this.makesPortals || this.plan === undefined) return;
+    this.plan = { ...this.plan, portals: ways };
+    this.leading.hands.setPortals(ways);
+  }
+
+  /** A hand that takes the scope leads it from here; one that goes back to the skin, from there. */
+  private followHands(snapshot: SnapshotMessage): void {
+    const isAtScope =
+      (this.plan?.portals.length ?? 0) > 0 &&
+      areAtScope(snapshot.items, this.exercise?.instruments ?? []);
+    const isHeld = snapshot.items.some(
+      (item) => item.hand >= 0 && item.instrument === this.plan?.scope,
+    );
+    if (!isHeld) {
+      this.scope = undefined; // once it is taken again the host tells where it is
+      this.leading.forgetScope();
+    }
+    if (isAtScope === this.isShown) return;
+    this.show(isAtScope);
+    if (!isAtScope) return;
+    this.leading.beginAnew();
+    this.room.showHand(this.moved);
     this.showPoints();
   }
 
@@ -176,6 +212,7 @@ export class ScopeDesk {
   see(snapshot: SnapshotMessage): void {
     if (this.plan === undefined) return;
     this.snapshot = snapshot;
+    if (this.makesPortals) this.followHands(snapshot);
     if (snapshot.bodies !== null) {
       this.posed.clear(); // the scope's joint is laid when it is drawn
     }
@@ -221,7 +258,8 @@ export class ScopeDesk {
 
   draw(): void {
     const { picture, plan, scope, snapshot } = this;
-    if (picture === undefined || plan === undefined || snapshot === undefined) return;
+    if (!this.isOn || picture === undefined) return;
+    if (plan === undefined || snapshot === undefined) return;
     const item = snapshot.items.find((one) => one.hand === (scope?.hand ?? 0));
     if (item === undefined || scope === undefined) return;
     const other = snapshot.items.find((one) => one.hand === 1 - scope.hand);
@@ -261,7 +299,7 @@ export class ScopeDesk {
   /** Readings, ten times a second. */
   showReadings(): void {
     const { scope, snapshot, plan } = this;
-    if (plan === undefined) return;
+    if (!this.isOn || plan === undefined) return;
     const wanted = this.leading.hands.portalOf(0)?.name ?? "";
     this.readings.show({
       plan,
@@ -293,7 +331,7 @@ export class ScopeDesk {
   }
 
   private act(act: ScopeAct): void {
-    if (this.plan === undefined) return;
+    if (!this.isOn) return;
     if (this.isAssessed && (act === "panorama" || act === "level")) {
       this.room.say(WHY_NO_AID[act]);
       return;
@@ -326,7 +364,7 @@ export class ScopeDesk {
 
   /** Of keys and mouse. */
   private asked(): ScopeAsked {
-    const takesKeys = (): boolean => this.plan !== undefined && this.room.operates();
+    const takesKeys = (): boolean => this.isOn && this.room.operates();
     const tool = (): ToolKind => this.leading.tool;
     const hasFluid = (): boolean => (this.scope?.fluid ?? null) !== null;
     return {

@@ -5,6 +5,7 @@ import { add, dot, length, scaled, subtract } from "../tool_placement";
 import {
   advanced,
   heldBack,
+  isBefore,
   leanAt,
   leaned,
   wayRound,
@@ -34,6 +35,15 @@ describe("from portal to portal", () => {
       expect(length(subtract(half, middle))).toBeGreaterThan(70);
     });
     expect(dot(wishes.at(-1)?.shaft ?? [0, 0, 0], volar.inwards)).toBeCloseTo(-1, 9);
+  });
+});
+
+describe("a tip", () => {
+  it("is before a portal on its way in, neither beside it nor beyond the skin", () => {
+    expect(isBefore([1, 2, 60], PORTAL)).toBe(true);
+    expect(isBefore([4, 2, 5], PORTAL)).toBe(true);
+    expect(isBefore([9, 2, 5], PORTAL)).toBe(false);
+    expect(isBefore([1, 2, 1], PORTAL)).toBe(false);
   });
 });
 

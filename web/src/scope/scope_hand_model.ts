@@ -26,6 +26,8 @@ export interface Lean {
 export const OUTSIDE: Lean = { depthMm: -30, yawRad: 0, pitchRad: 0 };
 
 const MOST_LEAN_RAD = (50 * Math.PI) / 180;
+/** Within so much of its axis it is before a portal [mm]. */
+const BEFORE_MM = 5;
 /** Over the last of the way back to the capsule it comes within so much of the way in. */
 const UPRIGHT_MM = 8;
 const UPRIGHT_RAD = (5 * Math.PI) / 180;
@@ -94,6 +96,13 @@ export function leanAt(tipMm: Vec3, portal: PortalNow): Lean {
     yawRad: Math.atan2(dot(to, side), along),
     pitchRad: Math.atan2(dot(to, up), along),
   };
+}
+
+/** Whether a tip lies before the portal, on its way in. */
+export function isBefore(tipMm: Vec3, portal: PortalNow): boolean {
+  const to = subtract(tipMm, portal.skinMm);
+  const along = dot(to, portal.inwards);
+  return along <= 0 && length(subtract(to, scaled(portal.inwards, along))) <= BEFORE_MM;
 }
 
 /** A hand that presses against what does not yield: it goes no deeper than a little beyond the tip, nor

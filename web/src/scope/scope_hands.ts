@@ -8,6 +8,7 @@ import { add, length, rotated, subtract } from "../tool_placement";
 import {
   advanced,
   heldBack,
+  isBefore,
   leanAt,
   leaned,
   OUTSIDE,
@@ -17,7 +18,7 @@ import {
   type PortalNow,
   type Wish,
 } from "./scope_hand_model";
-import type { Plan } from "./scope_plan";
+import type { Plan, PlanPortal } from "./scope_plan";
 
 export type HandIndex = 0 | 1;
 /** Who leads a hand: mouse, keys and the first finger, or a gamepad and the second finger. */
@@ -43,6 +44,7 @@ export class ScopeHands {
   /** The host's, in the exercise's order of bodies. */
   poses: readonly BodyPose[] = [];
   private exercise: ExerciseMessage | undefined;
+  private plan: Plan | undefined;
   private readonly held: [Held, Held] = [
     { portal: 0, lean: OUTSIDE },
     { portal: 1, lean: OUTSIDE },
@@ -53,6 +55,7 @@ export class ScopeHands {
 
   begin(exercise: ExerciseMessage): void {
     this.exercise = exercise;
+    this.plan = exercise.arthroscopy ?? undefined;
     this.held[0] = { portal: 0, lean: OUTSIDE };
     this.held[1] = { portal: 1, lean: OUTSIDE };
     this.rounds[0] = this.rounds[1] = [];
@@ -63,8 +66,9 @@ export class ScopeHands {
     return (lead === "first") === (this.moved === 0) ? 0 : 1;
   }
 
-  private get plan(): Plan | undefined {
-    return this.exercise?.arthroscopy ?? undefined;
+  /** Those that there are now: they may be made in the exercise. */
+  setPortals(portals: readonly PlanPortal[]): void {
+    if (this.plan !== undefined) this.plan = { ...this.plan, portals };
   }
 
   /** Of the plan's portals the one that a hand is before or in. */
@@ -91,13 +95,18 @@ export class ScopeHands {
     };
   }
 
-  /** Each begins where the host has what it holds. */
-  place(items: readonly Item[]): void {
+  /** Each begins where the host has what it holds; one that is in no portal, before its own.
+   * @param inPortal  by hand, as the host says */
+  place(items: readonly Item[], inPortal: readonly boolean[]): void {
     for (const { hand, tip_mm: tipMm } of items) {
       if (hand !== 0 && hand !== 1) continue;
       const portal = this.portalNowOf(hand);
       if (portal === undefined) continue;
-      this.held[hand] = { ...this.held[hand], lean: leanAt(tipMm, portal) };
+      const begins = inPortal[hand] === true || isBefore(tipMm, portal);
+      this.held[hand] = {
+        ...this.held[hand],
+        lean: begins ? leanAt(tipMm, portal) : OUTSIDE,
+      };
     }
   }
 

@@ -30,7 +30,7 @@ const SCOPE = {
   camera_deg: 0,
   jaws_closed: [0, 0],
   mouth_deg: [0, 0],
-  portals: ["", ""],
+  portals: ["3-4", "4-5"],
 } as unknown as ScopeMessage;
 
 /** @param tools  hand 1 has taken its instrument */
@@ -126,5 +126,37 @@ describe("two hands at a scope", () => {
     expect(did).toEqual(["take shaver 1"]);
     leading.see(snapshot(true));
     expect(frame()).toMatchObject([{ hand: 1 }]);
+  });
+
+  it("take nothing where no second portal was made, and go in where portals were made", () => {
+    const { leading, did, frame } = desk(false);
+    const [first] = EXERCISE.arthroscopy?.portals ?? [];
+    leading.hands.setPortals(first === undefined ? [] : [{ ...first, skin_mm: [0, 3, 0] }]);
+    leading.beginAnew();
+    leading.seeScope(SCOPE);
+    leading.second.hold("pad 5", { kind: "advance", by: 1 });
+    frame();
+    expect(did).toEqual([]);
+    leading.letGo("pad 5");
+    leading.advance(5);
+    const [scope] = frame();
+    // The shaft runs through the hole in the skin.
+    const { tip_mm: tip = [0, 0, 0], shaft = [0, 0, 1] } = scope ?? {};
+    expect(tip[1] - (tip[2] / shaft[2]) * shaft[1]).toBeCloseTo(3, 6);
+  });
+
+  it("begin before their portal with what was taken elsewhere, wherever that is", () => {
+    const { leading, frame } = desk();
+    leading.forgetScope();
+    leading.beginAnew();
+    leading.advance(1);
+    expect(frame(), "before the host has said where it is").toEqual([]);
+    leading.seeScope({ ...SCOPE, portals: ["", "4-5"] });
+    frame();
+    leading.advance(1);
+    const [scope, shaver] = frame();
+    expect(scope?.tip_mm[2]).toBeCloseTo(29, 6);
+    expect(scope?.shaft).toEqual([-0, -0, 1]);
+    expect(shaver).toBeUndefined();
   });
 });

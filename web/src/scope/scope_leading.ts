@@ -47,6 +47,7 @@ export class ScopeLeading {
   private cameraDeg = 0;
   private turned = false;
   private isPlaced = false;
+  private waitsForScope = false;
   private lastMs = 0;
   private askedToTakeMs = -Infinity;
   private pedalTimer: ReturnType<typeof setInterval> | undefined;
@@ -61,7 +62,7 @@ export class ScopeLeading {
     this.exercise = exercise;
     this.scope = undefined;
     this.snapshot = undefined;
-    this.isPlaced = false;
+    this.isPlaced = this.waitsForScope = false;
     this.hands.begin(exercise);
     this.tools.begin(exercise);
     this.sending.begin();
@@ -78,6 +79,7 @@ export class ScopeLeading {
 
   seeScope(message: ScopeMessage): void {
     this.scope = message;
+    this.waitsForScope = false;
   }
 
   private get moved(): HandIndex {
@@ -143,10 +145,25 @@ export class ScopeLeading {
     return this.tools.driver(hand, this.itemOf(hand)?.instrument, pedalIsDown);
   }
 
+  /** What is held now was led from elsewhere: where it is the host says. */
+  beginAnew(): void {
+    this.keys.clear();
+    this.isPlaced = false;
+    this.waitsForScope = this.scope === undefined;
+  }
+
+  /** No hand holds the scope. */
+  forgetScope(): void {
+    this.scope = undefined;
+  }
+
   /** The hand begins where the host has the scope. */
   private place(): void {
     if (this.isPlaced || this.snapshot === undefined || this.hands.poses.length === 0) return;
-    this.hands.place(this.snapshot.items);
+    if (this.waitsForScope) return;
+    // Not told yet: what the other hand holds may be anywhere.
+    const inPortal = this.scope?.portals.map((id) => id !== "") ?? [true, true];
+    this.hands.place(this.snapshot.items, inPortal);
     if (this.scope !== undefined) {
       this.shaftDeg = this.scope.shaft_deg;
       this.cameraDeg = this.scope.camera_deg;
@@ -267,15 +284,19 @@ export class ScopeLeading {
   private fill(hand: HandIndex): boolean {
     const probe = this.exercise?.tray.at(-1);
     if (hand !== 1 || this.itemOf(1) !== undefined || probe === undefined) return false;
+    const portal = this.hands.portalOf(1);
+    if (portal === undefined) {
+      this.room.say("There is no second portal to go in by: make one first.");
+      return true;
+    }
     if (performance.now() - this.askedToTakeMs < TAKING_MS) return true;
     this.askedToTakeMs = performance.now();
     // The hand is there before it takes anything: it comes in from behind, through no bone.
     this.sendHand(1);
     this.room.take(probe, 1);
-    const portal = this.hands.portalOf(1);
     const name = this.exercise?.instruments.find((one) => one.id === probe)?.name ?? "";
     const others = (this.exercise?.tray.length ?? 0) > 2 ? " Other tools: {KeyC}." : "";
-    this.room.say(`${name} at the ${portal?.name ?? ""}: ${portal?.landmarks ?? ""}.${others}`);
+    this.room.say(`${name} at the ${portal.name}: ${portal.landmarks}.${others}`);
     return true;
   }
 

@@ -5,7 +5,13 @@
 // what the host said then.
 import type * as THREE from "three";
 import { make, setText } from "../dom";
-import type { BodyPose, ExerciseMessage, ScopeMessage, SnapshotMessage } from "../protocol";
+import type {
+  BodyPose,
+  ExerciseMessage,
+  ScopeMessage,
+  SkinMessage,
+  SnapshotMessage,
+} from "../protocol";
 import { add, scaled } from "../tool_placement";
 import { jointWallOf, type JointWall } from "./joint_wall";
 import { ScopePicture } from "./scope_picture";
@@ -16,6 +22,8 @@ export interface ScopeMoment {
   readonly snapshot: SnapshotMessage;
   readonly bodies: readonly BodyPose[];
   readonly scope: ScopeMessage | undefined;
+  /** Where portals are made in the exercise. */
+  readonly skin: SkinMessage | undefined;
   /** By sheet, as of the messages `sheet`. */
   readonly sheetsUm: ReadonlyMap<number, readonly number[]>;
 }
@@ -71,8 +79,9 @@ export class ScopeReplay {
     if (moment === undefined || !this.changed) return;
     this.changed = false;
     const { scope, snapshot, bodies } = moment;
+    const portals = [...this.plan.portals, ...(moment.skin?.ways ?? [])];
     const item = snapshot.items.find((one) => one.hand === scope?.hand);
-    const portal = this.plan.portals.find((one) => one.id === scope?.portals[scope.hand]);
+    const portal = portals.find((one) => one.id === scope?.portals[scope.hand]);
     const isIn = scope !== undefined && scope.in_joint[scope.hand] === 1;
     this.outside.hidden = isIn;
     this.picture.canvas.hidden = !isIn;

@@ -511,6 +511,7 @@ export class TrainPage {
         break;
       case "skin":
         this.skin.take(message);
+        this.scope.seeWays(message.ways);
         this.theatre.showSkinWork(message);
         break;
       case "sheet":
