@@ -62,7 +62,8 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
 }
 
 TEST(BuiltIn, OffersEveryFolder) {
-  ASSERT_EQ(built_in().all().size(), 12U);
+  ASSERT_EQ(built_in().all().size(), 13U);
+  EXPECT_NE(built_in().find("arthroscopy_from_the_skin"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_portal_making"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_portal_making_harder"), nullptr);
   EXPECT_NE(built_in().find("arthroscopic_basics"), nullptr);

@@ -64,10 +64,12 @@ ScopeSkill scope_skill_of(Skill skill) noexcept {
 ScriptedArthroscopist::ScriptedArthroscopist(const cases::CaseData& data,
                                              const procedure::Procedure& procedure,
                                              Skill skill,
-                                             std::uint64_t seed)
+                                             std::uint64_t seed,
+                                             const cases::ArthroscopicMap* map)
     : data_(data),
       procedure_(procedure),
       map_([&]() -> const cases::ArthroscopicMap& {
+        if (map != nullptr) return *map;
         if (data.arthroscopy == nullptr) (void)procedure.opening(data);  // says why not
         if (data.arthroscopy == nullptr) throw InvalidInput("the case has no soft tissue");
         return *data.arthroscopy;

@@ -60,11 +60,13 @@ struct ScopeSkill {
 
 class ScriptedArthroscopist {
  public:
+  /// @param map  by which it goes, and must outlive it; nullptr: the case's own.
   /// @throws InvalidInput  when it cannot be done on this case (the procedure's opening).
   ScriptedArthroscopist(const cases::CaseData& data,
                         const procedure::Procedure& procedure,
                         Skill skill,
-                        std::uint64_t seed);
+                        std::uint64_t seed,
+                        const cases::ArthroscopicMap* map = nullptr);
 
   /// What it may come to see and is asked about at the end; nullptr: nothing. Must outlive it.
   void examines(const cases::JointLesions* lesions) noexcept { lesions_ = lesions; }

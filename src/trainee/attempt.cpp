@@ -5,6 +5,7 @@
 #include "simulation/keyframe_due.hpp"
 #include "simulation/world.hpp"
 #include "trainee/arthroscopist.hpp"
+#include "trainee/entering_arthroscopist.hpp"
 #include "trainee/portal_maker.hpp"
 #include "trainee/scripted_trainee.hpp"
 
@@ -18,6 +19,7 @@ void show(ScriptedArthroscopist& trainee, const simulation::World& world) {
 }
 void show(ScriptedTrainee&, const simulation::World&) {}
 void show(ScriptedPortalMaker&, const simulation::World&) {}
+void show(EnteringArthroscopist&, const simulation::World&) {}
 
 template <typename Trainee>
 Attempt operate_as(Trainee trainee,
@@ -68,6 +70,10 @@ Attempt operate(const cases::CaseData& data,
     return operate_as(ScriptedArthroscopist(data, procedure, skill, seed), data, procedure, seed,
                       program_version);
   }
+  if (EnteringArthroscopist::knows(procedure)) {
+    return operate_as(EnteringArthroscopist(data, procedure, skill, seed), data, procedure, seed,
+                      program_version);
+  }
   if (procedure.making) {
     return operate_as(ScriptedPortalMaker(data, procedure, skill, seed), data, procedure, seed,
                       program_version);
@@ -82,6 +88,9 @@ procedure::ScoreReport score_of_operation(const cases::CaseData& data,
                                           std::uint64_t seed) {
   if (is_arthroscopy(procedure)) {
     return score_as(ScriptedArthroscopist(data, procedure, skill, seed), data, procedure, seed);
+  }
+  if (EnteringArthroscopist::knows(procedure)) {
+    return score_as(EnteringArthroscopist(data, procedure, skill, seed), data, procedure, seed);
   }
   if (procedure.making) {
     return score_as(ScriptedPortalMaker(data, procedure, skill, seed), data, procedure, seed);

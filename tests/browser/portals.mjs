@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A portal made through closed skin by mouse and keys: felt for, marked, pricked, cut, spread, entered, scored.
+// A portal made through closed skin by mouse and keys: felt for, marked, pricked, cut, spread, entered; the scope goes
+// in by it, where it was made; scored.
 // With CARPUS_SCOPE_PICTURES a folder for what is seen on the way.
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
@@ -45,7 +46,7 @@ export async function makesPortals(browser, station) {
 
   let spot;
   await check(page, "closed skin is felt, and a word says what is there", async () => {
-    await operator.start(station.url, TRAINEE, "arthroscopic_portal_making", "practice");
+    await operator.start(station.url, TRAINEE, "arthroscopy_from_the_skin", "practice");
     await picture("start");
     await atRest(operator);
     for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
@@ -115,6 +116,33 @@ export async function makesPortals(browser, station) {
     await operator.dragTipTo(spot);
     await until("a", (s) => s.made === 1, "the sheath in the joint");
     await picture("sheath");
+  });
+  await check(page, "the scope goes in by the portal as it was made", async () => {
+    const told = () => page.evaluate(() => window.carpus?.scope());
+    const isAtScope = () => page.locator(".scope").isVisible();
+    expect(!(await isAtScope()), "there is a scope's picture without a scope");
+    await drawOut();
+    await operator.push("d", 400);
+    // From elsewhere: it is brought before the portal.
+    await operator.take("fingertip");
+    await operator.dragTipTo((await skin()).spot_mm);
+    await operator.take("arthroscope_1_9_30");
+    await page.locator(".scope").waitFor({ state: "visible" });
+    const { ways } = await skin();
+    expect(ways.length === 1 && ways[0].id === "3-4", `portals: ${JSON.stringify(ways)}`);
+    const isIn = async () => (await told())?.in_joint[0] === 1;
+    const end = Date.now() + PATIENCE_MS;
+    await page.keyboard.down("a");
+    while (!(await isIn()) && Date.now() < end) await page.waitForTimeout(20);
+    await page.keyboard.up("a");
+    expect(await isIn(), `the scope is not in the joint: ${JSON.stringify(await told())}`);
+    const item = Operator.held(await operator.snapshot());
+    const off = minus(item.tip_mm, ways[0].skin_mm);
+    expect(Math.sqrt(dot(off, off)) < 30, "it went in elsewhere");
+    await picture("scope");
+    await operator.take("needle_22g");
+    await page.locator(".scope").waitFor({ state: "hidden" });
+    await picture("skin_again");
   });
   await check(page, "it is scored", async () => {
     await page.keyboard.press("f");

@@ -7,7 +7,9 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include "procedure/grading.hpp"
 #include "procedure/procedure.hpp"
 
 namespace carpus::procedures::arthroscopic_portal_making {
@@ -24,7 +26,11 @@ namespace carpus::procedures::arthroscopic_portal_making {
 /// How it begins, or why it cannot, in any grade.
 [[nodiscard]] procedure::Opening opened(const procedure::Procedure& graded,
                                         const cases::CaseData& data);
-/// By that one's rules (docs/scoring.md).
+/// What is measured of it, in any grade (docs/scoring.md).
+[[nodiscard]] std::vector<procedure::Measure> measures_of(const procedure::Procedure& graded,
+                                                          const cases::CaseData& data,
+                                                          const procedure::OperationRecord& record);
+/// By that one's rules.
 [[nodiscard]] procedure::ScoreReport scored(const procedure::Procedure& graded,
                                             const cases::CaseData& data,
                                             const procedure::OperationRecord& record);

@@ -155,9 +155,9 @@ std::array<const procedure::PortalLandmark*, procedure::kPortalsMade> asked_land
 
 }  // namespace
 
-procedure::ScoreReport scored(const procedure::Procedure& graded,
-                              const cases::CaseData& data,
-                              const procedure::OperationRecord& record) {
+std::vector<Measure> measures_of(const procedure::Procedure& graded,
+                                 const cases::CaseData& data,
+                                 const procedure::OperationRecord& record) {
   const procedure::MakingFacts facts = record.making.value_or(procedure::MakingFacts{});
   std::vector<Measure> measures = procedure::thrift_measures(graded, record, {});
   measures.push_back({"portals_made", static_cast<double>(facts.made), ""});
@@ -197,8 +197,14 @@ procedure::ScoreReport scored(const procedure::Procedure& graded,
   for (Measure& near : procedure::nearest_structures(data, record, "Nothing came near one.")) {
     measures.push_back(std::move(near));
   }
+  return measures;
+}
+
+procedure::ScoreReport scored(const procedure::Procedure& graded,
+                              const cases::CaseData& data,
+                              const procedure::OperationRecord& record) {
   procedure::ScoreReport report;
-  procedure::grade(report, graded.rules, measures);
+  procedure::grade(report, graded.rules, measures_of(graded, data, record));
   return report;
 }
 

@@ -4,6 +4,7 @@
 // Points and cartilage that were truly seen, how both hands went, force, what lay in the ways in.
 #include "procedures/arthroscopy/conduct.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <utility>
@@ -20,11 +21,24 @@ using procedure::Measure;
 
 double seconds(Tick ticks) { return static_cast<double>(ticks) * kTickSeconds; }
 
-/// What of the tour is not among these bits, in words.
-std::string missing(const cases::ArthroscopicMap& map, std::uint32_t bits) {
+/// Whether any of its portals leads to where the point lies: where they are made, those alone.
+bool is_reachable(const cases::ArthroscopicMap& map,
+                  const procedure::OperationRecord& record,
+                  const cases::TourPoint& point) {
+  if (!record.making) return true;
+  const auto& asked = record.making->asked;
+  return std::any_of(asked.begin(), asked.end(), [&](std::uint8_t portal) {
+    return portal < map.portals.size() && map.portals[portal].joint == point.joint;
+  });
+}
+
+/// What of the tour was not seen, in words.
+std::string missing(const cases::ArthroscopicMap& map,
+                    const procedure::OperationRecord& record,
+                    std::uint32_t seen) {
   std::string names;
   for (const cases::TourPoint& point : map.points) {
-    if ((bits >> point.number & 1U) != 0) continue;
+    if ((seen >> point.number & 1U) != 0 || !is_reachable(map, record, point)) continue;
     names += (names.empty() ? "" : ", ") + point.name;
   }
   return names.empty() ? "All of them." : "Not seen: " + names + ".";
@@ -72,7 +86,7 @@ std::vector<Measure> conduct_measures(const cases::CaseData& data,
   const auto count = [](std::uint32_t bits) { return static_cast<double>(std::popcount(bits)); };
   const bool has_map = data.arthroscopy != nullptr;
   measures.push_back({"points_seen", count(scope.facts.points_seen),
-                      has_map ? missing(*data.arthroscopy, scope.facts.points_seen) : ""});
+                      has_map ? missing(*data.arthroscopy, record, scope.facts.points_seen) : ""});
   Measure share{"points_seen_share", {}, ""};
   if (has_map && !data.arthroscopy->points.empty()) {
     const auto all = static_cast<double>(data.arthroscopy->points.size());
