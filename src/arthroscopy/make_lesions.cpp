@@ -251,22 +251,25 @@ class LesionMaker {
 
 }  // namespace
 
-cases::Grades grades_by(std::uint64_t seed, const PathologyTable& table) {
+cases::Grades grades_by(std::uint64_t seed, const PathologyTable& table, Drawn among) {
   Rng rng(seed ^ kGradesStream);
+  const auto wrong_ones = [&](std::size_t finding) {
+    const Scale& scale = table.scale_of(finding);
+    return among == Drawn::All ? scale.grades.size() - 1 : scale.drawn();
+  };
   cases::Grades grades{};
   const bool is_healthy = rng.uniform() < table.healthy_share;
   bool has_any = false;
   for (std::size_t f = 0; f < table.findings.size(); ++f) {
     const bool is_there = rng.uniform() < table.findings[f].chance;
-    const auto wrong = table.scale_of(f).drawn();
-    const auto grade = static_cast<std::uint8_t>(1 + rng.below(wrong));
+    const auto grade = static_cast<std::uint8_t>(1 + rng.below(wrong_ones(f)));
     if (is_healthy || !is_there) continue;
     grades[f] = grade;
     has_any = true;
   }
   // Not healthy by another name.
   if (!is_healthy && !has_any && !table.findings.empty()) {
-    grades[0] = static_cast<std::uint8_t>(1 + rng.below(table.scale_of(0).drawn()));
+    grades[0] = static_cast<std::uint8_t>(1 + rng.below(wrong_ones(0)));
   }
   return grades;
 }

@@ -15,8 +15,16 @@
 
 namespace carpus::arthroscopy {
 
+/// Among which grades a seed draws.
+enum class Drawn : std::uint8_t {
+  All,
+  WithoutGrades,  ///< Grade::is_drawn: what recordings that hold no grades were made with
+};
+
 /// Which grade of what: a healthy wrist for some seeds, one to several findings for the others.
-[[nodiscard]] cases::Grades grades_by(std::uint64_t seed, const PathologyTable& table);
+[[nodiscard]] cases::Grades grades_by(std::uint64_t seed,
+                                      const PathologyTable& table,
+                                      Drawn among = Drawn::All);
 
 /// Those grades on this case. A finding whose place the case lacks (no midcarpal portal, a missing
 /// bone) is taken as well, and so told by the grades that come back.

@@ -38,7 +38,7 @@ struct Grade {
   double gap_mm = 0;
   double step_mm = 0;
   double passes_mm = 0;
-  bool is_drawn = true;  ///< else it is there where it was prepared, or made of another grade
+  bool is_drawn = true;  ///< also for recordings that name no grades, from before it was there
   std::optional<PatchBeside> beside;
   std::optional<WithGrade> with;
   std::string
@@ -51,7 +51,7 @@ struct Scale {
   bool is_ordered = false;    ///< a grade beside the true one is nearly right
   std::vector<Grade> grades;  ///< the first is that of what is well
 
-  /// How many of those that are wrong are drawn by a seed: they stand first.
+  /// How many of those that are wrong are drawn for recordings that name none: they stand first.
   [[nodiscard]] std::size_t drawn() const;
 };
 

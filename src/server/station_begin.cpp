@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/person_name.hpp"
 #include "server/station.hpp"
+#include "simulation/lesions_of.hpp"
 
 namespace carpus::server {
 
@@ -45,7 +46,9 @@ void Station::on_message(const protocol::Start& start) {
     BegunExercise begun;
     try {
       if (setup.procedure->examines) {
-        setup.prepared = over_cases_.prepared ? over_cases_.prepared() : data_.pathology;
+        setup.prepared = simulation::pathology_to_begin_with(
+            *setup.procedure, setup.seed,
+            over_cases_.prepared ? over_cases_.prepared() : data_.pathology);
       }
       ExerciseStart beginning = begin_anew(data_, case_fingerprint_, setup, records_.file());
       begun.exercise = std::make_unique<Exercise>(data_, setup, std::move(beginning));

@@ -90,7 +90,10 @@ TEST(StationPathology, IsAskedForAsEachExaminationBeginsAndAFileThatIsNoneStopsT
     thread.join();
     station.detach();
     ASSERT_EQ(records.list().size(), 3U);
-    const std::optional<cases::PreparedPathology> expected[] = {torn("III"), torn("IV"), {}};
+    // Where nothing is prepared the start's seed draws, and the recording says what.
+    const std::optional<cases::PreparedPathology> expected[] = {
+        torn("III"), torn("IV"),
+        arthroscopy::drawn_pathology(kStartSeed, arthroscopy::PathologyTable::generic())};
     for (int id = 1; id <= 3; ++id) {
       const auto recording = simulation::decode(records.find(id)->recording);
       ASSERT_TRUE(recording) << recording.error();

@@ -36,6 +36,7 @@ inline std::string hello_of(const std::string& page) {
 }
 inline const std::string kHello = hello_of("first");
 inline const std::string kSecondHello = hello_of("second");
+inline constexpr std::uint64_t kStartSeed = 7;  ///< in kStart
 inline constexpr const char* kStart =
     R"({"type":"start","trainee":"Ada","procedure":"test_exercise",)"
     R"("input_device":"mouse","seed":7})";

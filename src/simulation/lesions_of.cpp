@@ -10,6 +10,15 @@
 
 namespace carpus::simulation {
 
+std::optional<cases::PreparedPathology> pathology_to_begin_with(
+    const procedure::Procedure& procedure,
+    std::uint64_t seed,
+    const std::optional<cases::PreparedPathology>& of_case) {
+  if (!procedure.examines) return std::nullopt;
+  if (of_case) return of_case;
+  return arthroscopy::drawn_pathology(seed, arthroscopy::PathologyTable::generic());
+}
+
 std::optional<cases::JointLesions> lesions_of(
     const cases::CaseData& data,
     const procedure::Procedure& procedure,
@@ -19,8 +28,11 @@ std::optional<cases::JointLesions> lesions_of(
   const cases::ArthroscopicMap& map = *data.arthroscopy;
   if (procedure.examines) {
     const arthroscopy::PathologyTable& table = arthroscopy::PathologyTable::generic();
+    using arthroscopy::Drawn;
     const cases::PreparedPathology wrong =
-        prepared ? *prepared : arthroscopy::drawn_pathology(seed, table);
+        prepared ? *prepared
+                 : cases::PreparedPathology{
+                       arthroscopy::grades_by(seed, table, Drawn::WithoutGrades), seed, true};
     return arthroscopy::make_lesions(data, map, table, wrong.grades, wrong.seed);
   }
   if (procedure.controls_screw) return arthroscopy::make_screw(data, map, seed);

@@ -11,6 +11,7 @@
 #include "arthroscopy/make_lesions.hpp"
 #include "arthroscopy/named_grades.hpp"
 #include "simulation/box_joint_test_support.hpp"
+#include "simulation/lesions_of.hpp"
 #include "simulation/recording.hpp"
 #include "simulation/replay_player.hpp"
 #include "simulation/world.hpp"
@@ -72,22 +73,32 @@ TEST(PreparedPathology, IsWhatAnExaminationFindsWhateverItsSeed) {
   }
 }
 
-TEST(PreparedPathology, IsTheSeedsWhereNobodyPreparedOne) {
+TEST(PreparedPathology, OfARecordingThatNamesNoGradesIsTheSeeds) {
   const cases::CaseData data = case_with(std::nullopt);
   const auto& table = arthroscopy::PathologyTable::generic();
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
     const World world(data, examination(), seed);
     EXPECT_FALSE(world.prepared());
-    EXPECT_EQ(world.lesions()->grades[0], arthroscopy::grades_by(seed, table)[0]);
+    const cases::Grades grades =
+        arthroscopy::grades_by(seed, table, arthroscopy::Drawn::WithoutGrades);
+    EXPECT_EQ(world.lesions()->grades[0], grades[0]);
     // Drawn once and kept, it is the very same wrist.
     const World kept(data, examination(), 99, procedure::Mode::Practice,
-                     arthroscopy::drawn_pathology(seed, table));
+                     cases::PreparedPathology{grades, seed, true});
     EXPECT_EQ(kept.lesions()->grades, world.lesions()->grades);
     ASSERT_EQ(kept.lesions()->lesions.size(), world.lesions()->lesions.size());
     for (std::size_t i = 0; i < kept.lesions()->lesions.size(); ++i) {
       EXPECT_EQ(kept.lesions()->lesions[i].from, world.lesions()->lesions[i].from);
     }
   }
+}
+
+TEST(PreparedPathology, WhatBeginsIsTheCasesElseDrawnAndNamedInItsRecording) {
+  const cases::PreparedPathology seeds =
+      arthroscopy::drawn_pathology(7, arthroscopy::PathologyTable::generic());
+  EXPECT_EQ(pathology_to_begin_with(examination(), 7, {}), seeds);
+  EXPECT_EQ(pathology_to_begin_with(examination(), 7, torn("III")), torn("III"));
+  EXPECT_FALSE(pathology_to_begin_with(probe_alone(), 7, torn("III")));
 }
 
 TEST(PreparedPathology, ConcernsExaminationsAlone) {

@@ -6,8 +6,8 @@
 //
 // Layout, all little-endian: "CARPREC1"; u16 format version; text program version; u64 case
 // fingerprint; text procedure; u8 way to operate; u64 seed; u16 count and texts: the ids of the
-// instruments that commands name by number; of an examination whose pathology was prepared (format
-// 7 instead of 6) u64 seed, u8 whether drawn by it, u8 count and as often two texts: finding,
+// instruments that commands name by number; of an examination that names what is wrong (format 7
+// instead of 6) u64 seed, u8 whether drawn by it, u8 count and as often two texts: finding,
 // grade; then runs (input_runs.hpp); u32 0; u64 ticks in all; u64 hash at the end; u32 keyframes,
 // each u64 tick, u32 size, its bytes; u64 FNV-1a of all bytes before it. A text is u16 size and
 // UTF-8. A still hand costs nothing.
@@ -35,7 +35,8 @@ namespace carpus::simulation {
 
 /// Recordings of older formats show their stored score only; decode() says why of each.
 inline constexpr std::uint16_t kRecordingFormat = 6;
-/// Of a wrist with a prepared pathology. All others keep the format that older programs read.
+/// Of a wrist whose pathology it holds: every examination's that begins now. All others keep the
+/// format that older programs read.
 inline constexpr std::uint16_t kPreparedRecordingFormat = 7;
 
 /// A keyframe stands this often.
@@ -56,7 +57,8 @@ struct Recording {
   procedure::Mode mode = procedure::Mode::Practice;
   std::uint64_t seed = 0;
   std::vector<std::string> instruments;  ///< ids by number
-  /// What was wrong, where that was prepared: the case's may have been changed since.
+  /// What was wrong in a wrist that was examined: the case's may have been changed since. None of
+  /// an older one that had nothing prepared: its seed says.
   std::optional<cases::PreparedPathology> prepared;
   InputRuns runs;
   std::vector<Keyframe> keyframes;  ///< rising ticks

@@ -3,6 +3,7 @@
 #include "trainee/attempt.hpp"
 
 #include "simulation/keyframe_due.hpp"
+#include "simulation/lesions_of.hpp"
 #include "simulation/world.hpp"
 #include "trainee/arthroscopist.hpp"
 #include "trainee/entering_arthroscopist.hpp"
@@ -21,13 +22,20 @@ void show(ScriptedTrainee&, const simulation::World&) {}
 void show(ScriptedPortalMaker&, const simulation::World&) {}
 void show(EnteringArthroscopist&, const simulation::World&) {}
 
+simulation::World begun(const cases::CaseData& data,
+                        const procedure::Procedure& procedure,
+                        std::uint64_t seed) {
+  return {data, procedure, seed, procedure::Mode::Practice,
+          simulation::pathology_to_begin_with(procedure, seed, data.pathology)};
+}
+
 template <typename Trainee>
 Attempt operate_as(Trainee trainee,
                    const cases::CaseData& data,
                    const procedure::Procedure& procedure,
                    std::uint64_t seed,
                    const std::string& program_version) {
-  simulation::World world(data, procedure, seed);
+  simulation::World world = begun(data, procedure, seed);
   show(trainee, world);
   simulation::Recorder recorder(program_version, simulation::fingerprint_of(data), world);
   Attempt attempt;
@@ -52,7 +60,7 @@ procedure::ScoreReport score_as(Trainee trainee,
                                 const cases::CaseData& data,
                                 const procedure::Procedure& procedure,
                                 std::uint64_t seed) {
-  simulation::World world(data, procedure, seed);
+  simulation::World world = begun(data, procedure, seed);
   show(trainee, world);
   world.leave_out_hashes();
   while (!world.now().finished) world.step(trainee.next(world.now()));
