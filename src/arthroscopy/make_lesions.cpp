@@ -20,6 +20,7 @@ using cases::LesionLook;
 constexpr std::uint64_t kGradesStream = 0x9A7;  // apart from the operator's errors of the same seed
 constexpr std::uint64_t kPlacesStream = 0x51D;
 constexpr double kAsideMm = 1.5;  // so far from the tour's point a patch's middle may lie [E]
+constexpr int kStepsAside = 4;
 // Parts of the disc, from its middle, for the generic wrist's size [E].
 constexpr double kRadialOfMiddleMm = 2.0;
 constexpr double kToRimMm = 4.2;
@@ -114,13 +115,24 @@ class LesionMaker {
     if (what.line) return add_line(*what.line, how, lesion);
     if (!what.at.empty()) {
       if (const auto* at = point(what.at)) {
-        lay(lesion, *at, at->at + aside * kAsideMm, {}, 0);
+        lay(lesion, *at, moved(*at, aside * kAsideMm), {}, 0);
       }
       return;
     }
     if (!what.among.empty()) return add_loose(what, lesion, choice);
     add_disc_tear(table_.scale_of(finding).grades[grade].id, how, lesion);
     if (how.beside) add_beside(*how.beside, lesion);
+  }
+
+  /// Along the wall, step by step: the joint is narrow, and the other side may be nearer to a place
+  /// straight beside it.
+  [[nodiscard]] Vec3 moved(const cases::TourPoint& place, const Vec3& aside) const {
+    Vec3 at = place.at;
+    for (int i = 0; i < kStepsAside; ++i) {
+      const Vec3 out = outwards(place.joint, at);
+      at = on_wall(place.joint, at + (aside - out * dot(aside, out)) / kStepsAside);
+    }
+    return at;
   }
 
   void add_beside(const PatchBeside& patch, Lesion lesion) {
