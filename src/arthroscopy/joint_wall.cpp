@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "arthroscopy/detail/lay_fibres.hpp"
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
 #include "fields/distance_field.hpp"
+#include "fields/triangle_tree.hpp"
 #include "geometry/aabb.hpp"
 #include "mesh/neighbours.hpp"
 #include "mesh/part_bridges.hpp"
@@ -54,23 +57,49 @@ bool bounds_joint(BoneId bone) {
   return bone != BoneId::Ulna && bone != BoneId::Pisiform && bone <= BoneId::Hamate;
 }
 
-Nearest nearest_of(const cases::CaseData& data, const Vec3& at, Row row) {
-  Nearest best;
-  bool has_any = false;
-  for (std::size_t b = 0; b < data.bones.size(); ++b) {
-    const cases::Bone& bone = data.bones[b];
-    if (!bounds_joint(bone.bone) || row_of(bone.bone) != row) continue;
-    double mm = kFarMm;
-    if (!bone.distance_field.values().empty()) {
+/// Of a row's bones the one nearest to a place.
+class NearestBones {
+ public:
+  explicit NearestBones(const cases::CaseData& data) : data_(data), trees_(data.bones.size()) {}
+
+  [[nodiscard]] Nearest of(const Vec3& at, Row row) {
+    Nearest best;
+    for (std::size_t b = 0; b < data_.bones.size(); ++b) {
+      const cases::Bone& bone = data_.bones[b];
+      if (!is_of(bone, row) || bone.distance_field.values().empty()) continue;
       const fields::DistanceSample s = fields::sample_distance(bone.distance_field, at);
-      if (s.is_inside_grid) mm = std::max(0.0, s.distance_mm);
+      if (!s.is_inside_grid || s.distance_mm >= best.mm) continue;
+      best = {static_cast<std::uint8_t>(b), s.distance_mm};
     }
-    if (has_any && mm >= best.mm) continue;
-    best = {static_cast<std::uint8_t>(b), mm};
-    has_any = true;
+    if (best.mm >= kFarMm) best.body = far_from(at, row);
+    best.mm = std::max(0.0, best.mm);
+    return best;
   }
-  return best;
-}
+
+ private:
+  static bool is_of(const cases::Bone& bone, Row row) {
+    return bounds_joint(bone.bone) && row_of(bone.bone) == row;
+  }
+
+  /// Fields end some millimetres off: taken for equally far there, the row's first bone would take
+  /// along what lies by its last.
+  [[nodiscard]] std::uint8_t far_from(const Vec3& at, Row row) {
+    std::uint8_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < data_.bones.size(); ++b) {
+      if (!is_of(data_.bones[b], row)) continue;
+      if (!trees_[b]) trees_[b].emplace(data_.bones[b].surface);
+      const auto near = trees_[b]->nearest(at);
+      if (!near || near->squared_distance >= least) continue;
+      least = near->squared_distance;
+      best = static_cast<std::uint8_t>(b);
+    }
+    return best;
+  }
+
+  const cases::CaseData& data_;
+  std::vector<std::optional<fields::TriangleTree>> trees_;  ///< by body, as they are asked for
+};
 
 /// Whether a ligament binds bones of one row to each other: it goes with them.
 bool is_of_row(const soft_tissue::Ligament& ligament, const cases::CaseData& data, Row row) {
@@ -97,14 +126,15 @@ OnWall line(JointWall& wall,
             const soft_tissue::SoftTissue& tissue,
             const TabledJoint& joint) {
   OnWall on;
+  NearestBones bones(data);
   const Row near_row = row_of(joint.between[0]);
   const Row far_row = row_of(joint.between[1]);
   detail::LaidFibres laid = detail::lay_fibres(wall.surface, wall.lining, tissue);
   wall.fibre = std::move(laid.fibre);
   for (std::size_t i = 0; i < wall.surface.vertices.size(); ++i) {
     const Vec3& at = wall.surface.vertices[i];
-    const Nearest proximal = nearest_of(data, at, near_row);
-    const Nearest distal = nearest_of(data, at, far_row);
+    const Nearest proximal = bones.of(at, near_row);
+    const Nearest distal = bones.of(at, far_row);
     const double both = proximal.mm + distal.mm;
     double share = both > 0 ? proximal.mm / both : 0.5;
     const soft_tissue::Ligament* lines = laid.ligament[i];

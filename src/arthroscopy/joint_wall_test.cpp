@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <vector>
 
 #include "arthroscopy/generic_wrist_test_support.hpp"
+#include "fields/triangle_tree.hpp"
 #include "mesh/genus.hpp"
 
 namespace carpus::arthroscopy {
@@ -45,6 +49,39 @@ TEST(JointWall, BonesThatTouchedInTheScanAreBridgedByNothing) {
     parted += wall.parted;
   }
   EXPECT_GT(parted, 0U);
+}
+
+/// Distance fields end at 4 mm: what lies beyond them went with the first bone of the row, apart
+/// from all about it.
+TEST(JointWall, EachPlaceGoesWithTheBoneOfItsRowThatIsNearest) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  const auto& bones = wrist.data.bones;
+  std::vector<fields::TriangleTree> trees;
+  for (const cases::Bone& bone : bones) trees.emplace_back(bone.surface);
+  constexpr double kNearlyMm = 1.0;  // fields are coarse, and what was cut through is smoothed
+  const auto nearest_mm = [&](const Vec3& at, std::initializer_list<BoneId> row) {
+    double least = 1e9;
+    for (std::size_t b = 0; b < bones.size(); ++b) {
+      if (std::find(row.begin(), row.end(), bones[b].bone) == row.end()) continue;
+      least = std::min(least, std::sqrt(trees[b].nearest(at)->squared_distance));
+    }
+    return least;
+  };
+  std::size_t far = 0;
+  for (const JointWall& wall : make_joint_walls(wrist.data, wrist.tissue)) {
+    std::size_t wrong = 0;
+    const bool is_midcarpal = wall.joint == "midcarpal";
+    for (std::size_t v = 0; v < wall.surface.vertices.size(); ++v) {
+      const Vec3& at = wall.surface.vertices[v];
+      const double row_mm = nearest_mm(at, {BoneId::Scaphoid, BoneId::Lunate, BoneId::Triquetrum});
+      const std::uint8_t body = is_midcarpal ? wall.proximal[v] : wall.distal[v];
+      const double own_mm = std::sqrt(trees[body].nearest(at)->squared_distance);
+      if (own_mm > row_mm + kNearlyMm) ++wrong;
+      if (row_mm > 4.0) ++far;
+    }
+    EXPECT_EQ(wrong, 0U) << wall.joint;
+  }
+  EXPECT_GT(far, 0U);
 }
 
 TEST(JointWall, FibresRunOnFromVertexToVertexOfALigament) {
