@@ -6,6 +6,7 @@
 import * as THREE from "three";
 import type { BodyPose, Vec3 } from "../protocol";
 import { WallSheet, type SheetPlan } from "./wall_sheet";
+import type { SidedWall } from "./wall_sides";
 
 /** As soft_tissue::Lining counts: synovium, bone, cartilage, disc, ligament. */
 const LININGS = 5;
@@ -16,6 +17,8 @@ export interface JointWall {
   readonly joint: string;
   readonly geometry: THREE.BufferGeometry;
   readonly triangles: number;
+  /** As it was scanned. */
+  readonly sides: SidedWall;
   /** Lays it where the bones are now. @param poses  of the bodies, in the case's order */
   pose(poses: readonly BodyPose[]): void;
   /** What of it yields. @param bodies  names, in the case's order */
@@ -58,6 +61,15 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
     geometry.deleteAttribute(name);
   const rest = new Float32Array(surface.getAttribute("position").array);
   geometry.setAttribute("rest", new THREE.BufferAttribute(rest, 3));
+  geometry.setAttribute("share", share.clone());
+  const values = (of: typeof share): number[] =>
+    Array.from({ length: count }, (_, v) => of.getX(v));
+  const sides: SidedWall = {
+    rest,
+    proximal: values(proximal),
+    distal: values(distal),
+    distalShare: values(share),
+  };
   const position = new THREE.BufferAttribute(new Float32Array(rest), 3);
   position.setUsage(THREE.DynamicDrawUsage);
   geometry.setAttribute("position", position);
@@ -87,6 +99,7 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
   return {
     joint,
     geometry,
+    sides,
     triangles: (surface.getIndex()?.count ?? 0) / 3,
     pose: (poses) => {
       for (let v = 0; v < count; ++v) {
@@ -100,15 +113,7 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
       geometry.computeBoundingSphere();
     },
     setSheets: (plans, bodies) => {
-      const values = (of: typeof share): number[] =>
-        Array.from({ length: count }, (_, v) => of.getX(v));
-      const wall = {
-        rest,
-        normals: normals(),
-        isDisc,
-        distalShare: values(share),
-        distal: values(distal),
-      };
+      const wall = { ...sides, rest, normals: normals(), isDisc };
       sheets = plans.map((plan) =>
         plan.joint === joint ? new WallSheet(wall, plan, bodies.indexOf(plan.body)) : undefined,
       );

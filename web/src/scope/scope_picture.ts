@@ -13,7 +13,14 @@ import type { Bead } from "./scope_drill_model";
 import { ScopeFilm } from "./scope_film";
 import { ScopeFluid } from "./scope_fluid";
 import { ScopeFocus } from "./scope_focus";
-import { lesionUniforms, scuffed, setLesions, type Lesion, type Painted } from "./scope_lesions";
+import {
+  lesionUniforms,
+  paintOf,
+  scuffed,
+  setLesions,
+  type Lesion,
+  type Painted,
+} from "./scope_lesions";
 import { rodGeometries } from "./scope_rod";
 import { ScopeScrew } from "./scope_screw";
 import { holeUniforms, setHole } from "./screw_hole";
@@ -52,8 +59,9 @@ export class ScopePicture {
     THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>
   >;
   private readonly lesions = lesionUniforms();
-  private wrong: readonly Lesion[] = [];
+  private wrong: readonly Painted[] = [];
   private scuffs: readonly Painted[] = [];
+  private poses: readonly BodyPose[] = [];
   private readonly loose: LooseBodies;
   private readonly beads: ScopeBeads;
   private readonly pieces: TissuePieces;
@@ -124,7 +132,7 @@ export class ScopePicture {
     pieces: readonly TissuePiece[],
     bodies: readonly string[],
   ): void {
-    this.wrong = lesions;
+    this.wrong = paintOf(lesions, this.all, bodies);
     this.scuffs = [];
     this.loose.set(lesions);
     this.pieces.set(pieces, bodies);
@@ -151,6 +159,7 @@ export class ScopePicture {
 
   /** The bones have moved, or the scope has gone to another joint. */
   lay(joint: string, poses: readonly BodyPose[]): void {
+    this.poses = poses;
     this.paint(joint);
     this.beads.lay(poses);
     this.pieces.lay(poses);
@@ -158,7 +167,7 @@ export class ScopePicture {
   }
 
   private paint(joint: string): void {
-    setLesions(this.lesions, [...this.scuffs, ...this.wrong], joint);
+    setLesions(this.lesions, [...this.scuffs, ...this.wrong], joint, this.poses);
   }
 
   /**
@@ -193,7 +202,7 @@ export class ScopePicture {
     this.rod.visible = rod !== undefined;
     this.loose.lay(joint, scope.loose);
     if (scope.scuffs.length !== this.scuffs.length) {
-      this.scuffs = scuffed(scope.scuffs);
+      this.scuffs = scuffed(scope.scuffs, this.all);
       this.paint(joint);
     }
     this.pieces.show(

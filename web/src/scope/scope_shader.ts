@@ -49,7 +49,9 @@ attribute vec4 lining;
 attribute vec3 fibre;
 attribute vec3 rest;
 attribute float gone;
+attribute float share;
 varying float vGone;
+varying float vShare;
 varying vec3 vAt;
 varying vec3 vNormal;
 varying vec4 vLining;
@@ -58,6 +60,7 @@ varying vec3 vScreen;
 varying vec3 vRest;
 void main() {
   vRest = rest;
+  vShare = share;
   vGone = gone;
   mat4 place = modelMatrix;
 #ifdef USE_INSTANCING
@@ -208,7 +211,7 @@ void main() {
   vec3 h2 = normalize(normalize(2.0 * eye - lamp - vAt) + view);
   coat += 0.7 * pow(max(dot(film, h2), 0.0), 420.0);
   colour += (1.0 - isMetal) * e * step(0.0, nl) * 2.4 * coat * wet;
-  colour += 0.16 * e * fresnel * vec3(0.93, 0.98, 1.05);
+  colour += 0.16 * e * fresnel * wet * vec3(0.93, 0.98, 1.05);
   // A mark shines by itself, whatever the lamp does.
   colour = mix(colour, shines.rgb * (0.35 + 0.65 * max(dot(smooth_n, view), 0.0)) / exposure, 0.85 * shines.a);
   // Water between.
@@ -219,7 +222,7 @@ void main() {
   colour = clamp((colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14), 0.0, 1.0);
   float grey = dot(colour, vec3(0.3, 0.59, 0.11));
   colour = mix(vec3(grey), colour, 1.22);
-  colour += (grain - 0.5) * mix(0.014, 0.006, grey);
+  colour += wet * (grain - 0.5) * mix(0.014, 0.006, grey); // none in a hole, where it would show as blotches
   colour *= 1.0 - smoothstep(0.985, 1.0, r);
   gl_FragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 2.2)), 1.0);
 }`;

@@ -29,6 +29,7 @@ function flatWall(z: number): JointWall {
     joint: "radiocarpal",
     geometry,
     triangles: 2,
+    sides: { rest: [], proximal: [], distal: [], distalShare: [] },
     pose: () => undefined,
     setSheets: () => undefined,
     cutDisc: () => undefined,

@@ -5,21 +5,18 @@
 // vertices lie on it, and by how much each is off.
 import * as THREE from "three";
 import type { BodyPose, ExerciseMessage, Vec3 } from "../protocol";
+import { sideOf, type SidedWall } from "./wall_sides";
 
 /** As the host tells it once. */
 export type SheetPlan = NonNullable<ExerciseMessage["arthroscopy"]>["sheets"][number];
 
 /** A wall as it was scanned. */
-export interface ScannedWall {
+export interface ScannedWall extends Pick<SidedWall, "distal" | "distalShare"> {
   /** Three a vertex, Patient [mm]. */
   readonly rest: Float32Array;
   /** Out of the joint, three a vertex. */
   readonly normals: Float32Array;
   readonly isDisc: readonly boolean[];
-  /** By vertex, 0 to 1: of the motion of the bones on the joint's distal side. */
-  readonly distalShare: readonly number[];
-  /** By vertex the bone on that side which it lies nearest to, by its place in the case's order. */
-  readonly distal: readonly number[];
 }
 
 interface Bound {
@@ -127,7 +124,7 @@ export class WallSheet {
 /** The wall near the sheet, each vertex with the places that it goes with. */
 function boundTo(wall: ScannedWall, plan: SheetPlan, body: number): readonly Bound[] {
   const all: Bound[] = [];
-  const isDistal = wall.distal.includes(body);
+  const isDistal = sideOf(wall, body) === 1;
   const { rest, normals } = wall;
   const reachMm = plan.kind === "disc" ? DISC_REACH_MM : LIGAMENT_REACH_MM;
   for (let vertex = 0; 3 * vertex < rest.length; ++vertex) {
