@@ -30,6 +30,7 @@ using trainee::ScoredOperation;
 using trainee::Skill;
 
 constexpr std::array kSkills{Skill::Expert, Skill::Middle, Skill::Novice};
+constexpr std::array kUpwards{Skill::Novice, Skill::Middle, Skill::Expert};
 
 struct StudyValidityArguments {
   std::vector<std::string> cases{kDefaultCase};
@@ -82,27 +83,76 @@ std::string in_columns(const trainee::Separation& separation) {
   return text.data();
 }
 
-void print(const ProcedureValidity& validity, const std::vector<std::string>& names) {
-  std::printf("\n%s\n%-32s %8s %7s\n", validity.name.c_str(), "expert against novice", "AUC",
-              "effect");
-  std::printf("%-34s%s\n", "total", in_columns(validity.total).c_str());
-  for (const trainee::ItemValidity& item : validity.items) {
-    std::printf("%-34s%s%s\n", item.id.c_str(), in_columns(item.separation).c_str(),
-                item.counted ? "" : "  not counted");
+double of(const trainee::ItemValidity& item, Skill skill, double trainee::ItemMeans::*figure) {
+  return item.means[static_cast<std::size_t>(skill)].*figure;
+}
+
+/// So near to chance a counted item tells nothing of skill; below it is turned round.
+constexpr double kNothingBelowAuc = 0.55;
+constexpr double kTurnedBelowAuc = 0.45;
+
+/// What a reader should not miss.
+std::string remark_on(const trainee::ItemValidity& item) {
+  using trainee::ItemMeans;
+  std::string remark = item.counted ? "" : "  not counted";
+  if (item.separation.auc < kTurnedBelowAuc) {
+    remark += "  TURNED ROUND";
+  } else if (item.counted && item.separation.auc < kNothingBelowAuc) {
+    remark += "  TELLS NOTHING";
   }
+  if (!item.is_in_order()) remark += "  middle not between";
+  const double novice = of(item, Skill::Novice, &ItemMeans::measured_share);
+  const double middle = of(item, Skill::Middle, &ItemMeans::measured_share);
+  const double expert = of(item, Skill::Expert, &ItemMeans::measured_share);
+  if (std::min({novice, middle, expert}) < 1.0) {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "  measured %.0f, %.0f, %.0f %%", 100 * novice,
+                  100 * middle, 100 * expert);
+    remark += text.data();
+    if (item.where_measured) {
+      std::snprintf(text.data(), text.size(), ": AUC %.2f there", item.where_measured->auc);
+      remark += text.data();
+    }
+  }
+  return remark;
+}
+
+void print_items(const ProcedureValidity& validity) {
+  std::printf("\n%s\n%-26s %6s %7s   %-21s %s\n", validity.name.c_str(), "expert against novice",
+              "AUC", "effect", "earned, %", "mean value: novice, middle, expert");
+  std::printf("%-26s %s\n", "total", in_columns(validity.total).c_str());
+  for (const trainee::ItemValidity& item : validity.items) {
+    std::printf("%-26s %s  ", item.id.c_str(), in_columns(item.separation).c_str());
+    for (const Skill skill : kUpwards) {
+      std::printf(" %5.0f", 100 * of(item, skill, &trainee::ItemMeans::earned_share));
+    }
+    std::printf("   ");
+    for (const Skill skill : kUpwards) {
+      const auto& value = item.means[static_cast<std::size_t>(skill)].value;
+      value ? std::printf(" %8.4g", *value) : std::printf(" %8s", "-");
+    }
+    std::printf("%s\n", remark_on(item).c_str());
+  }
+}
+
+void print(const ProcedureValidity& validity, const std::vector<std::string>& names) {
+  print_items(validity);
   std::printf("%-32s %8s %8s %8s %6s   all must-haves\n", "mean total on", "novice", "middle",
               "expert", "AUC");
   for (std::size_t c = 0; c < validity.cases.size(); ++c) {
     const trainee::CaseMeans& means = validity.cases[c];
-    const auto of = [](const auto& by, Skill skill) { return by[static_cast<std::size_t>(skill)]; };
-    std::printf(
-        "%-32.32s %8.1f %8.1f %8.1f %6.2f   %3.0f %% %3.0f %% %3.0f %%%s\n", names[c].c_str(),
-        of(means.total, Skill::Novice), of(means.total, Skill::Middle),
-        of(means.total, Skill::Expert), means.separation.auc,
-        100 * of(means.safe_share, Skill::Novice), 100 * of(means.safe_share, Skill::Middle),
-        100 * of(means.safe_share, Skill::Expert), means.is_in_order() ? "" : "   NOT IN ORDER");
+    const auto by_skill = [](const auto& by, Skill skill) {
+      return by[static_cast<std::size_t>(skill)];
+    };
+    std::printf("%-32.32s %8.1f %8.1f %8.1f %6.2f   %3.0f %% %3.0f %% %3.0f %%%s\n",
+                names[c].c_str(), by_skill(means.total, Skill::Novice),
+                by_skill(means.total, Skill::Middle), by_skill(means.total, Skill::Expert),
+                means.separation.auc, 100 * by_skill(means.safe_share, Skill::Novice),
+                100 * by_skill(means.safe_share, Skill::Middle),
+                100 * by_skill(means.safe_share, Skill::Expert),
+                means.is_in_order() ? "" : "   NOT IN ORDER");
     for (const trainee::MissedShare& missed : means.missed) {
-      const auto percent = [&](Skill skill) { return 100 * of(missed.share, skill); };
+      const auto percent = [&](Skill skill) { return 100 * by_skill(missed.share, skill); };
       std::printf("  missed: %-22.22s %6.0f %% %6.0f %% %6.0f %%\n", missed.id.c_str(),
                   percent(Skill::Novice), percent(Skill::Middle), percent(Skill::Expert));
     }
@@ -119,10 +169,20 @@ nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std:
                          {"items", nlohmann::json::array()},
                          {"cases", nlohmann::json::array()}};
   for (const trainee::ItemValidity& item : validity.items) {
-    json["items"].push_back({{"id", item.id},
-                             {"auc", item.separation.auc},
-                             {"effect_size", effect(item.separation)},
-                             {"counted", item.counted}});
+    nlohmann::json one = {{"id", item.id},
+                          {"auc", item.separation.auc},
+                          {"effect_size", effect(item.separation)},
+                          {"auc_where_measured", nullptr},
+                          {"counted", item.counted}};
+    if (item.where_measured) one["auc_where_measured"] = item.where_measured->auc;
+    for (const Skill skill : kSkills) {
+      const trainee::ItemMeans& means = item.means[static_cast<std::size_t>(skill)];
+      one["earned_share"][trainee::name_of(skill)] = means.earned_share;
+      one["measured_share"][trainee::name_of(skill)] = means.measured_share;
+      one["mean_value"][trainee::name_of(skill)] =
+          means.value ? nlohmann::json(*means.value) : nlohmann::json();
+    }
+    json["items"].push_back(std::move(one));
   }
   for (std::size_t c = 0; c < validity.cases.size(); ++c) {
     nlohmann::json means = {{"case", names[c]},
@@ -143,11 +203,29 @@ nlohmann::json json_of(const ProcedureValidity& validity, const std::vector<std:
   return json;
 }
 
+/// Every operation by itself, so that limits can be tried on what was measured without operating
+/// anew.
+nlohmann::json json_of(const std::vector<ScoredOperation>& operations,
+                       const std::vector<std::string>& names) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const ScoredOperation& one : operations) {
+    nlohmann::json json = {{"skill", trainee::name_of(one.skill)},
+                           {"case", names[one.case_index]},
+                           {"total", one.score.overall}};
+    for (const procedure::ScoreItem& item : one.score.items) {
+      json["values"][item.id] = item.value ? nlohmann::json(*item.value) : nlohmann::json();
+    }
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
 /// Of the cases so far, where a file is wanted.
 void write_json(const StudyValidityArguments& arguments,
                 const std::vector<std::string>& names,
                 bool is_simulated,
-                const std::vector<ProcedureValidity>& found) {
+                const std::vector<ProcedureValidity>& found,
+                const std::vector<std::vector<ScoredOperation>>& operations) {
   if (arguments.json.empty()) return;
   nlohmann::json json = {{"in_silico", true},
                          {"seeds", arguments.seeds},
@@ -155,8 +233,9 @@ void write_json(const StudyValidityArguments& arguments,
                          {"cases_planned", arguments.cases.size()},
                          {"cases_simulated", is_simulated},
                          {"procedures", nlohmann::json::array()}};
-  for (const ProcedureValidity& validity : found) {
-    json["procedures"].push_back(json_of(validity, names));
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    json["procedures"].push_back(json_of(found[p], names));
+    json["procedures"].back()["operations"] = json_of(operations[p], names);
   }
   records::write_file_atomically(arguments.json, json.dump(2) + "\n");
 }
@@ -196,7 +275,7 @@ void run(const StudyValidityArguments& arguments) {
       found.push_back(trainee::validity_of(*offered[p], operations[p], names.size()));
     }
     // An hour's study that is stopped leaves what it had found.
-    write_json(arguments, names, is_simulated, found);
+    write_json(arguments, names, is_simulated, found, operations);
   }
   std::fprintf(stderr, "\n");
   std::printf(

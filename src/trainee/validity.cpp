@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "procedure/grading.hpp"
@@ -25,14 +26,57 @@ Moments moments_of(std::span<const double> values) {
   return m;
 }
 
-/// Share of the rule's points; empty where the case has no such thing.
-std::optional<double> share_of(const procedure::ScoreReport& report,
-                               const procedure::ScoreRule& rule) {
-  for (const procedure::ScoreItem& item : report.items) {
-    if (item.id != rule.id) continue;
-    return item.value ? procedure::earned_share(rule, *item.value) : 0.0;
+const procedure::ScoreItem* item_of(const procedure::ScoreReport& report, const std::string& id) {
+  const auto found = std::ranges::find(report.items, id, &procedure::ScoreItem::id);
+  return found == report.items.end() ? nullptr : &*found;
+}
+
+/// What the rule's item was worth to those of one skill whose case has it.
+struct Earnings {
+  std::vector<double> all;       ///< share of the points; 0 where it was not measured
+  std::vector<double> measured;  ///< of these where it was
+  ItemMeans means;
+};
+
+Earnings earnings_of(std::span<const ScoredOperation> operations,
+                     Skill skill,
+                     const procedure::ScoreRule& rule) {
+  Earnings earnings;
+  std::vector<double> values;
+  for (const ScoredOperation& one : operations) {
+    const procedure::ScoreItem* item = one.skill == skill ? item_of(one.score, rule.id) : nullptr;
+    if (item == nullptr) continue;
+    earnings.all.push_back(item->value ? procedure::earned_share(rule, *item->value) : 0.0);
+    if (!item->value) continue;
+    earnings.measured.push_back(earnings.all.back());
+    values.push_back(*item->value);
   }
-  return std::nullopt;
+  if (earnings.all.empty()) return earnings;
+  earnings.means.earned_share = moments_of(earnings.all).mean;
+  earnings.means.measured_share =
+      static_cast<double>(values.size()) / static_cast<double>(earnings.all.size());
+  if (!values.empty()) earnings.means.value = moments_of(values).mean;
+  return earnings;
+}
+
+/// Empty where experts or novices have no such item.
+std::optional<ItemValidity> validity_of(std::span<const ScoredOperation> operations,
+                                        const procedure::ScoreRule& rule) {
+  const Earnings expert = earnings_of(operations, Skill::Expert, rule);
+  const Earnings middle = earnings_of(operations, Skill::Middle, rule);
+  const Earnings novice = earnings_of(operations, Skill::Novice, rule);
+  if (expert.all.empty() || novice.all.empty()) return std::nullopt;
+  ItemValidity item;
+  item.id = rule.id;
+  item.counted = rule.weight > 0.0;
+  item.separation = separation_of(expert.all, novice.all);
+  if (!expert.measured.empty() && !novice.measured.empty()) {
+    item.where_measured = separation_of(expert.measured, novice.measured);
+  }
+  item.means[static_cast<std::size_t>(Skill::Expert)] = expert.means;
+  item.means[static_cast<std::size_t>(Skill::Middle)] = middle.means;
+  item.means[static_cast<std::size_t>(Skill::Novice)] = novice.means;
+  return item;
 }
 
 void note_missed(CaseMeans& means, const ScoredOperation& one) {
@@ -58,6 +102,11 @@ void put_in_order(CaseMeans& means, const procedure::Procedure& procedure) {
 
 }  // namespace
 
+bool ItemValidity::is_in_order() const noexcept {
+  const auto of = [&](Skill skill) { return means[static_cast<std::size_t>(skill)].earned_share; };
+  return of(Skill::Novice) <= of(Skill::Middle) && of(Skill::Middle) <= of(Skill::Expert);
+}
+
 bool CaseMeans::is_in_order() const noexcept {
   const auto of = [&](Skill skill) { return total[static_cast<std::size_t>(skill)]; };
   return of(Skill::Novice) < of(Skill::Middle) && of(Skill::Middle) < of(Skill::Expert);
@@ -82,29 +131,20 @@ ProcedureValidity validity_of(const procedure::Procedure& procedure,
                               std::size_t cases) {
   ProcedureValidity validity;
   validity.name = procedure.id;
-  const auto figures = [&](Skill skill, auto&& figure) {
+  const auto totals = [&](Skill skill) {
     std::vector<double> values;
     for (const ScoredOperation& one : operations) {
-      if (one.skill != skill) continue;
-      if (const std::optional<double> value = figure(one.score)) values.push_back(*value);
+      if (one.skill == skill) values.push_back(one.score.overall);
     }
     return values;
   };
-  const auto separate = [&](auto&& figure) -> std::optional<Separation> {
-    const std::vector<double> experts = figures(Skill::Expert, figure);
-    const std::vector<double> novices = figures(Skill::Novice, figure);
-    if (experts.empty() || novices.empty()) return std::nullopt;
-    return separation_of(experts, novices);
-  };
-  const auto total = [](const procedure::ScoreReport& report) {
-    return std::optional<double>(report.overall);
-  };
-  validity.total = separate(total).value_or(Separation{});
+  const std::vector<double> of_experts = totals(Skill::Expert);
+  const std::vector<double> of_novices = totals(Skill::Novice);
+  if (!of_experts.empty() && !of_novices.empty()) {
+    validity.total = separation_of(of_experts, of_novices);
+  }
   for (const procedure::ScoreRule& rule : procedure.rules.items) {
-    const auto share = [&](const procedure::ScoreReport& report) { return share_of(report, rule); };
-    if (const auto separation = separate(share)) {
-      validity.items.push_back({rule.id, rule.weight > 0.0, *separation});
-    }
+    if (const auto item = validity_of(operations, rule)) validity.items.push_back(*item);
   }
   validity.cases.resize(cases);
   for (std::size_t c = 0; c < cases; ++c) {

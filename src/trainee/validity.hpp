@@ -33,10 +33,24 @@ struct Separation {
   std::optional<double> effect_size;
 };
 
+/// Of one skill's operations, where the case has such a thing.
+struct ItemMeans {
+  double earned_share =
+      0.0;  ///< of the points, by the value alone; what was not measured earns none
+  double measured_share = 0.0;  ///< of the operations
+  std::optional<double> value;  ///< where it was measured
+};
+
 struct ItemValidity {
   std::string id;
-  bool counted = false;  ///< it has a weight
-  Separation separation;
+  bool counted = false;   ///< it has a weight
+  Separation separation;  ///< by what it earns
+  /// Of those operations alone that came to have something to measure; empty where a skill has
+  /// none. Who does not get so far earns nothing, which separates whatever the figure is worth.
+  std::optional<Separation> where_measured;
+  std::array<ItemMeans, kSkillCount> means{};
+  /// Novice <= middle <= expert in what is earned.
+  [[nodiscard]] bool is_in_order() const noexcept;
 };
 
 /// Of each skill's operations on one case, how many missed a must-have.

@@ -64,6 +64,28 @@ TEST(Validity, ItemsCountByWhatTheirValueEarns) {
   EXPECT_DOUBLE_EQ(validity.cases[0].total[static_cast<std::size_t>(Skill::Expert)], 85.0);
 }
 
+TEST(Validity, WhoDoesNotGetSoFarIsToldApartFromWhoDoesItBadly) {
+  // Half of the novices reach what is measured, and do it as well as the experts.
+  const std::array operations{operation(Skill::Expert, 2.0, 90), operation(Skill::Expert, 2.0, 80),
+                              operation(Skill::Middle, 2.0, 50), operation(Skill::Novice, 2.0, 0),
+                              operation(Skill::Novice, std::nullopt, 0)};
+  const ItemValidity item = validity_of(one_rule(), operations, 1).items[0];
+  EXPECT_DOUBLE_EQ(item.separation.auc, 0.75);
+  ASSERT_TRUE(item.where_measured.has_value());
+  EXPECT_DOUBLE_EQ(item.where_measured->auc, 0.5);
+  const ItemMeans& novice = item.means[static_cast<std::size_t>(Skill::Novice)];
+  EXPECT_DOUBLE_EQ(novice.measured_share, 0.5);
+  EXPECT_DOUBLE_EQ(novice.earned_share, 0.25);
+  EXPECT_DOUBLE_EQ(*novice.value, 2.0);
+  EXPECT_TRUE(item.is_in_order());
+}
+
+TEST(Validity, AMiddleOneBeyondTheExpertIsOutOfOrder) {
+  const std::array operations{operation(Skill::Expert, 1.5, 90), operation(Skill::Middle, 0.5, 60),
+                              operation(Skill::Novice, 2.5, 0)};
+  EXPECT_FALSE(validity_of(one_rule(), operations, 1).items[0].is_in_order());
+}
+
 TEST(Validity, SeparatesOnEachCaseByItself) {
   std::array operations{operation(Skill::Expert, 0.5, 90), operation(Skill::Novice, 2.5, 10),
                         operation(Skill::Expert, 0.5, 30), operation(Skill::Novice, 2.5, 60)};
