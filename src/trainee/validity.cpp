@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,10 @@ Moments moments_of(std::span<const double> values) {
   m.mean /= static_cast<double>(values.size());
   for (const double v : values) m.variance += (v - m.mean) * (v - m.mean);
   m.variance /= std::max<double>(1.0, static_cast<double>(values.size()) - 1.0);
+  // Equal values vary by nothing: not by what their mean is rounded by.
+  if (std::ranges::adjacent_find(values, std::ranges::not_equal_to{}) == values.end()) {
+    m.variance = 0.0;
+  }
   return m;
 }
 

@@ -25,6 +25,9 @@ TEST(Validity, TheEffectSizeIsTheDifferenceByThePooledDeviation) {
   const std::array<double, 2> same{4, 4};
   EXPECT_FALSE(separation_of(same, same).effect_size.has_value());
   EXPECT_DOUBLE_EQ(separation_of(same, same).auc, 0.5);
+  const std::array<double, 3> thirds{2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};
+  const std::array<double, 3> tenths{0.1, 0.1, 0.1};
+  EXPECT_FALSE(separation_of(thirds, tenths).effect_size.has_value());
 }
 
 procedure::Procedure one_rule() {

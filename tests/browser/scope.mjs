@@ -183,8 +183,15 @@ export async function arthroscopy(browser, station) {
       (s) => Math.hypot(...(s.hands[1].force_n ?? [0])) > 0.3,
       "a force on the probe",
     );
-    await page.keyboard.up("a");
+    // Led on it is warned of, where one looks; let go it gives way.
+    await page.locator(".scope-press", { hasText: /too hard|injures/ }).waitFor();
     await picture("touch");
+    await page.keyboard.up("a");
+    await operator.until(
+      (s) => Math.hypot(...(s.hands[1].force_n ?? [0])) < 3,
+      "a probe that is let go and presses less",
+    );
+    await page.locator(".scope-press").waitFor({ state: "hidden" });
     await page.keyboard.press("f");
     await page.click(
       "dialog[open] button[value=finish], dialog[open] .primary",

@@ -28,6 +28,9 @@ const STRIDE_MM = 3;
 const BEFORE_MM = 5;
 /** Less deep it is on its way in or out. */
 const LEAST_DEPTH_MM = 5;
+/** Over it the page warns: pressed so hard twice, a careful hand tries no more to get there. */
+const WARN_N = 3;
+const MOST_WARNINGS = 2;
 /** At rest: it stays within so much for so long. */
 const REST_MM = 0.35;
 const REST_S = 1;
@@ -235,16 +238,19 @@ export class ScopeGuide {
     if (shift) await keyboard.up("Shift");
   }
 
-  /** Leans, goes in or out and turns until the tip lies there, as near as it can. @return how far it is off [mm] */
+  /** Leans, goes in or out and turns until the tip lies there, as near as it can without pressing hard. @return how far it is off [mm] */
   async leadTo(place, portal, withinMm, rounds) {
     const { page, operator } = this;
     let off = Infinity;
+    let warnings = 0;
     for (let round = 0; round < rounds; ++round) {
       const [now, scope] = [await operator.snapshot(), await this.scope()];
       const item = Operator.held(now, place.hand);
       off = size(add(item.tip_mm, place.tip, -1));
       const turn = place.turn === undefined ? 0 : ((place.turn - scope.shaft_deg + 540) % 360) - 180;
       if (off < withinMm && Math.abs(turn) < 4) break;
+      const isWarned = size(now.hands[place.hand].force_n) > WARN_N;
+      if (isWarned && ++warnings >= MOST_WARNINGS) break;
       const [is, wanted] = [item.tip_mm, place.tip].map((tip) => ScopeGuide.lean(tip, portal));
       const { x, y } = await this.middle();
       await page.mouse.move(x, y);

@@ -1,7 +1,8 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { gradeOf, HeldPeak } from "./force_gauge";
+import { HeldPeak, pressWords } from "./force_gauge";
+import { gradeOf } from "./force_limits";
 
 describe("force gauge", () => {
   it("warns over 3 N and tells an injury over 8 N", () => {
@@ -12,6 +13,12 @@ describe("force gauge", () => {
       "warning",
       "injury",
     ]);
+  });
+
+  it("says over the picture who presses and what to do, and nothing of what does no harm", () => {
+    expect(pressWords("Probe", 3)).toBe("");
+    expect(pressWords("Probe", 4)).toBe("Probe presses too hard, 4.0 N: stop, or draw it back");
+    expect(pressWords("Scope", 9.1)).toBe("Scope injures cartilage, 9.1 N: draw it back");
   });
 
   it("holds a blow long enough to be read, then follows", () => {

@@ -6,11 +6,12 @@
 // really is, where the scope looks and what was seen, it says.
 import { make } from "../dom";
 import type { ExerciseMessage, ScopeMessage, SheetMessage, SnapshotMessage } from "../protocol";
-import { add, dot, scaled, subtract } from "../tool_placement";
+import { add, dot, length, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
 import { FocusControls } from "./focus_controls";
 import { FluidControls } from "./fluid_controls";
 import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
+import { gradeOf, type ForceGrade } from "./force_limits";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
 import { makeScopeControls, offerScopeAids, WHY_NO_AID } from "./scope_controls";
@@ -102,6 +103,7 @@ export class ScopeDesk {
       this.readings.column,
       this.drill.element,
       this.readings.words,
+      this.readings.press,
       this.findings.element,
     );
     this.controls.hidden = true;
@@ -117,6 +119,16 @@ export class ScopeDesk {
   /** What the host said of it last. */
   get told(): ScopeMessage | undefined {
     return this.scope;
+  }
+
+  /** How hard the hands press in a joint, of what was told last. */
+  get pressGrade(): ForceGrade {
+    const { scope, snapshot } = this;
+    if (!this.isOn || scope === undefined || snapshot === undefined) return "good";
+    const inJoint = snapshot.hands.map(({ force_n: force }, hand) =>
+      scope.in_joint[hand] === 1 ? length(force) : 0,
+    );
+    return gradeOf(Math.max(...inJoint));
   }
 
   begin(exercise: ExerciseMessage): void {

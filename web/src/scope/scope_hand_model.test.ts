@@ -1,17 +1,25 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
+import type { Vec3 } from "../protocol";
 import { add, dot, length, scaled, subtract } from "../tool_placement";
+import { INJURY_N, WARN_N } from "./force_limits";
 import {
   advanced,
   heldBack,
   isBefore,
   leanAt,
   leaned,
+  mostBeyondMm,
+  NOT_PRESSED,
+  notAhead,
+  pressed,
   wayRound,
   wishOf,
   wrappedDeg,
+  type Lean,
   type PortalNow,
+  type Press,
 } from "./scope_hand_model";
 
 const PORTAL: PortalNow = { skinMm: [1, 2, 3], inwards: [0, 0, -1], up: [0, 1, 0], capsuleMm: 12 };
@@ -80,25 +88,47 @@ describe("an instrument in its portal", () => {
     expect(advanced(inside, 1000, PORTAL).depthMm).toBeLessThanOrEqual(42);
   });
 
-  it("presses no farther than a hand does", () => {
+  const off = (lean: Lean, tipMm: Vec3): number =>
+    length(subtract(wishOf(lean, PORTAL).tipMm, tipMm));
+
+  it("presses no farther than it may, where something holds the tip", () => {
     const deep = { depthMm: 30, yawRad: 0, pitchRad: 0 };
     const tip = wishOf({ ...deep, depthMm: 16 }, PORTAL).tipMm;
-    const back = heldBack(deep, tip, PORTAL, { forceN: 4, goesOn: true });
-    expect(back.depthMm).toBeCloseTo(18.5, 6);
+    expect(heldBack(deep, tip, PORTAL, { forceN: 4, mostMm: 2 }).depthMm).toBeCloseTo(18, 6);
     const near = { ...deep, depthMm: 17 };
-    expect(heldBack(near, tip, PORTAL, { forceN: 4, goesOn: false })).toBe(near);
+    expect(heldBack(near, tip, PORTAL, { forceN: 4, mostMm: 2 })).toBe(near);
+    expect(heldBack(deep, tip, PORTAL, { forceN: 0, mostMm: 2 })).toBe(deep); // it is on its way
+    const aside = [1, 2, -17] as const; // 20 mm in, upright
+    const wide = { depthMm: 21, yawRad: 0.6, pitchRad: 0 };
+    expect(off(wide, aside)).toBeGreaterThan(10);
+    expect(off(heldBack(wide, aside, PORTAL, { forceN: 3, mostMm: 2 }), aside)).toBeCloseTo(2, 6);
   });
 
-  it("levers no farther to the side than does harm, where something holds the tip", () => {
-    const tip = [1, 2, -17] as const; // 20 mm in, upright
-    const wide = { depthMm: 21, yawRad: 0.6, pitchRad: 0 };
-    const off = (lean: typeof wide): number => length(subtract(wishOf(lean, PORTAL).tipMm, tip));
-    expect(off(wide)).toBeGreaterThan(10);
-    const led = (forceN: number, goesOn: boolean): number =>
-      off(heldBack(wide, tip, PORTAL, { forceN, goesOn }));
-    expect(led(3, true)).toBeCloseTo(5, 6);
-    expect(led(3, false)).toBeCloseTo(2.5, 6); // it gives way
-    expect(led(0, true)).toBe(off(wide)); // it is on its way
+  it("gives way once it is let go, and does harm only when it is led on over the warning", () => {
+    const N_PER_MM = 2;
+    const newtons = (press: Press, nowMs: number): number => N_PER_MM * mostBeyondMm(press, nowMs);
+    let press: Press = { ...NOT_PRESSED, ledMs: 1000 };
+    press = pressed(press, 2, 1000);
+    expect(newtons(press, 5000)).toBeLessThan(WARN_N);
+    expect(newtons(press, 1010)).toBeGreaterThan(WARN_N); // it is warned of ...
+    expect(newtons(press, 1010)).toBeLessThan(INJURY_N);
+    press = { ...pressed(press, 4, 1100), ledMs: 1700 };
+    expect(newtons(press, 1700)).toBeLessThan(INJURY_N); // ... for a while
+    press = { ...pressed(press, 4, 1850), ledMs: 1850 };
+    expect(newtons(press, 1850)).toBeGreaterThan(INJURY_N);
+    expect(newtons(press, 2200)).toBeLessThan(WARN_N); // let go
+    press = { ...pressed(press, 2.5, 2300), ledMs: 2300 };
+    expect(newtons(press, 2300)).toBeLessThan(INJURY_N); // warned anew
+  });
+
+  it("runs no farther ahead of a free tip than it could press without a warning", () => {
+    const tip = [1, 2, -17] as const;
+    const flung = { depthMm: 30, yawRad: 0.6, pitchRad: 0 };
+    const ahead = off(notAhead(flung, tip, PORTAL, 2), tip);
+    expect(2 * ahead).toBeLessThan(INJURY_N);
+    expect(ahead).toBeGreaterThan(3);
+    const near = { depthMm: 22, yawRad: 0.05, pitchRad: 0 };
+    expect(notAhead(near, tip, PORTAL, 2)).toBe(near);
   });
 
   it("turns round and round", () => {

@@ -5,6 +5,7 @@
 // is and how it leans. Pure.
 import type { Vec3 } from "../protocol";
 import { add, cross, dot, length, normalized, rotated, scaled, subtract } from "../tool_placement";
+import { WARN_N } from "./force_limits";
 
 /** A portal as it lies now, Patient [mm]. */
 export interface PortalNow {
@@ -33,11 +34,20 @@ const UPRIGHT_MM = 8;
 const UPRIGHT_RAD = (5 * Math.PI) / 180;
 const FARTHEST_OUT_MM = -60;
 const FARTHEST_IN_MM = 30;
-/** A wish goes no farther beyond where the tip really is: enough to be felt [mm]. */
-const MOST_PRESSED_MM = 2.5;
-/** The same to the side, where something holds the tip, while the hand goes on: without feeling it levers hard
- * enough to do harm, and no harder. Once it stops it gives way. */
-const MOST_LEVERED_MM = 5;
+/** A hand gives way: a wish goes no farther beyond where something holds its tip, at 2 N a mm. One that is let go
+ * presses by 2.5 N, enough to be felt and to probe [mm]. */
+const LET_GO_MM = 1.25;
+/** One that is led on stays at 4 N, of which the page warns: who leads it here does not feel it ... */
+const WARNED_MM = 2;
+/** ... and for so long has heard and seen that [ms]; whoever goes on then levers hard enough to do harm, and no
+ * harder. [E] */
+const HEEDS_MS = 700;
+const HARMS_MM = 5;
+/** A hand was led no longer ago than this: it goes on [ms]. */
+const GOES_ON_MS = 250;
+/** In a portal a wish runs no farther ahead of a free tip, so that what it comes upon before the page hears of it is
+ * pressed by less than 8 N [mm]. */
+const MOST_AHEAD_MM = 3.5;
 /** Something holds the tip [N]. */
 const HELD_N = 0.5;
 
@@ -105,21 +115,47 @@ export function isBefore(tipMm: Vec3, portal: PortalNow): boolean {
   return along <= 0 && length(subtract(to, scaled(portal.inwards, along))) <= BEFORE_MM;
 }
 
-/** A hand that presses against what does not yield: it goes no deeper than a little beyond the tip, nor
- * far to its side. @param forceN  on the hand @param goesOn  it is being leaned */
+/** How a hand is led against what it presses on. */
+export interface Press {
+  /** Since when it is over the warning; undefined where it is not [ms]. */
+  readonly warnedSinceMs: number | undefined;
+  /** When it was last leaned, or advanced [ms]. */
+  readonly ledMs: number;
+}
+export const NOT_PRESSED: Press = { warnedSinceMs: undefined, ledMs: -Infinity };
+
+/** @param forceN  on the hand */
+export function pressed(press: Press, forceN: number, nowMs: number): Press {
+  const warnedSinceMs = forceN > WARN_N ? (press.warnedSinceMs ?? nowMs) : undefined;
+  return { ...press, warnedSinceMs };
+}
+
+/** By how much a hand may go on beyond what holds its tip [mm]. */
+export function mostBeyondMm({ warnedSinceMs, ledMs }: Press, nowMs: number): number {
+  if (nowMs - ledMs >= GOES_ON_MS) return LET_GO_MM;
+  return warnedSinceMs !== undefined && nowMs - warnedSinceMs >= HEEDS_MS ? HARMS_MM : WARNED_MM;
+}
+
+/** The same lean, where its tip is wished no farther from where it really is. */
+function within(lean: Lean, tipMm: Vec3, portal: PortalNow, mostMm: number): Lean {
+  const ahead = subtract(wishOf(lean, portal).tipMm, tipMm);
+  const far = length(ahead);
+  return far <= mostMm ? lean : leanAt(add(tipMm, scaled(ahead, mostMm / far)), portal);
+}
+
+/** Of a hand that presses against what does not yield. @param forceN  on the hand */
 export function heldBack(
   lean: Lean,
   tipMm: Vec3,
   portal: PortalNow,
-  { forceN, goesOn }: { readonly forceN: number; readonly goesOn: boolean },
+  { forceN, mostMm }: { readonly forceN: number; readonly mostMm: number },
 ): Lean {
-  const most = length(subtract(tipMm, portal.skinMm)) + MOST_PRESSED_MM;
-  const back = lean.depthMm <= most ? lean : { ...lean, depthMm: most };
-  const aside = subtract(wishOf(back, portal).tipMm, tipMm);
-  const far = length(aside);
-  const allowed = goesOn ? MOST_LEVERED_MM : MOST_PRESSED_MM;
-  if (forceN < HELD_N || far <= allowed) return back;
-  return leanAt(add(tipMm, scaled(aside, allowed / far)), portal);
+  return forceN < HELD_N ? lean : within(lean, tipMm, portal, mostMm);
+}
+
+/** Of a hand in a portal, as it is told to the host. @param mostBeyond  as it may press [mm] */
+export function notAhead(lean: Lean, tipMm: Vec3, portal: PortalNow, mostBeyond: number): Lean {
+  return within(lean, tipMm, portal, Math.max(MOST_AHEAD_MM, mostBeyond));
 }
 
 /** A hand goes round the wrist so far from its middle: beyond hand and thumb [mm]. */

@@ -11,11 +11,16 @@ import {
   isBefore,
   leanAt,
   leaned,
+  mostBeyondMm,
+  NOT_PRESSED,
+  notAhead,
   OUTSIDE,
+  pressed,
   wayRound,
   wishOf,
   type Lean,
   type PortalNow,
+  type Press,
   type Wish,
 } from "./scope_hand_model";
 import type { Plan, PlanPortal } from "./scope_plan";
@@ -28,14 +33,17 @@ const IN_JOINT_MM_PER_S = 6;
 const OUTSIDE_MM_PER_S = 25;
 /** So near to a place of its way round the wrist it goes on to the next [mm]. */
 const ROUNDED_MM = 5;
-/** A hand that was leaned no longer ago goes on [ms]. */
-const GOES_ON_MS = 250;
 /** Farther out nothing holds a hand back [mm]. */
 const HELD_BACK_MM = 5;
 
 interface Held {
   readonly portal: number;
   readonly lean: Lean;
+}
+
+interface Tip {
+  readonly tipMm: Vec3;
+  readonly mostBeyondMm: number;
 }
 
 export class ScopeHands {
@@ -49,7 +57,9 @@ export class ScopeHands {
     { portal: 0, lean: OUTSIDE },
     { portal: 1, lean: OUTSIDE },
   ];
-  private readonly leanedMs: [number, number] = [-Infinity, -Infinity];
+  private readonly presses: [Press, Press] = [NOT_PRESSED, NOT_PRESSED];
+  /** Of what is in its portal: where it really is, and how far it may press. */
+  private readonly tips: [Tip | undefined, Tip | undefined] = [undefined, undefined];
   /** What is left of a hand's way round the wrist to its next portal. */
   private readonly rounds: [readonly Wish[], readonly Wish[]] = [[], []];
 
@@ -59,6 +69,8 @@ export class ScopeHands {
     this.held[0] = { portal: 0, lean: OUTSIDE };
     this.held[1] = { portal: 1, lean: OUTSIDE };
     this.rounds[0] = this.rounds[1] = [];
+    this.presses[0] = this.presses[1] = NOT_PRESSED;
+    this.tips[0] = this.tips[1] = undefined;
     this.moved = 0;
   }
 
@@ -110,20 +122,33 @@ export class ScopeHands {
     }
   }
 
-  /** What a hand holds came no farther: the wish goes back to it. */
-  holdBack({ items, hands }: Pick<SnapshotMessage, "items" | "hands">, nowMs: number): void {
-    for (const hand of [0, 1] as const) {
+  /** What a hand holds came no farther: the wish goes back to it.
+   * @param inPortals  by hand the portal that it is in, or an empty name
+   * @returns  by hand whether the host is to be told anew */
+  holdBack(
+    { items, hands }: Pick<SnapshotMessage, "items" | "hands">,
+    inPortals: readonly string[],
+    nowMs: number,
+  ): readonly [boolean, boolean] {
+    const isNew = (hand: HandIndex): boolean => {
       const item = items.find((one) => one.hand === hand);
       const held = this.held[hand];
       const portal = this.portalNowOf(hand);
-      if (item === undefined || portal === undefined || held.lean.depthMm < HELD_BACK_MM) continue;
+      this.tips[hand] = undefined;
+      if (item === undefined || portal === undefined) return false;
+      const isIn = inPortals[hand] === this.portalOf(hand)?.name;
+      // Also what is drawn out and comes no farther.
+      if (!isIn && held.lean.depthMm < HELD_BACK_MM) return false;
+      const { tip_mm: tipMm } = item;
       const forceN = length(hands[hand]?.force_n ?? [0, 0, 0]);
-      const goesOn = nowMs - this.leanedMs[hand] < GOES_ON_MS;
-      this.held[hand] = {
-        ...held,
-        lean: heldBack(held.lean, item.tip_mm, portal, { forceN, goesOn }),
-      };
-    }
+      const press = (this.presses[hand] = pressed(this.presses[hand], forceN, nowMs));
+      const mostMm = mostBeyondMm(press, nowMs);
+      const lean = heldBack(held.lean, tipMm, portal, { forceN, mostMm });
+      this.held[hand] = { ...held, lean };
+      if (isIn) this.tips[hand] = { tipMm, mostBeyondMm: mostMm };
+      return lean !== held.lean || this.toldOf(hand, portal) !== lean;
+    };
+    return [isNew(0), isNew(1)];
   }
 
   /** @returns  whether the hand is to go on to another place of its way round */
@@ -141,19 +166,30 @@ export class ScopeHands {
   wishOf(hand: HandIndex): Wish | undefined {
     const portal = this.portalNowOf(hand);
     if (portal === undefined) return undefined;
-    return this.rounds[hand][0] ?? wishOf(this.held[hand].lean, portal);
+    return this.rounds[hand][0] ?? wishOf(this.toldOf(hand, portal), portal);
+  }
+
+  private toldOf(hand: HandIndex, portal: PortalNow): Lean {
+    const { lean } = this.held[hand];
+    const tip = this.tips[hand];
+    return tip === undefined ? lean : notAhead(lean, tip.tipMm, portal, tip.mostBeyondMm);
   }
 
   lean(hand: HandIndex, yawRad: number, pitchRad: number, nowMs: number): void {
     this.rounds[hand] = []; // a hand that is led goes by itself no longer
-    this.leanedMs[hand] = nowMs;
+    this.ledAt(hand, nowMs);
     const held = this.held[hand];
     this.held[hand] = { ...held, lean: leaned(held.lean, yawRad, pitchRad) };
   }
 
+  private ledAt(hand: HandIndex, nowMs: number): void {
+    this.presses[hand] = { ...this.presses[hand], ledMs: nowMs };
+  }
+
   /** @returns  whether there is a portal to go in by */
-  advance(hand: HandIndex, mm: number): boolean {
+  advance(hand: HandIndex, mm: number, nowMs: number): boolean {
     this.rounds[hand] = [];
+    this.ledAt(hand, nowMs);
     const held = this.held[hand];
     const portal = this.portalNowOf(hand);
     if (portal === undefined) return false;
@@ -162,11 +198,11 @@ export class ScopeHands {
   }
 
   /** For so long at a hand's speed: slower in the joint. */
-  advanceFor(hand: HandIndex, seconds: number): boolean {
+  advanceFor(hand: HandIndex, seconds: number, nowMs: number): boolean {
     const portal = this.portalNowOf(hand);
     if (portal === undefined) return false;
     const isIn = this.held[hand].lean.depthMm > portal.capsuleMm - 3;
-    return this.advance(hand, seconds * (isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S));
+    return this.advance(hand, seconds * (isIn ? IN_JOINT_MM_PER_S : OUTSIDE_MM_PER_S), nowMs);
   }
 
   /** The hand goes to before the next portal that the other one leaves free. */

@@ -4,6 +4,7 @@
 // Two hands before two portals of a made-up joint, led at once.
 import { describe, expect, it } from "vitest";
 import type { ExerciseMessage, HandMessage, ScopeMessage, SnapshotMessage } from "../protocol";
+import { length, subtract } from "../tool_placement";
 import { ScopeLeading } from "./scope_leading";
 
 const PORTAL = { joint: "", body: "radius", inwards: [0, 0, -1], capsule_mm: 10, landmarks: "" };
@@ -34,7 +35,7 @@ const SCOPE = {
 } as unknown as ScopeMessage;
 
 /** @param tools  hand 1 has taken its instrument */
-function snapshot(tools: boolean): SnapshotMessage {
+function snapshot(tools: boolean, forceN = 0): SnapshotMessage {
   const item = (hand: number, instrument: string, x: number): object => ({
     hand,
     instrument,
@@ -44,7 +45,7 @@ function snapshot(tools: boolean): SnapshotMessage {
   return {
     bodies: [{ quaternion: [1, 0, 0, 0], translation_mm: [0, 0, 0] }],
     items: [item(0, "scope", 0), ...(tools ? [item(1, "shaver", 10)] : [])],
-    hands: [{ force_n: [0, 0, 0] }, { force_n: [0, 0, 0] }],
+    hands: [{ force_n: [0, 0, forceN] }, { force_n: [0, 0, 0] }],
   } as unknown as SnapshotMessage;
 }
 
@@ -158,5 +159,36 @@ describe("two hands at a scope", () => {
     expect(scope?.tip_mm[2]).toBeCloseTo(29, 6);
     expect(scope?.shaft).toEqual([-0, -0, 1]);
     expect(shaver).toBeUndefined();
+  });
+
+  const inPortals = { ...SCOPE, portals: ["3-4", "4-5"] } as ScopeMessage;
+  /** From where the host has the scope's tip. */
+  const ahead = ([sent]: readonly Sent[]): number =>
+    length(subtract(sent?.tip_mm ?? [0, 0, 0], [0, 0, -20]));
+
+  it("are told to the host no farther ahead of a tip than it may go unfelt, and go on as it follows", () => {
+    const { leading, frame } = desk();
+    leading.seeScope(inPortals);
+    leading.see(snapshot(true));
+    leading.leanBy("first", 0.5, 0);
+    const before = ahead(frame());
+    expect(before).toBeGreaterThan(3);
+    expect(before).toBeLessThan(4); // 8 N
+    expect(frame()).toEqual([]); // nothing new to tell ...
+    leading.see(snapshot(true));
+    expect(frame().length).toBe(1); // ... until the tip may have followed
+  });
+
+  it("do not pull without end at what comes no farther", () => {
+    const { leading, frame } = desk();
+    leading.seeScope(inPortals);
+    leading.press("KeyD", { kind: "advance", by: -1 });
+    let farthest = 0;
+    for (let i = 0; i < 200; ++i) {
+      leading.see(snapshot(true, 6));
+      farthest = Math.max(farthest, ahead(frame()));
+    }
+    expect(farthest).toBeGreaterThan(1);
+    expect(farthest).toBeLessThanOrEqual(5.001);
   });
 });

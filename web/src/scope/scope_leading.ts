@@ -74,7 +74,11 @@ export class ScopeLeading {
   see(snapshot: SnapshotMessage): void {
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) this.hands.poses = snapshot.bodies;
-    if (this.isPlaced) this.hands.holdBack(snapshot, performance.now());
+    if (!this.isPlaced) return;
+    const inPortals = this.scope?.portals ?? [];
+    this.hands.holdBack(snapshot, inPortals, performance.now()).forEach((isNew, hand) => {
+      if (isNew) this.sending.mark(hand === 0 ? 0 : 1);
+    });
   }
 
   seeScope(message: ScopeMessage): void {
@@ -181,7 +185,8 @@ export class ScopeLeading {
         return;
       }
       case "advance":
-        if (this.hands.advanceFor(hand, motion.by * seconds)) this.sending.mark(hand);
+        if (this.hands.advanceFor(hand, motion.by * seconds, performance.now()))
+          this.sending.mark(hand);
         return;
       case "turn_shaft":
         this.turnHeld(motion.by * TURN_DEG_PER_S * seconds);
@@ -226,7 +231,7 @@ export class ScopeLeading {
 
   /** The hand that mouse and keys lead. */
   advance(mm: number): void {
-    if (this.hands.advance(this.moved, mm)) this.sending.mark(this.moved);
+    if (this.hands.advance(this.moved, mm, performance.now())) this.sending.mark(this.moved);
   }
 
   /** Up in the picture is distal where the camera head is not turned. */

@@ -38,6 +38,8 @@ export class ScopeReadings {
   private readonly listTitle = make("h3.scope-points-title");
   private readonly list = make("ol.scope-points");
   private readonly gauge = new ForceGauge();
+  /** Over the picture as well: that something presses too hard. */
+  readonly press = this.gauge.over;
 
   constructor() {
     this.column = make(

@@ -15,6 +15,7 @@ const rest: Heard = {
   pitchMm: 0,
   live: false,
   shots: 0,
+  press: "none",
 };
 
 /** Told for so long, 60 times a second. */
@@ -66,5 +67,19 @@ describe("SoundModel", () => {
 
   it("takes no count from an operation that was begun before", () => {
     expect(new SoundModel().hear({ ...rest, shots: 7 }).shot).toBe(false);
+  });
+
+  it("knocks while something presses too hard in a joint, faster and harder where it does harm", () => {
+    const knocks = (press: Heard["press"]): readonly number[] => {
+      const model = new SoundModel();
+      const heard = Array.from({ length: 60 }, (_, i) =>
+        model.hear({ ...rest, press, nowMs: 16 * i }),
+      );
+      return heard.flatMap(({ knock }) => knock ?? []);
+    };
+    expect(knocks("none")).toEqual([]);
+    expect(knocks("hard")).toEqual([0, 0, 0]);
+    expect(knocks("harm").length).toBeGreaterThan(4);
+    expect(knocks("harm")[0]).toBe(1);
   });
 });

@@ -3,7 +3,7 @@
 //
 // What is heard, of what the host tells and what the hand does: the driver's motor, whose pitch falls under
 // load and leaps when the tip breaks through; a click for each half turn of a screw; the C-arm's tone
-// while it shines. Pure: one moment after the other.
+// while it shines; knocks while something presses too hard in a joint. Pure: one moment after the other.
 import type { Drive, Driver } from "../protocol";
 
 export interface Heard {
@@ -22,7 +22,11 @@ export interface Heard {
   /** The pedal is down. */
   readonly live: boolean;
   readonly shots: number;
+  /** In a joint: of which the page warns, and what does harm. */
+  readonly press: Press;
 }
+
+export type Press = "none" | "hard" | "harm";
 
 export interface Sounds {
   /** Of the motor [Hz]; 0 while it rests. */
@@ -35,6 +39,8 @@ export interface Sounds {
   readonly beeps: boolean;
   /** A single picture was taken since. */
   readonly shot: boolean;
+  /** Of a press that is too hard; how harmful, 0 to 1. */
+  readonly knock: number | undefined;
 }
 
 /** Engineering values: a wire driver at about a thousand turns a minute, by ear. */
@@ -51,6 +57,8 @@ const LEAPS_MS = 35;
 const RACES = 0.12;
 const RACE_MS = 160;
 const GIVES_WAY_N = 8;
+/** It knocks so often [ms]. */
+const KNOCKS_MS: Readonly<Record<Exclude<Press, "none">, number>> = { hard: 450, harm: 180 };
 /** More at once is no turning: another instrument, undo. */
 const MOST_CLICKS = 4;
 
@@ -60,6 +68,7 @@ export class SoundModel {
   private racedAtMs = -Infinity;
   private last: Heard | undefined;
   private halfTurns = 0;
+  private knockedAtMs = -Infinity;
 
   hear(now: Heard): Sounds {
     const { last } = this;
@@ -82,7 +91,14 @@ export class SoundModel {
       tightness: Math.min(1, now.torqueNMm / FULL_TORQUE_N_MM),
       beeps: now.live,
       shot: shots === 1 && !now.live,
+      knock: this.knockOf(now),
     };
+  }
+
+  private knockOf({ press, nowMs }: Heard): number | undefined {
+    if (press === "none" || nowMs - this.knockedAtMs < KNOCKS_MS[press]) return undefined;
+    this.knockedAtMs = nowMs;
+    return press === "harm" ? 1 : 0;
   }
 
   /** Half turns since the moment before, in or out. */

@@ -7,6 +7,9 @@ import type { Sounds } from "./sound_model";
 const MOTOR_GAIN = 0.1;
 const BEEP_GAIN = 0.06;
 const CLICK_GAIN = 0.22;
+const KNOCK_GAIN = 0.16;
+const KNOCK_HZ = 190;
+const KNOCK_S = 0.07;
 const BEEP_HZ = 1480;
 const BEEP_S = 0.09;
 const BEEP_EVERY_S = 0.32;
@@ -44,7 +47,7 @@ export class Synthesizer {
       samples[i] = (2 * Math.random() - 1) * Math.exp(-i / (0.004 * context.sampleRate));
   }
 
-  play({ beeps, clicks, load, motorHz, shot, tightness }: Sounds): void {
+  play({ beeps, clicks, knock, load, motorHz, shot, tightness }: Sounds): void {
     const now = this.context.currentTime;
     const runs = motorHz > 0;
     if (runs) {
@@ -55,6 +58,7 @@ export class Synthesizer {
     const gain = runs ? MOTOR_GAIN * (0.8 + 0.4 * load) : 0;
     this.motorGain.gain.setTargetAtTime(gain, now, SMOOTH_S);
     for (let i = 0; i < clicks; ++i) this.click(now + 0.03 * i, tightness);
+    if (knock !== undefined) this.knock(now, knock);
     if (shot) this.beep(now, SHOT_S);
     if (beeps && now >= this.nextBeepS) {
       this.beep(now, BEEP_S);
@@ -77,6 +81,19 @@ export class Synthesizer {
     source.connect(gain).connect(this.context.destination);
     source.start(atS);
     source.stop(atS + lengthS);
+  }
+
+  /** Dull, as of metal on cartilage; harm is higher and louder. */
+  private knock(atS: number, harm: number): void {
+    const source = this.context.createOscillator();
+    const gain = this.context.createGain();
+    source.type = "triangle";
+    source.frequency.value = KNOCK_HZ * (1 + harm);
+    gain.gain.setValueAtTime(KNOCK_GAIN * (1 + 0.6 * harm), atS);
+    gain.gain.exponentialRampToValueAtTime(0.001, atS + KNOCK_S);
+    source.connect(gain).connect(this.context.destination);
+    source.start(atS);
+    source.stop(atS + KNOCK_S);
   }
 
   /** The tighter, the louder and the lower. */

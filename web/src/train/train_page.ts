@@ -489,7 +489,9 @@ export class TrainPage {
         this.scope.see(message);
         if (this.part.operates) {
           const now = performance.now();
-          this.sound.hear(whatIsHeard(message, this.seen.doing, this.hand, now));
+          this.sound.hear(
+            whatIsHeard(message, this.seen.doing, this.hand, this.scope.pressGrade, now),
+          );
           if (this.hand.placed)
             this.panels.firstTouch.observe(whatIsDone(message, this.hand, this.theatre));
         }
