@@ -15,6 +15,7 @@ procedure::OperationRecord perfect() {
   record.ticks = 120'000;
   record.scope.emplace();
   record.scope->looking_ticks = 100'000;
+  record.scope->entries = 1;
   procedure::DrillFacts& done = record.scope->facts.drill;
   done.held = 3;
   done.round_most = 5;

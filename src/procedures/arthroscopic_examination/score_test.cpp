@@ -21,6 +21,7 @@ procedure::OperationRecord record_of(const cases::Grades& truth, const cases::Gr
   record.finished = true;
   record.scope.emplace();
   record.scope->looking_ticks = 60'000;
+  record.scope->entries = 1;
   record.scope->truth = truth;
   record.scope->answers = answers;
   return record;

@@ -115,5 +115,19 @@ TEST(ScrewControlScore, WhoSaysNothingEarnsNothingByIt) {
   EXPECT_NEAR(possible, 100, 1e-9);
 }
 
+TEST(ScrewControlScore, WhoNeverWentInProvedNoCare) {
+  auto record = record_of(kWell, kWell);
+  EXPECT_GT(item(record, "pull_outs").points, 0);
+  EXPECT_GT(item(record, "force_over_8_n_s").points, 0);
+  record.scope->entries = 0;
+  record.scope->looking_ticks = 0;
+  for (const char* id : {"pull_outs", "force_over_3_n_s", "force_over_8_n_s"}) {
+    const Judged judged = item(record, id);
+    EXPECT_FALSE(judged.value.has_value()) << id;
+    EXPECT_EQ(judged.points, 0) << id;
+    EXPECT_GT(judged.possible, 0) << id;
+  }
+}
+
 }  // namespace
 }  // namespace carpus::procedures::arthroscopic_screw_control

@@ -57,6 +57,23 @@ Measure cartilage(const cases::CaseData& data, const procedure::ScopeRecord& sco
   return {"cartilage_seen_share", seen.share() * 100, finding.empty() ? finding : finding + "."};
 }
 
+constexpr const char* kNeverIn = "No scope went in.";
+
+/// How what was in a joint was led there; who never went in proved no care by it.
+void add_care(std::vector<Measure>& measures, const procedure::ScopeRecord& scope) {
+  const std::size_t first = measures.size();
+  measures.push_back({"pull_outs", static_cast<double>(scope.pull_outs), ""});
+  measures.push_back({"capsule_pushes", static_cast<double>(scope.capsule_pushes), ""});
+  measures.push_back({"force_over_3_n_s", seconds(scope.warn_ticks),
+                      "At most " + procedure::text_of(scope.most_force_n) + " N."});
+  measures.push_back({"force_over_8_n_s", seconds(scope.injury_ticks), ""});
+  if (scope.entries > 0) return;
+  for (std::size_t i = first; i < measures.size(); ++i) {
+    measures[i].value.reset();
+    measures[i].finding = kNeverIn;
+  }
+}
+
 /// What the ways from the skin into the joint led through or beside.
 void add_ways_in(std::vector<Measure>& measures,
                  const cases::CaseData& data,
@@ -64,9 +81,9 @@ void add_ways_in(std::vector<Measure>& measures,
   const bool has_entered = record.scope && record.scope->entries > 0;
   Measure struck = procedure::structures_struck(data, record, " went in through the ",
                                                 procedure::ThroughSkin::Portal);
-  if (!has_entered) {  // what never went in proved no care
+  if (!has_entered) {
     struck.value.reset();
-    struck.finding = "No scope went in.";
+    struck.finding = kNeverIn;
   }
   measures.push_back(std::move(struck));
   for (Measure& near : procedure::nearest_structures(data, record, "Nothing went in near one.")) {
@@ -102,11 +119,7 @@ std::vector<Measure> conduct_measures(const cases::CaseData& data,
   measures.push_back(smoothness("scope_smoothness", scope.smoothness[0]));
   measures.push_back(smoothness("probe_smoothness", scope.smoothness[1]));
   measures.push_back(cartilage_scuffs(data, scope));
-  measures.push_back({"pull_outs", static_cast<double>(scope.pull_outs), ""});
-  measures.push_back({"capsule_pushes", static_cast<double>(scope.capsule_pushes), ""});
-  measures.push_back({"force_over_3_n_s", seconds(scope.warn_ticks),
-                      "At most " + procedure::text_of(scope.most_force_n) + " N."});
-  measures.push_back({"force_over_8_n_s", seconds(scope.injury_ticks), ""});
+  add_care(measures, scope);
   const double looked = seconds(scope.looking_ticks);
   Measure horizon{"horizon_off_share", {}, ""};
   if (looked > 0) horizon.value = seconds(scope.tilted_ticks) / looked * 100;
