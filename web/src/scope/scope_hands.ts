@@ -123,11 +123,11 @@ export class ScopeHands {
   }
 
   /** What a hand holds came no farther: the wish goes back to it.
-   * @param inPortals  by hand the portal that it is in, or an empty name
+   * @param inPortal  by hand, as the host says
    * @returns  by hand whether the host is to be told anew */
   holdBack(
     { items, hands }: Pick<SnapshotMessage, "items" | "hands">,
-    inPortals: readonly string[],
+    inPortal: readonly boolean[],
     nowMs: number,
   ): readonly [boolean, boolean] {
     const isNew = (hand: HandIndex): boolean => {
@@ -136,7 +136,7 @@ export class ScopeHands {
       const portal = this.portalNowOf(hand);
       this.tips[hand] = undefined;
       if (item === undefined || portal === undefined) return false;
-      const isIn = inPortals[hand] === this.portalOf(hand)?.name;
+      const isIn = inPortal[hand] === true;
       // Also what is drawn out and comes no farther.
       if (!isIn && held.lean.depthMm < HELD_BACK_MM) return false;
       const { tip_mm: tipMm } = item;

@@ -161,14 +161,13 @@ describe("two hands at a scope", () => {
     expect(shaver).toBeUndefined();
   });
 
-  const inPortals = { ...SCOPE, portals: ["3-4", "4-5"] } as ScopeMessage;
   /** From where the host has the scope's tip. */
   const ahead = ([sent]: readonly Sent[]): number =>
     length(subtract(sent?.tip_mm ?? [0, 0, 0], [0, 0, -20]));
 
   it("are told to the host no farther ahead of a tip than it may go unfelt, and go on as it follows", () => {
     const { leading, frame } = desk();
-    leading.seeScope(inPortals);
+    leading.seeScope(SCOPE);
     leading.see(snapshot(true));
     leading.leanBy("first", 0.5, 0);
     const before = ahead(frame());
@@ -181,7 +180,7 @@ describe("two hands at a scope", () => {
 
   it("do not pull without end at what comes no farther", () => {
     const { leading, frame } = desk();
-    leading.seeScope(inPortals);
+    leading.seeScope(SCOPE);
     leading.press("KeyD", { kind: "advance", by: -1 });
     let farthest = 0;
     for (let i = 0; i < 200; ++i) {

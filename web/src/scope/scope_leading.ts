@@ -75,8 +75,8 @@ export class ScopeLeading {
     this.snapshot = snapshot;
     if (snapshot.bodies !== null) this.hands.poses = snapshot.bodies;
     if (!this.isPlaced) return;
-    const inPortals = this.scope?.portals ?? [];
-    this.hands.holdBack(snapshot, inPortals, performance.now()).forEach((isNew, hand) => {
+    const inPortal = this.scope?.portals.map((id) => id !== "") ?? [];
+    this.hands.holdBack(snapshot, inPortal, performance.now()).forEach((isNew, hand) => {
       if (isNew) this.sending.mark(hand === 0 ? 0 : 1);
     });
   }
