@@ -28,8 +28,11 @@ std::string tendon(const std::string& first_point, const std::string& more = "")
 TEST(StructureTable, HoldsWhatADorsalAndAVolarEntryCanHarm) {
   const StructureTable& table = StructureTable::generic();
   for (const char* id :
-       {"apl_epb", "ecrl", "ecrb", "epl", "edc_index", "edm", "ecu", "fcr", "radial_artery",
-        "radial_artery_palmar", "sbrn_index", "sbrn_thumb", "sbrn_volar", "dsbun"}) {
+       {"apl_epb",      "ecrl",        "ecrb",        "epl",           "edc_index",
+        "edm",          "ecu",         "fcr",         "radial_artery", "radial_artery_palmar",
+        "sbrn_index",   "sbrn_thumb",  "sbrn_volar",  "dsbun",         "fcu",
+        "fds_radial",   "fds_ulnar",   "fdp_radial",  "fdp_ulnar",     "fpl",
+        "ulnar_artery", "ulnar_nerve", "median_nerve"}) {
     EXPECT_NE(table.find(id), nullptr) << id;
   }
   EXPECT_EQ(table.find("nothing"), nullptr);
@@ -37,6 +40,8 @@ TEST(StructureTable, HoldsWhatADorsalAndAVolarEntryCanHarm) {
   EXPECT_EQ(table.find("radial_artery")->kind, StructureKind::Artery);
   EXPECT_EQ(table.find("dsbun")->kind, StructureKind::Nerve);
   EXPECT_EQ(table.find("ecu")->forearm, BoneId::Ulna);
+  EXPECT_EQ(table.find("ulnar_nerve")->kind, StructureKind::Nerve);
+  EXPECT_EQ(table.find("ulnar_artery")->kind, StructureKind::Artery);
   for (const TabledStructure& s : table.structures) EXPECT_FALSE(s.avoid.empty()) << s.id;
 }
 

@@ -13,6 +13,7 @@
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
+#include "cases/make_structures.hpp"
 #include "core/error.hpp"
 #include "fields/distance_field.hpp"
 
@@ -82,6 +83,32 @@ TEST_F(MakeMap, WaysKeepClearOfATendonThatWasLaidInThem) {
   EXPECT_TRUE(std::any_of(none.problems.begin(), none.problems.end(), [](const auto& p) {
     return p.find("into the a tendon") != std::string::npos;
   }));
+}
+
+/// What a way must spare has to be there: a case of an older program has no ulnar artery.
+TEST_F(MakeMap, TheVolarUlnarPortalIsOfferedWhereWhatItMustSpareIsThere) {
+  ASSERT_TRUE(data_->structures.empty());
+  EXPECT_EQ(find_portal(*map_, "VU"), nullptr);
+  EXPECT_TRUE(std::any_of(map_->problems.begin(), map_->problems.end(), [](const auto& p) {
+    return p.find("volar ulnar portal: not offered") == 0 &&
+           p.find("ulnar artery, ulnar nerve, median nerve") != std::string::npos;
+  })) << ::testing::PrintToString(map_->problems);
+
+  cases::CaseData data = *data_;
+  data.structures = cases::make_structures(data).structures;
+  const cases::ArthroscopicMap map = make_map(data, *tissue_);
+  const cases::Portal* portal = find_portal(map, "VU");
+  ASSERT_NE(portal, nullptr) << ::testing::PrintToString(map.problems);
+  EXPECT_GT(in_wrist(portal->skin).z, 5) << "volar";
+  for (const auto kind : {anatomy::StructureKind::Artery, anatomy::StructureKind::Nerve}) {
+    const auto& beside = portal->beside[static_cast<std::size_t>(kind)];
+    ASSERT_TRUE(beside.has_value());
+    EXPECT_GT(beside->mm, 2.0) << data.structures[beside->structure].name;
+    EXPECT_LT(beside->mm, 12.0) << data.structures[beside->structure].name;
+  }
+  for (const char* usual : {"3-4", "4-5", "6R", "MCR", "MCU"}) {
+    EXPECT_NE(find_portal(map, usual), nullptr) << usual;
+  }
 }
 
 /// [S80]: about 1 cm ulnar of the 3-4 portal; and 3-4 is distal of Lister's tubercle.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/structure_table.hpp"
 #include "cases/arthroscopic_map.hpp"
 #include "core/error.hpp"
 
@@ -50,6 +51,7 @@ TabledPortal portal_from(const Json& json) {
   p.ulnar_deg = json.value("ulnar_deg", p.ulnar_deg);
   p.is_usual = json.value("usual", true);
   p.between = json.value("interval", p.between);
+  p.needs = json.value("needs", p.needs);
   p.search_mm = json.at("search_mm").get<std::array<double, 2>>();
   p.ahead = json.value("ahead", "");
   return p;
@@ -99,6 +101,11 @@ void check_names(const PortalTable& table) {
                        [&](const auto& point) { return point.id == id; });
   };
   for (const TabledPortal& portal : table.portals) {
+    for (const std::string& id : portal.needs) {
+      if (anatomy::StructureTable::generic().find(id) == nullptr) {
+        throw InvalidInput("portals.json: " + portal.id + ": there is no structure " + id);
+      }
+    }
     if (!is_joint(portal.joint)) {
       throw InvalidInput("portals.json: " + portal.id + ": there is no joint " + portal.joint);
     }

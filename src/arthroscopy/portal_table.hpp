@@ -36,6 +36,7 @@ struct TabledPortal {
   /// Structures between which the way lies, or empty: in order from radial over dorsal to ulnar and
   /// on over volar.
   std::array<std::string, 2> between;
+  std::vector<std::string> needs;     ///< structures without which it is not offered
   std::array<double, 2> search_mm{};  ///< along the forearm, across it
   std::string ahead;                  ///< the point that its way leads to, or empty
 };

@@ -181,6 +181,12 @@ void write_case(const cases::CaseData& data,
   progress("saving", 1.0);
 }
 
+std::vector<std::pair<std::string, std::string>> structure_files(const cases::CaseData& data) {
+  return {{"bones.glb", make_case_glb(data)},
+          {kStructuresFile, structures_text(data.structures)},
+          {"case.json", case_json_text(data)}};
+}
+
 cases::CaseData read_case(const fs::path& folder, const Progress& progress) {
   const fs::path file = folder / "case.json";
   CaseHeader header = parse_case_json(read_text(file), file);

@@ -5,6 +5,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "case_io/atomic_folder.hpp"
 #include "cases/case_data.hpp"
@@ -21,6 +24,11 @@ void write_case(const cases::CaseData& data,
                 const std::filesystem::path& folder,
                 Overwrite overwrite = Overwrite::Refuse,
                 const Progress& progress = no_progress);
+
+/// The files of a case folder that tell of its structures, by name, as they are with those of
+/// `data`; to be written in this order. All else in the folder stays as it is.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> structure_files(
+    const cases::CaseData& data);
 
 /// Reads a case folder. Every file is checked; none is believed.
 /// @throws SchemaError where it was written by a newer program, saying which version.

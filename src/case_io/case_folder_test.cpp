@@ -145,6 +145,27 @@ TEST_F(CaseFolder, GivesBackStructuresBitForBitAndSaysThatTheyWereGenerated) {
   }
 }
 
+TEST_F(CaseFolder, TakesOtherStructuresByThreeFilesAlone) {
+  cases::CaseData data = small_case();
+  write_case(data, target());
+  EXPECT_TRUE(read_case(target()).structures.empty());
+  data.structures = test::small_structures();
+  for (const auto& [name, content] : structure_files(data)) {
+    std::ofstream(target() / name, std::ios::binary) << content;
+  }
+  const cases::CaseData again = read_case(target());
+  EXPECT_EQ(again.structures, data.structures);
+  const auto bytes_of = [](const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  };
+  const fs::path whole = target().parent_path() / "whole";
+  write_case(data, whole);
+  for (const char* name : {"case.json", "bones.glb", "structures.json"}) {
+    EXPECT_EQ(bytes_of(target() / name), bytes_of(whole / name)) << name;
+  }
+}
+
 TEST_F(CaseFolder, GivesBackThePreparedPathologyAndRefusesADamagedOneByThatFilesName) {
   cases::CaseData data = small_case();
   write_case(data, target());

@@ -12,9 +12,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 
 #include "cases/detail/carried_landmarks.hpp"
 #include "cases/detail/tube_course.hpp"
+#include "cases/find_structure.hpp"
 #include "core/error.hpp"
 
 namespace carpus::cases {
@@ -159,20 +161,23 @@ void check_length(const TabledStructure& tabled,
   problems.emplace_back(text.data());
 }
 
-/// From radial to ulnar, where they pass the radius's dorsal tubercle [K].
-constexpr std::array<std::string_view, 10> kOrder{
+/// From radial to ulnar, where they pass the radius's dorsal tubercle [K]: dorsal, volar.
+constexpr std::array<std::string_view, 10> kDorsalOrder{
     "apl_epb",    "ecrl",     "ecrb",      "epl", "edc_index",
     "edc_middle", "edc_ring", "edc_small", "edm", "ecu"};
+constexpr std::array<std::string_view, 6> kVolarOrder{
+    "radial_artery", "fcr", "median_nerve", "ulnar_artery", "ulnar_nerve", "fcu"};
 
 void check_order(const CaseData& data,
                  const std::vector<Structure>& structures,
+                 std::span<const std::string_view> order,
                  const Vec3& lister,
                  std::vector<std::string>& problems) {
   const double mirror = data.side == Side::Left ? 1 : -1;
   const Vec3 at = (data.wrist_from_patient * Point<frame::Patient>{lister}).v;
   double most_ulnar = -std::numeric_limits<double>::infinity();
   std::string before;
-  for (const std::string_view id : kOrder) {
+  for (const std::string_view id : order) {
     const auto s = std::find_if(structures.begin(), structures.end(),
                                 [&](const Structure& each) { return each.id == id; });
     if (s == structures.end()) continue;
@@ -246,7 +251,9 @@ void measure(const CaseData& data,
   if (!std::isfinite(f.least_under_skin_mm)) f.least_under_skin_mm = 0;
   for (std::size_t i = 0; i < table.landmarks.size(); ++i) {
     if (table.landmarks[i].id != "lister") continue;
-    check_order(data, made.structures, landmarks.at({i, {}, Layer::AsPlaced, 0}), f.problems);
+    const Vec3 lister = landmarks.at({i, {}, Layer::AsPlaced, 0});
+    check_order(data, made.structures, kDorsalOrder, lister, f.problems);
+    check_order(data, made.structures, kVolarOrder, lister, f.problems);
   }
   for (const anatomy::TabledPortal& portal : table.portals) {
     f.portals.push_back(measure_portal(portal, landmarks, surfaces, made.structures));
@@ -278,6 +285,23 @@ MadeStructures make_structures(const CaseData& data, const StructureTable& table
   }
   measure(data, table, landmarks, surfaces, made);
   return made;
+}
+
+AddedStructures add_missing_structures(CaseData& data, const StructureTable& table) {
+  const auto has = [&data](const auto& each) {
+    return find_structure(data.structures, each.id) != nullptr;
+  };
+  const bool has_all = std::all_of(table.structures.begin(), table.structures.end(), has);
+  AddedStructures added;
+  if (has_all) return added;
+  MadeStructures made = make_structures(data, table);
+  added.problems = std::move(made.figures.problems);
+  for (Structure& each : made.structures) {
+    if (has(each) || data.structures.size() >= kMaxStructures) continue;
+    added.names.push_back(each.name);
+    data.structures.push_back(std::move(each));
+  }
+  return added;
 }
 
 double deepest_in_bone_mm(const CaseData& data, const Structure& structure) {

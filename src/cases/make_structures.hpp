@@ -43,6 +43,17 @@ struct MadeStructures {
     const CaseData& data,
     const anatomy::StructureTable& table = anatomy::StructureTable::generic());
 
+struct AddedStructures {
+  std::vector<std::string> names;     ///< of what was added, in the table's order
+  std::vector<std::string> problems;  ///< of all that was laid; empty when all is well
+};
+
+/// Adds to a case what of `table` it lacks, laid beside all else of it; what is there stays as it
+/// is. Cases of an older program have fewer.
+[[nodiscard]] AddedStructures add_missing_structures(
+    CaseData& data,
+    const anatomy::StructureTable& table = anatomy::StructureTable::generic());
+
 /// Deepest place of a tube in any bone of the case [mm], 0 for none. Exact triangles, five points
 /// to a millimetre of the middle line.
 [[nodiscard]] double deepest_in_bone_mm(const CaseData& data, const Structure& structure);

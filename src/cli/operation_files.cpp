@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "arthroscopy/make_map.hpp"
+#include "arthroscopy/portal_table.hpp"
 #include "case_io/case_folder.hpp"
 #include "case_io/soft_tissue_folder.hpp"
+#include "cases/find_structure.hpp"
 #include "cases/make_hand_motion.hpp"
 #include "cases/reduced_scaphoid.hpp"
 #include "core/error.hpp"
@@ -41,12 +43,29 @@ std::string length_lines(const procedure::ScoreReport& report) {
 
 }  // namespace
 
+namespace {
+
+/// A case of an older program goes on without what it never had, and says what.
+void warn_of_lacking(const cases::CaseData& data, const std::filesystem::path& folder) {
+  for (const arthroscopy::TabledPortal& portal : arthroscopy::PortalTable::generic().portals) {
+    const std::string lacking = cases::lacking(data.structures, portal.needs);
+    if (lacking.empty()) continue;
+    std::fprintf(stderr,
+                 "carpus: this case offers no %s, for it lacks: %s; 'carpus soft-tissue %s' adds "
+                 "what is missing\n",
+                 portal.name.c_str(), lacking.c_str(), folder.c_str());
+  }
+}
+
+}  // namespace
+
 cases::CaseData load_case(const std::filesystem::path& folder) {
   cases::CaseData data = case_io::read_case(folder);
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   cases::ensure_hand_motion(data);
   data.reduced = cases::find_reduced_scaphoid(data);
   if (const auto tissue = case_io::read_soft_tissue(folder)) {
+    warn_of_lacking(data, folder);
     data.arthroscopy =
         std::make_shared<const cases::ArthroscopicMap>(arthroscopy::make_map(data, *tissue));
   }

@@ -5,12 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include "arthroscopy/make_map.hpp"
 #include "case_io/case_folder.hpp"
 #include "case_io/soft_tissue_folder.hpp"
 #include "cases/make_hand_motion.hpp"
+#include "cases/make_structures.hpp"
 #include "cli/operation_files.hpp"
 #include "cli/section_picture.hpp"
 #include "cli/section_report.hpp"
@@ -80,8 +83,27 @@ void print_section(const cases::CaseData& data,
   if (!a.svg.empty()) records::write_file_atomically(a.svg, section_picture(result, table));
 }
 
+/// Tendons, arteries and nerves that an older program did not know.
+void add_structures(cases::CaseData& data, const Arguments& a) {
+  const cases::AddedStructures added = cases::add_missing_structures(data);
+  for (const std::string& problem : added.problems) {
+    std::printf("problem: %s\n", problem.c_str());
+  }
+  if (added.names.empty()) return;
+  if (!a.check) {
+    for (const auto& [name, content] : case_io::structure_files(data)) {
+      records::write_file_atomically(std::filesystem::path(a.case_folder) / name, content);
+    }
+  }
+  std::printf("%s, generated, not seen in the CT:\n",
+              a.check ? "missing and not written" : "added to the case");
+  for (const std::string& each : added.names) std::printf("  %s\n", each.c_str());
+  std::printf("attempts recorded before are of the case as it was\n\n");
+}
+
 void run(const Arguments& a) {
   cases::CaseData data = case_io::read_case(a.case_folder);
+  add_structures(data, a);
   cases::ensure_hand_motion(data);
   reconstruct::StageClock clock;
   const auto tissue =
@@ -109,7 +131,9 @@ void run(const Arguments& a) {
 void add_soft_tissue_command(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "soft-tissue", "Make ligaments, disc, cartilage and joint spaces of a case (generated)");
+      "soft-tissue",
+      "Make ligaments, disc, cartilage and joint spaces of a case, and what it lacks of "
+      "tendons, arteries and nerves (generated)");
   command->add_option("case", a->case_folder, "Case folder")->capture_default_str();
   command->add_flag("--check", a->check, "Print the figures, write nothing");
   command->add_flag("--traction", a->traction,

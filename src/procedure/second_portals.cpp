@@ -6,18 +6,9 @@
 #include <string>
 
 #include "cases/arthroscopic_map.hpp"
+#include "cases/find_structure.hpp"
 
 namespace carpus::procedure {
-namespace {
-
-bool has_structures(const cases::CaseData& data, const std::vector<std::string>& ids) {
-  return std::all_of(ids.begin(), ids.end(), [&](const std::string& id) {
-    return std::any_of(data.structures.begin(), data.structures.end(),
-                       [&](const cases::Structure& each) { return each.id == id; });
-  });
-}
-
-}  // namespace
 
 std::vector<std::uint8_t> second_portals(const cases::CaseData& data, const PortalMaking& making) {
   std::vector<std::uint8_t> found;
@@ -28,7 +19,7 @@ std::vector<std::uint8_t> second_portals(const cases::CaseData& data, const Port
     if (std::find(making.second.begin(), making.second.end(), id) == making.second.end()) continue;
     const PortalLandmark* landmark = landmark_of(making, id);
     if (making.needs_structures &&
-        (landmark == nullptr || !has_structures(data, landmark->endangers))) {
+        (landmark == nullptr || !cases::lacking(data.structures, landmark->endangers).empty())) {
       continue;
     }
     found.push_back(p);

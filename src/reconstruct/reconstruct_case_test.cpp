@@ -17,6 +17,7 @@
 
 #include "anatomy/wrist_model.hpp"
 #include "case_io/read_volume.hpp"
+#include "cases/find_structure.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/units.hpp"
@@ -147,6 +148,24 @@ void expect_structures(const Reconstruction& r, std::size_t fewest) {
   }
 }
 
+/// A case of an older program: what it lacks is laid as it would have been, the rest stays.
+void expect_added_as_made(const Reconstruction& r) {
+  cases::CaseData older = r.data;
+  std::erase_if(older.structures, [](const cases::Structure& s) {
+    return s.id == "ulnar_artery" || s.id == "ulnar_nerve";
+  });
+  const std::vector<cases::Structure> before = older.structures;
+  EXPECT_THAT(cases::add_missing_structures(older).names,
+              testing::ElementsAre("ulnar artery", "ulnar nerve"));
+  ASSERT_EQ(older.structures.size(), r.data.structures.size());
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), older.structures.begin()));
+  for (const char* id : {"ulnar_artery", "ulnar_nerve"}) {
+    EXPECT_EQ(*cases::find_structure(older.structures, id),
+              *cases::find_structure(r.data.structures, id));
+  }
+  EXPECT_TRUE(cases::add_missing_structures(older).names.empty());
+}
+
 /// What a person outlined is taken as it is; a name that the place contradicts is told, and its
 /// bone flagged.
 TEST(ReconstructCase, TakesLabelsThatAreGivenAndDoubtsANameInTheWrongPlace) {
@@ -192,7 +211,8 @@ TEST(ReconstructCase, MakesACaseOfASimulatedIntactRightWrist) {
   const Reconstruction r = reconstruct_case(wrist.ct, {});
   expect_whole_case(r, wrist.truth, Side::Right, 0.95, 0.92);
   EXPECT_EQ(r.data.bones.size(), 15U);
-  expect_structures(r, 10);
+  expect_structures(r, 19);
+  expect_added_as_made(r);
 }
 
 TEST(ReconstructCase, SaysWhereAWristIsAsSmallAsAChilds) {
@@ -277,7 +297,7 @@ TEST_P(ReferenceWrist, IsSegmentedAndNamedWithoutError) {
   EXPECT_EQ(r.data.bones.size(), GetParam().bones);
   expect_whole_case(r, truth, GetParam().side, 0.97, 0.94);
   EXPECT_TRUE(r.warnings.empty()) << r.warnings.front();
-  expect_structures(r, 19);
+  expect_structures(r, 28);
   // Near what is published [S83], though the generic wrist's nerves were placed by it.
   for (const cases::PortalDistance& portal : r.structures.portals) {
     ASSERT_FALSE(portal.published.empty());

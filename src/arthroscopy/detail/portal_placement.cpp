@@ -13,6 +13,7 @@
 #include "arthroscopy/detail/scanned_bones.hpp"
 #include "arthroscopy/detail/way_to_skin.hpp"
 #include "arthroscopy/make_map.hpp"
+#include "cases/find_structure.hpp"
 #include "geometry/pose.hpp"
 
 namespace carpus::arthroscopy::detail {
@@ -39,6 +40,10 @@ void PortalPlacement::place_all(const PortalTable& table) {
     }
     const auto joint = joint_of(map_, portal.joint);
     if (!joint) continue;  // named already
+    if (const auto lacking = cases::lacking(data_.structures, portal.needs); !lacking.empty()) {
+      map_.problems.push_back(portal.name + ": not offered, for the case lacks: " + lacking);
+      continue;
+    }
     const Vec3 nominal = mark->at + Vec3{-portal.distal_mm, portal.ulnar_mm, portal.volar_mm};
     if (const std::optional<Vec3> at = place(table, portal, *joint, nominal)) {
       marks_.push_back({portal.id, *at});

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/find_structure.hpp"
 #include "cases/laid_structures.hpp"
 #include "core/units.hpp"
 #include "procedure/harm_measures.hpp"
@@ -127,14 +128,18 @@ Measure endangered(std::string_view id,
   return measure;
 }
 
-/// What lies where nothing is generated was not spared for all that anyone knows.
+/// What lies where a case of an older program has nothing was not spared for all that anyone knows.
 void leave_unjudged(Measure& struck,
                     const PortalMade& made,
-                    const procedure::PortalLandmark* portal) {
+                    const procedure::PortalLandmark* portal,
+                    const cases::CaseData& data) {
   if (portal == nullptr || !portal->judged_mm || !(made.strayed_mm > *portal->judged_mm)) return;
+  const std::string lacking = cases::lacking(data.structures);
+  if (lacking.empty()) return;
   struck.finding += " At " + portal->portal + " something went in " + text_of(made.strayed_mm) +
                     " mm off its way. Beyond " + text_of(*portal->judged_mm) + " mm lies " +
-                    portal->beyond + ", not generated: whether that was harmed nobody can say.";
+                    portal->beyond + ". Of these and others this case lacks: " + lacking +
+                    "; whether they were harmed nobody can say. 'carpus soft-tissue' adds them.";
   if (struck.value && *struck.value <= 0.0) struck.value.reset();
 }
 
@@ -181,7 +186,7 @@ std::vector<Measure> measures_of(const procedure::Procedure& graded,
       procedure::structures_struck(data, record, " met the ", procedure::ThroughSkin::Portal);
   const auto asked = asked_landmarks(*graded.making, data, facts);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    leave_unjudged(struck, facts.portal[i], asked[i]);
+    leave_unjudged(struck, facts.portal[i], asked[i], data);
   }
   std::vector<Measure> care{
       {"palpated_share", 100 * felt, ""}, {"needle_passes", passes, ""},

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "anatomy/structure_table.hpp"
 #include "procedures/arthroscopic_portal_making/declared.hpp"
 #include "procedures/arthroscopic_portal_making_harder/declared.hpp"
 
@@ -130,9 +131,11 @@ cases::CaseData wrist_with_vr() {
   return data;
 }
 
-procedure::ScoreItem harder_item(const procedure::OperationRecord& record, const char* id) {
+procedure::ScoreItem harder_item(const procedure::OperationRecord& record,
+                                 const char* id,
+                                 const cases::CaseData& data = wrist_with_vr()) {
   const procedure::ScoreReport report =
-      arthroscopic_portal_making_harder::declared().score(wrist_with_vr(), record);
+      arthroscopic_portal_making_harder::declared().score(data, record);
   for (const procedure::ScoreItem& item : report.items) {
     if (item.id == id) return item;
   }
@@ -170,6 +173,28 @@ TEST(PortalMakingScore, WhereNothingIsGeneratedNothingWasSpared) {
   record.making->portal[1].strayed_mm = 0.0;
   record.making->portal[0].strayed_mm = 7.0;
   EXPECT_GT(harder_item(record, "structures_struck").points, 0.0) << "round 3-4 all is generated";
+}
+
+TEST(PortalMakingScore, WhereAllIsGeneratedAllIsJudged) {
+  cases::CaseData whole = wrist_with_vr();
+  whole.structures.clear();
+  for (const auto& tabled : anatomy::StructureTable::generic().structures) {
+    whole.structures.emplace_back();
+    whole.structures.back().id = tabled.id;
+    whole.structures.back().name = tabled.name;
+    whole.structures.back().kind = tabled.kind;
+  }
+  procedure::OperationRecord record = perfect();
+  record.making->asked = {0, 1};
+  record.making->portal[1].strayed_mm = 7.0;
+  EXPECT_GT(harder_item(record, "structures_struck", whole).points, 0.0);
+  const std::string struck = "median nerve";
+  for (std::uint8_t s = 0; s < whole.structures.size(); ++s) {
+    if (whole.structures[s].name == struck) record.structures = {{s, -0.2, true, 0}};
+  }
+  const procedure::ScoreItem item = harder_item(record, "structures_struck", whole);
+  EXPECT_DOUBLE_EQ(item.points, 0.0);
+  EXPECT_NE(item.reason.find(struck), std::string::npos) << item.reason;
 }
 
 TEST(PortalMakingScore, ASheathWithoutANeedleBeforeItEarnsNothingForOne) {
