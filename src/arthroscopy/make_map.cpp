@@ -44,6 +44,21 @@ const Space* space_of(const SoftTissue& tissue, const std::string& id) {
   return nullptr;
 }
 
+/// The radioulnar ligaments are the disc's edges and hide what lies behind them as it does.
+TriangleMesh disc_with_edges(const SoftTissue& tissue) {
+  TriangleMesh whole = tissue.disc.body;
+  if (whole.facets.empty()) return whole;
+  for (const soft_tissue::Ligament& l : tissue.ligaments) {
+    if (l.group != "radioulnar") continue;
+    const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+    whole.vertices.insert(whole.vertices.end(), l.body.vertices.begin(), l.body.vertices.end());
+    for (const Triangle& t : l.body.facets) {
+      whole.facets.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+  }
+  return whole;
+}
+
 class MapMaker {
  public:
   MapMaker(const cases::CaseData& data, const SoftTissue& tissue)
@@ -53,7 +68,7 @@ class MapMaker {
         axes_(data, tissue.size),
         bones_(data, table_.traction_n) {
     map_.forearm = body_of(BoneId::Radius).value_or(0);
-    map_.disc = tissue.disc.body;
+    map_.disc = disc_with_edges(tissue);
     map_.disc_sheet = tissue.disc.middle;
     map_.distal = axes_.way({-1, 0, 0});
   }

@@ -16,6 +16,8 @@ inline TriangleMesh tetrahedron() {
 inline soft_tissue::SoftTissue small_tissue() {
   soft_tissue::SoftTissue tissue;
   tissue.size = 1.03;
+  tissue.deepest_in_other_mm = 0.25;
+  tissue.overlaps = {{"SL_dorsal", "extensor pollicis longus", 0.25}};
   tissue.problems = {"LT_volar: 3.9 mm long"};
   soft_tissue::Ligament l;
   l.id = "SL_dorsal";

@@ -104,6 +104,11 @@ Json header_of(const SoftTissue& tissue) {
   json["size"] = tissue.size;
   json["worst_misfit_mm"] = figure(tissue.worst_misfit_mm);
   json["deepest_in_bone_mm"] = figure(tissue.deepest_in_bone_mm);
+  json["deepest_in_other_mm"] = figure(tissue.deepest_in_other_mm);
+  json["overlaps"] = Json::array();
+  for (const Overlap& o : tissue.overlaps) {
+    json["overlaps"].push_back({{"between", {o.first, o.second}}, {"depth_mm", figure(o.mm)}});
+  }
   json["problems"] = tissue.problems;
   json["materials"] = Json::array();
   for (const Material& m : TissueTable::generic().materials) {

@@ -63,6 +63,11 @@ TEST_F(SoftTissueFolder, ComesBackAsItWas) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->size, tissue.size);
   EXPECT_EQ(back->problems, tissue.problems);
+  EXPECT_EQ(back->deepest_in_other_mm, tissue.deepest_in_other_mm);
+  ASSERT_EQ(back->overlaps.size(), 1U);
+  EXPECT_EQ(back->overlaps[0].first, "SL_dorsal");
+  EXPECT_EQ(back->overlaps[0].second, "extensor pollicis longus");
+  EXPECT_EQ(back->overlaps[0].mm, 0.25);
   const soft_tissue::Strand& s = back->ligaments.at(0).strands.at(0);
   EXPECT_EQ(s.course, tissue.ligaments[0].strands[0].course);
   EXPECT_EQ(s.anchors.at(0).label, 3);

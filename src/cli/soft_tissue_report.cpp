@@ -64,7 +64,11 @@ std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue, const cases
   for (const soft_tissue::Space& s : tissue.spaces) {
     print(out, "%-30s %10.0f %8zu\n", s.name.c_str(), s.volume_mm3, s.surface.facets.size());
   }
-  print(out, "\ndeepest in bone %.3f mm\n", tissue.deepest_in_bone_mm);
+  print(out, "\ndeepest in bone %.3f mm, of one tissue in another %.2f mm\n",
+        tissue.deepest_in_bone_mm, tissue.deepest_in_other_mm);
+  for (const soft_tissue::Overlap& o : tissue.overlaps) {
+    print(out, "%.2f mm in each other: %s, %s\n", o.mm, o.first.c_str(), o.second.c_str());
+  }
   for (const std::string& problem : tissue.problems) out += "problem: " + problem + "\n";
   return out;
 }
@@ -117,10 +121,12 @@ std::string yielding_table(const cases::CaseData& data, const cases::Arthroscopi
 
 std::string soft_tissue_line(const soft_tissue::SoftTissue& tissue) {
   std::string out;
-  print(out, "%zu ligaments, %zu of cartilage, %s, %zu joint spaces; deepest in bone %.2f mm",
+  print(out,
+        "%zu ligaments, %zu of cartilage, %s, %zu joint spaces; deepest in bone %.2f mm; "
+        "%zu pairs of tissues in each other by up to %.2f mm",
         tissue.ligaments.size(), tissue.cartilage.size(),
         tissue.disc.body.facets.empty() ? "no disc" : "disc", tissue.spaces.size(),
-        tissue.deepest_in_bone_mm);
+        tissue.deepest_in_bone_mm, tissue.overlaps.size(), tissue.deepest_in_other_mm);
   return out;
 }
 

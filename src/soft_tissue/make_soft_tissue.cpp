@@ -12,17 +12,21 @@
 #include "soft_tissue/detail/lay_disc.hpp"
 #include "soft_tissue/detail/lay_ligaments.hpp"
 #include "soft_tissue/detail/lay_spaces.hpp"
+#include "soft_tissue/overlaps.hpp"
 
 namespace carpus::soft_tissue {
 namespace {
 
 using detail::LaidLigament;
 using detail::Sheet;
+using detail::SheetBody;
+using detail::SheetDistance;
 using detail::Surroundings;
 
-constexpr double kDeepestMm = 0.1;
 /// Of a range: what is out by less is printed the same.
 constexpr double kRoundingMm = 0.05;
+/// What gives way to others over more than the rest lies where another lies, not beside it.
+constexpr double kLeastOwnShare = 0.5;
 
 std::string text_of(const char* format, const std::string& name, double a, double b, double c) {
   std::array<char, 256> text{};
@@ -81,6 +85,7 @@ class Checks {
     for (const Cartilage& c : tissue_.cartilage) check(c);
     for (const Space& s : tissue_.spaces) closed(s.name, s.surface);
     measure_depths();
+    measure_overlaps();
   }
 
  private:
@@ -137,8 +142,60 @@ class Checks {
     }
   }
 
+  void measure_overlaps() {
+    tissue_.overlaps = overlaps_of(tissue_, bones_.data(), 0);
+    for (const Overlap& o : tissue_.overlaps) {
+      tissue_.deepest_in_other_mm = std::max(tissue_.deepest_in_other_mm, o.mm);
+    }
+    std::erase_if(tissue_.overlaps, [](const Overlap& o) { return o.mm <= kDeepestMm; });
+  }
+
   SoftTissue& tissue_;
   const Surroundings& bones_;
+};
+
+/// The bodies of ligaments and disc. Where two would share room one has it: the radioulnar
+/// ligaments before the disc whose edges they are, all others after it as they come in the table.
+class Bodies {
+ public:
+  Bodies(const std::vector<LaidLigament>& laid,
+         const std::optional<Sheet>& disc,
+         const Surroundings& bones)
+      : bones_(bones) {
+    for (const LaidLigament& l : laid) sheets_.emplace_back(l.sheet);
+    for (std::size_t i = 0; i < laid.size(); ++i) {
+      if (laid[i].ligament.group == kDiscsEdges) order_.push_back(&sheets_[i]);
+    }
+    if (disc) {
+      disc_.emplace(*disc);
+      order_.push_back(&*disc_);
+    }
+    for (std::size_t i = 0; i < laid.size(); ++i) {
+      if (laid[i].ligament.group != kDiscsEdges) order_.push_back(&sheets_[i]);
+    }
+  }
+
+  [[nodiscard]] SheetBody ligament(std::size_t i) const { return made(sheets_[i]); }
+  [[nodiscard]] SheetBody disc() const { return made(*disc_); }
+  /// With its edges, which another tissue may face.
+  [[nodiscard]] SheetBody whole_disc() const { return detail::body_of(*disc_, {&bones_, {}}); }
+
+ private:
+  static constexpr std::string_view kDiscsEdges = "radioulnar";
+
+  [[nodiscard]] SheetBody made(const SheetDistance& sheet) const {
+    detail::Kept kept{&bones_, {}};
+    for (const SheetDistance* other : order_) {
+      if (other == &sheet) break;
+      if (other->box().overlaps(sheet.box())) kept.sheets.push_back(other);
+    }
+    return detail::body_of(sheet, kept);
+  }
+
+  const Surroundings& bones_;
+  std::vector<SheetDistance> sheets_;
+  std::optional<SheetDistance> disc_;
+  std::vector<const SheetDistance*> order_;
 };
 
 }  // namespace
@@ -156,11 +213,18 @@ SoftTissue make_soft_tissue(const cases::CaseData& data,
   progress("ligaments", 0.1);
   const std::optional<Sheet> disc = detail::lay_disc(table.disc, model, bones, tissue.problems);
   std::vector<LaidLigament> laid = detail::lay_ligaments(table, model, bones, tissue.problems);
-  parallel_for(laid.size() + 1, 1, [&](std::size_t begin, std::size_t end) {
+  const Bodies bodies(laid, disc, bones);
+  std::vector<double> own_shares(laid.size());
+  TriangleMesh whole_disc;
+  parallel_for(laid.size() + 2, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (i == laid.size()) {
+      if (i >= laid.size()) {
         if (!disc) continue;
-        detail::SheetBody body = detail::body_of(*disc, bones);
+        if (i > laid.size()) {
+          whole_disc = bodies.whole_disc().body;
+          continue;
+        }
+        SheetBody body = bodies.disc();
         tissue.disc = {disc->middle,
                        std::move(body.body),
                        body.thickness_mm,
@@ -168,17 +232,23 @@ SoftTissue make_soft_tissue(const cases::CaseData& data,
                         table.disc.thickness.range.high * model.size()}};
         continue;
       }
-      detail::SheetBody body = detail::body_of(laid[i].sheet, bones);
+      SheetBody body = bodies.ligament(i);
       laid[i].ligament.body = std::move(body.body);
       laid[i].ligament.measured_thickness_mm = body.thickness_mm;
+      own_shares[i] = body.own_share;
     }
   });
+  for (std::size_t i = 0; i < laid.size(); ++i) {
+    if (own_shares[i] >= kLeastOwnShare) continue;
+    tissue.problems.push_back(text_of("%s: %.0f %% of it lies where others lie",
+                                      laid[i].ligament.id, 100 * (1 - own_shares[i]), 0, 0));
+  }
 
   progress("cartilage", 0.4);
   std::vector<Sheet> sheets;
   for (const LaidLigament& l : laid) sheets.push_back(l.sheet);
   tissue.cartilage =
-      detail::lay_cartilage(table.cartilage, model.size(), bones, tissue.disc.body, sheets);
+      detail::lay_cartilage(table.cartilage, model.size(), bones, whole_disc, sheets);
 
   progress("joint spaces", 0.6);
   const detail::SpaceInput input{&table,           &model, &bones, &laid, disc ? &*disc : nullptr,

@@ -31,6 +31,7 @@ void expect_all_is_there(const SoftTissue& tissue) {
   EXPECT_EQ(tissue.cartilage.size(), 10U);
   EXPECT_EQ(tissue.spaces.size(), 3U);
   EXPECT_LE(tissue.deepest_in_bone_mm, 0.1);
+  EXPECT_LE(tissue.deepest_in_other_mm, 0.1);
   EXPECT_NEAR(tissue.size, 1, 0.02);
   for (const Ligament& l : tissue.ligaments) {
     EXPECT_EQ(check_surface(l.body), SurfaceStatus::Ok) << l.id;
@@ -97,6 +98,7 @@ TEST(MakeSoftTissue, OfTheGenericWristIsWholeOnBothSidesAndGrowsWithTheSize) {
   const SoftTissue right =
       make_soft_tissue(test::model_case(Side::Right, size, rotation_about({0.6, 0.0, 0.8}, 2.0)));
   EXPECT_THAT(right.problems, IsEmpty());
+  EXPECT_LE(right.deepest_in_other_mm, 0.1);
   EXPECT_NEAR(right.size, size, 0.02);
   for (const Ligament& l : right.ligaments) {
     const Ligament* mirrored = find(left, l.id);
@@ -127,6 +129,7 @@ TEST(MakeSoftTissue, FusedAndMissingBonesAreNamedAndTheRestIsMade) {
   EXPECT_EQ(find(tissue, "LRL"), nullptr);
   EXPECT_NE(find(tissue, "RSC"), nullptr);
   EXPECT_FALSE(tissue.disc.body.facets.empty());
+  EXPECT_THAT(tissue.overlaps, IsEmpty());
 }
 
 const Cartilage& of_label(const SoftTissue& tissue, std::uint8_t label) {
@@ -157,6 +160,7 @@ TEST(MakeSoftTissue, CartilageOfADisplacedPieceIsThatOfTheWholeBonePressedWhereI
   const SoftTissue displaced = make_soft_tissue(test::broken_case(3.0, kWornMm));
   for (const Cartilage& c : in_place.cartilage) EXPECT_EQ(c.pressed_area_mm2, 0);
   EXPECT_LE(displaced.deepest_in_bone_mm, 0.1);
+  EXPECT_THAT(displaced.overlaps, IsEmpty());
   EXPECT_THAT(displaced.problems, Not(Contains(HasSubstr("cartilage"))));
   const Cartilage& piece = of_label(displaced, test::kDistalPiece);
   const Cartilage& trapezium = of_label(displaced, static_cast<std::uint8_t>(BoneId::Trapezium));

@@ -82,6 +82,13 @@ struct Space {
   double volume_mm3 = 0;
 };
 
+/// Two tissues that lie in each other.
+struct Overlap {
+  std::string first;
+  std::string second;
+  double mm = 0;  ///< how deep
+};
+
 struct SoftTissue {
   double size = 1;             ///< of the wrist against the generic one
   double worst_misfit_mm = 0;  ///< rms of the worst of the bones' fits
@@ -89,7 +96,11 @@ struct SoftTissue {
   std::vector<Cartilage> cartilage;  ///< in the order of the case's bones
   Disc disc;                         ///< empty where it cannot be attached
   std::vector<Space> spaces;
-  double deepest_in_bone_mm = 0;      ///< of any vertex of any body but cartilage's own bone
+  double deepest_in_bone_mm = 0;  ///< of any vertex of any body but cartilage's own bone
+  /// What lies in each other by more than 0.1 mm, the deepest first; in cases of older programs
+  /// nobody looked.
+  std::vector<Overlap> overlaps;
+  double deepest_in_other_mm = 0;     ///< of any tissue in another
   std::vector<std::string> problems;  ///< in words; empty when all is well
 };
 

@@ -80,15 +80,19 @@ double marked_number(const Json& json) {
   return number_of(json.at("value"), 0, kStiffest);
 }
 
+void require_before(const std::string& id, const TissueTable& before) {
+  const bool is_known = std::any_of(before.ligaments.begin(), before.ligaments.end(),
+                                    [&](const TabledLigament& l) { return l.id == id; });
+  if (!is_known) throw InvalidInput("no ligament '" + id + "' comes before it");
+}
+
 TabledAttachment attachment_of(const Json& json, const TissueTable& before) {
   TabledAttachment a;
   require_mark(json);
   if (json.contains("ligament")) {
     refuse_unknown(json, {"ligament", "fraction", "half_width_mm", "mark"});
     a.ligament = json.at("ligament").get<std::string>();
-    const bool is_known = std::any_of(before.ligaments.begin(), before.ligaments.end(),
-                                      [&](const TabledLigament& l) { return l.id == a.ligament; });
-    if (!is_known) throw InvalidInput("no ligament '" + a.ligament + "' comes before it");
+    require_before(a.ligament, before);
     a.fraction = number_of(json.at("fraction"), 0, 1);
     a.half_width_mm = number_of(json.at("half_width_mm"), 0.1, 20);
     return a;
@@ -110,7 +114,7 @@ TabledAttachment attachment_of(const Json& json, const TissueTable& before) {
 
 TabledLigament ligament_of(const Json& json, const TissueTable& before) {
   refuse_unknown(json, {"id", "name", "group", "side", "strands", "length_mm", "thickness_mm",
-                        "stiffness_n_per_mm", "strength_n", "attachments"});
+                        "stiffness_n_per_mm", "strength_n", "over", "over_mark", "attachments"});
   TabledLigament l;
   l.id = json.at("id").get<std::string>();
   l.name = json.at("name").get<std::string>();
@@ -127,6 +131,11 @@ TabledLigament ligament_of(const Json& json, const TissueTable& before) {
   l.thickness = thickness_of(json.at("thickness_mm"));
   l.stiffness_n_per_mm = marked_number(json.at("stiffness_n_per_mm"));
   if (json.contains("strength_n")) l.strength_n = marked_number(json.at("strength_n"));
+  if (json.contains("over")) {
+    require_mark(json, "over_mark");
+    l.over = json.at("over").get<std::vector<std::string>>();
+    for (const std::string& id : l.over) require_before(id, before);
+  }
   for (const Json& a : json.at("attachments")) {
     l.attachments.push_back(attachment_of(a, before));
   }

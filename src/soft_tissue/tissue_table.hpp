@@ -59,6 +59,7 @@ struct TabledLigament {
   double stiffness_n_per_mm = 0;  ///< of the whole ligament
   std::optional<double> strength_n;
   std::vector<TabledAttachment> attachments;  ///< in order along the ligament
+  std::vector<std::string> over;              ///< ligaments upon which it lies, where they cross
 };
 
 struct TabledDisc {
@@ -103,7 +104,9 @@ struct TabledSpace {
 
 struct TissueTable {
   std::vector<Material> materials;
-  std::vector<TabledLigament> ligaments;  ///< what attaches to another comes after it
+  /// What attaches to another or lies over it comes after it. Where two would share room the
+  /// earlier one has it.
+  std::vector<TabledLigament> ligaments;
   TabledDisc disc;
   TabledRecess recess;
   TabledCartilage cartilage;

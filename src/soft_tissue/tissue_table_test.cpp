@@ -50,6 +50,8 @@ TEST(TissueTable, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(refusal_of("\"bone\": \"scaphoid\"", "\"bone\": \"navicular\""),
               HasSubstr("navicular"));
   EXPECT_THAT(refusal_of("\"ligament\": \"VRUL\"", "\"ligament\": \"SL\""), HasSubstr("UL"));
+  EXPECT_THAT(refusal_of("\"over\": [\"SL_volar\"", "\"over\": [\"TT\""),
+              HasSubstr("no ligament 'TT' comes before it"));
   EXPECT_THAT(refusal_of("\"schema_version\": 1", "\"schema_version\": 2"),
               HasSubstr("schema_version"));
   EXPECT_THAT(refusal_of("\"mark\": \"[E]", "\"mark\": \"\", \"x\": \"[E]"), HasSubstr("x"));

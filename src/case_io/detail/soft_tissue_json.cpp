@@ -164,6 +164,13 @@ SoftTissue tissue_from(const ReadMesh& read, const Json& json) {
   tissue.size = number_within(json.at("size"), 0.1, 10);
   tissue.worst_misfit_mm = length_from(json.at("worst_misfit_mm"));
   tissue.deepest_in_bone_mm = length_from(json.at("deepest_in_bone_mm"));
+  if (json.contains("overlaps")) {  // older ones do not tell
+    tissue.deepest_in_other_mm = length_from(json.at("deepest_in_other_mm"));
+    tissue.overlaps = list_from<Overlap>(json.at("overlaps"), 4096, [](const Json& entry) {
+      const auto between = entry.at("between").get<std::array<std::string, 2>>();
+      return Overlap{between[0], between[1], length_from(entry.at("depth_mm"))};
+    });
+  }
   tissue.problems = list_from<std::string>(
       json.at("problems"), 1024, [](const Json& text) { return text.get<std::string>(); });
   tissue.ligaments = list_from<Ligament>(json.at("ligaments"), kMostBodies, [&](const Json& entry) {

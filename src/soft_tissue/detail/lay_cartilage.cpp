@@ -19,7 +19,7 @@ namespace carpus::soft_tissue::detail {
 namespace {
 
 constexpr double kOpposed = 0.5;  ///< cosine: normals against each other, and towards
-constexpr double kFromLigamentMm = 0.0;
+constexpr double kFromLigamentMm = 0.1;
 constexpr double kEdgeMm = 0.6;  ///< over which it rises beside a ligament
 constexpr double kLeastLevel = 0.02;
 constexpr double kThinnestMm = 0.05;
@@ -283,12 +283,26 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
       smooth_values(mask, neighbours, kSmoothings);
       drop_small(mask, surface, neighbours, tabled.least_area_mm2 * size * size);
       std::vector<double> level(mask.size());
+      // A ligament may overhang: no more than the way to it.
+      std::vector<double> to_ligament(mask.size(), thickness.mm * size + kEdgeMm);
       for (std::size_t v = 0; v < mask.size(); ++v) {
         level[v] = std::min(1.0, (mask[v] - 0.5) / (kFullShare - 0.5));
         if (level[v] <= 0) continue;
         for (const SheetDistance& cover : covers) {
-          const double away = cover.mm(surface.vertices[v], kFromLigamentMm + kEdgeMm);
+          const double away = cover.mm(surface.vertices[v], to_ligament[v]);
+          to_ligament[v] = std::min(to_ligament[v], away);
           level[v] = std::min(level[v], (away - kFromLigamentMm) / kEdgeMm);
+        }
+      }
+      // Nor may a facet reach into one between its corners.
+      for (std::size_t v = 0; v < mask.size(); ++v) {
+        for (const std::uint32_t n : neighbours[v]) {
+          if (level[v] <= 0 && level[n] <= 0) continue;
+          const Vec3 between = (surface.vertices[v] + surface.vertices[n]) * 0.5;
+          double away = std::max(to_ligament[v], to_ligament[n]);
+          for (const SheetDistance& cover : covers) away = cover.mm(between, away);
+          to_ligament[v] = std::min(to_ligament[v], away);
+          to_ligament[n] = std::min(to_ligament[n], away);
         }
       }
       // A level of nearly nothing would make slivers.
@@ -324,8 +338,9 @@ std::vector<Cartilage> lay_cartilage(const TabledCartilage& tabled,
       double whole = 0;
       for (std::size_t v = 0; v < mask.size(); ++v) {
         if (level[v] <= 0) continue;
-        const double mm = std::max(kThinnestMm, level[v] * lying[v]);
-        const double unpressed_mm = std::max(kThinnestMm, level[v] * grown[v]);
+        const double most = std::min(level[v] * grown[v], to_ligament[v] - kFromLigamentMm);
+        const double unpressed_mm = std::max(kThinnestMm, most);
+        const double mm = std::max(kThinnestMm, std::min(level[v] * lying[v], most));
         c.vertex_thickness_mm[v] = static_cast<float>(mm);
         c.area_mm2 += areas[v];
         c.greatest_thickness_mm = std::max(c.greatest_thickness_mm, unpressed_mm);

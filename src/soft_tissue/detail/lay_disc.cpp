@@ -69,7 +69,9 @@ std::optional<Sheet> lay_disc(const TabledDisc& tabled,
       fixed[r].push_back(is_end);
     }
   }
-  settle(rows, rooms, fixed, bones, kPasses, kAcross);
+  settle(
+      rows, rooms, fixed,
+      [&](const Vec3& p, double room_mm) { return bones.with_room(p, room_mm); }, kPasses, kAcross);
   return sheet_of(rows, halves);
 }
 

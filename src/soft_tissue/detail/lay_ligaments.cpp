@@ -52,6 +52,38 @@ double taper(double from_end_mm, double length_mm) {
   return kThinEnd + (1 - kThinEnd) * t;
 }
 
+/// A ligament upon which another lies.
+class Under {
+ public:
+  Under(const Sheet& sheet, const Surroundings& bones) : sheet_(sheet), middle_(sheet.middle) {
+    double outwards = 0;
+    for (std::uint32_t f = 0; f < middle_.facets.size(); ++f) {
+      const Vec3& at = middle_.vertices[middle_.facets[f][0]];
+      outwards += dot(facet_normal(middle_, f), bones.near(at).outwards);
+    }
+    away_from_bone_ = outwards < 0 ? -1 : 1;
+  }
+
+  /// The point moved away from bone until the ligament leaves it so much room; beside the
+  /// ligament's edge, which is round, by less.
+  [[nodiscard]] Vec3 over(const Vec3& point, double room_mm) const {
+    const auto near = sheet_.nearest(point, room_mm);
+    if (!near) return point;
+    const double apart = near->half_mm + room_mm;
+    const Vec3 way = point - near->point;
+    const Vec3 normal = facet_normal(middle_, near->facet) * away_from_bone_;
+    const double above = dot(way, normal);
+    const double beside = std::max(0.0, squared_length(way) - above * above);
+    if (beside >= apart * apart) return point;
+    return point + normal * std::max(0.0, std::sqrt(apart * apart - beside) - above);
+  }
+
+ private:
+  SheetDistance sheet_;
+  TriangleMesh middle_;
+  double away_from_bone_ = 1;  ///< sign of the facets' normals
+};
+
 class Laying {
  public:
   Laying(const TabledLigament& tabled,
@@ -74,7 +106,7 @@ class Laying {
       }
     }
     draw();
-    settle(rows_, rooms_, is_fixed_, bones_, kPasses, kAcross);
+    settle_over(under_ligaments());
     return result();
   }
 
@@ -140,6 +172,24 @@ class Laying {
     }
     if (tabled.bone) m.width = tabled.along ? model_.way(*tabled.bone, *tabled.along) : sideways;
     if (dot(m.width, sideways) < 0) m.width = -m.width;
+  }
+
+  [[nodiscard]] std::vector<Under> under_ligaments() const {
+    std::vector<Under> unders;
+    for (const LaidLigament& l : before_) {
+      if (std::find(tabled_.over.begin(), tabled_.over.end(), l.ligament.id) != tabled_.over.end())
+        unders.emplace_back(l.sheet, bones_);
+    }
+    return unders;
+  }
+
+  void settle_over(const std::vector<Under>& unders) {
+    const auto with_room = [&](const Vec3& p, double room_mm) {
+      Vec3 lifted = bones_.with_room(p, room_mm);
+      for (const Under& under : unders) lifted = under.over(lifted, room_mm);
+      return lifted;
+    };
+    settle(rows_, rooms_, is_fixed_, with_room, kPasses, kAcross);
   }
 
   [[nodiscard]] double half_at_end() const {
@@ -262,9 +312,21 @@ class Laying {
   std::vector<std::vector<double>> rooms_;
 };
 
-bool begins_on_another(const TabledLigament& l) {
-  return std::any_of(l.attachments.begin(), l.attachments.end(),
-                     [](const TabledAttachment& a) { return !a.bone; });
+/// How many ligaments, one on the other, come before each.
+std::vector<std::size_t> ranks_of(const std::vector<TabledLigament>& ligaments) {
+  std::vector<std::size_t> ranks(ligaments.size());
+  for (std::size_t i = 0; i < ligaments.size(); ++i) {
+    const TabledLigament& l = ligaments[i];
+    for (std::size_t k = 0; k < i; ++k) {
+      const std::string& id = ligaments[k].id;
+      const bool is_on = std::any_of(l.attachments.begin(), l.attachments.end(),
+                                     [&](const auto& a) { return a.ligament == id; });
+      if (is_on || std::find(l.over.begin(), l.over.end(), id) != l.over.end()) {
+        ranks[i] = std::max(ranks[i], ranks[k] + 1);
+      }
+    }
+  }
+  return ranks;
 }
 
 }  // namespace
@@ -272,7 +334,7 @@ bool begins_on_another(const TabledLigament& l) {
 void settle(std::vector<std::vector<Vec3>>& rows,
             const std::vector<std::vector<double>>& room_mm,
             const std::vector<std::vector<bool>>& is_fixed,
-            const Surroundings& bones,
+            const WithRoom& with_room,
             int passes,
             double across) {
   for (int pass = 0; pass < passes; ++pass) {
@@ -285,7 +347,7 @@ void settle(std::vector<std::vector<Vec3>>& rows,
         if (r > 0 && r + 1 < rows.size()) {
           drawn += ((before[r - 1][i] + before[r + 1][i]) * 0.5 - p) * across;
         }
-        rows[r][i] = bones.with_room(p + drawn, room_mm[r][i]);
+        rows[r][i] = with_room(p + drawn, room_mm[r][i]);
       }
     }
   }
@@ -298,18 +360,19 @@ std::vector<LaidLigament> lay_ligaments(const TissueTable& table,
   const std::size_t count = table.ligaments.size();
   std::vector<std::optional<LaidLigament>> laid(count);
   std::vector<std::string> reasons(count);
-  std::vector<LaidLigament> done;
-  for (const bool is_second : {false, true}) {
-    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (begins_on_another(table.ligaments[i]) != is_second) continue;
-        laid[i] = Laying(table.ligaments[i], model, bones, done).lay(reasons[i]);
-      }
-    });
-    if (is_second) break;
+  const std::vector<std::size_t> ranks = ranks_of(table.ligaments);
+  const std::size_t highest = ranks.empty() ? 0 : *std::max_element(ranks.begin(), ranks.end());
+  for (std::size_t rank = 0; rank <= highest; ++rank) {
+    std::vector<LaidLigament> done;
     for (const auto& l : laid) {
       if (l) done.push_back(*l);
     }
+    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (ranks[i] != rank) continue;
+        laid[i] = Laying(table.ligaments[i], model, bones, done).lay(reasons[i]);
+      }
+    });
   }
   std::vector<LaidLigament> all;
   for (std::size_t i = 0; i < count; ++i) {

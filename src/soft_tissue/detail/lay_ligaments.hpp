@@ -5,6 +5,7 @@
 // and the bands that they make.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,15 @@ struct LaidLigament {
                                                       const Surroundings& bones,
                                                       std::vector<std::string>& problems);
 
-/// Lets rows of points draw themselves straight, out of all bones by their rooms; what is fixed
-/// stays. `across` is how much neighbouring rows keep together.
+/// The point moved out of what is in its way until it has so much room.
+using WithRoom = std::function<Vec3(const Vec3& point, double room_mm)>;
+
+/// Lets rows of points draw themselves straight, out of what is in their way by their rooms; what
+/// is fixed stays. `across` is how much neighbouring rows keep together.
 void settle(std::vector<std::vector<Vec3>>& rows,
             const std::vector<std::vector<double>>& room_mm,
             const std::vector<std::vector<bool>>& is_fixed,
-            const Surroundings& bones,
+            const WithRoom& with_room,
             int passes,
             double across);
 

@@ -82,7 +82,7 @@ class Carving {
     grid_ = grid_about(box.grown(reach_ + kPadMm), in_.table->voxel_mm * in_.model->size());
     inner_ = box;
     const Grid<float> values = values_of();
-    space.surface = smooth_surface(values, *in_.bones, kSimplifyMm);
+    space.surface = smooth_surface(values, {in_.bones, {}}, kSimplifyMm);
     space.volume_mm3 = space.surface.facets.empty() ? 0 : volume_of(space.surface);
     for (const Vec3& v : space.surface.vertices) space.lining.push_back(lining_at(v));
     return space;

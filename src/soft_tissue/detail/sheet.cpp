@@ -20,6 +20,8 @@ constexpr double kFarMm = 1.0;
 constexpr double kClearanceMm = 0.02;
 constexpr double kSimplifyMm = 0.03;
 constexpr double kProbeMm = 0.05;
+/// Not worth a push [mm].
+constexpr double kEnoughMm = 0.01;
 
 /// Weights of the corners of a triangle at a point on it.
 Vec3 weights_at(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -65,10 +67,9 @@ TriangleMesh largest_piece(const TriangleMesh& mesh) {
   return piece;
 }
 
-/// How thick the body is across the sheet at the middle of each facet.
-double median_thickness(const Sheet& sheet,
-                        const SheetDistance& distance,
-                        const Surroundings& bones) {
+/// How thick the body is across the sheet at the middle of each facet that has its room.
+std::vector<double> thicknesses_of(const SheetDistance& distance, const Kept& kept) {
+  const Sheet& sheet = distance.sheet();
   std::vector<double> found;
   const double farthest = 2 * *std::max_element(sheet.half_mm.begin(), sheet.half_mm.end());
   for (std::uint32_t f = 0; f < sheet.middle.facets.size(); ++f) {
@@ -76,22 +77,30 @@ double median_thickness(const Sheet& sheet,
     const Vec3 middle =
         (sheet.middle.vertices[t[0]] + sheet.middle.vertices[t[1]] + sheet.middle.vertices[t[2]]) /
         3.0;
+    const bool has_room =
+        std::none_of(kept.sheets.begin(), kept.sheets.end(),
+                     [&](const SheetDistance* s) { return s->mm(middle, kFarMm) < kClearanceMm; });
+    if (!has_room) continue;
     const Vec3 normal = facet_normal(sheet.middle, f);
     double thickness = 0;
     for (const double sign : {1.0, -1.0}) {
       double way = 0;
       while (way < farthest) {
         const Vec3 p = middle + normal * (sign * (way + kProbeMm / 2));
-        if (distance.mm(p, kFarMm) > 0 || bones.near(p).distance_mm < kClearanceMm) break;
+        if (distance.mm(p, kFarMm) > 0 || kept.near_mm(p) < kClearanceMm) break;
         way += kProbeMm;
       }
       thickness += way;
     }
     found.push_back(thickness);
   }
-  if (found.empty()) return 0;
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-  std::nth_element(found.begin(), middle, found.end());
+  return found;
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
@@ -122,16 +131,52 @@ SheetDistance::SheetDistance(const Sheet& sheet)
       thickest_half_(*std::max_element(sheet.half_mm.begin(), sheet.half_mm.end())),
       box_(bounds_of(sheet.middle.vertices).grown(thickest_half_)) {}
 
-double SheetDistance::mm(const Vec3& point, double limit_mm) const {
-  if (!box_.grown(limit_mm).contains(point)) return limit_mm;
+std::optional<SheetDistance::Near> SheetDistance::nearest(const Vec3& point,
+                                                          double limit_mm) const {
+  if (!box_.grown(limit_mm).contains(point)) return std::nullopt;
   const auto hit = tree_.nearest(point, limit_mm + thickest_half_);
-  if (!hit) return limit_mm;
+  if (!hit) return std::nullopt;
   const Triangle& t = sheet_.middle.facets[hit->facet];
   const auto& v = sheet_.middle.vertices;
   const Vec3 w = weights_at(hit->point, v[t[0]], v[t[1]], v[t[2]]);
   const double half =
       w.x * sheet_.half_mm[t[0]] + w.y * sheet_.half_mm[t[1]] + w.z * sheet_.half_mm[t[2]];
-  return std::min(limit_mm, std::sqrt(hit->squared_distance) - half);
+  const double away = std::sqrt(hit->squared_distance);
+  if (away - half > limit_mm) return std::nullopt;
+  return Near{hit->point, away, half, hit->facet};
+}
+
+double SheetDistance::mm(const Vec3& point, double limit_mm) const {
+  const auto near = nearest(point, limit_mm);
+  return near ? near->away_mm - near->half_mm : limit_mm;
+}
+
+double Kept::near_mm(const Vec3& point) const {
+  double mm = bones->near(point).distance_mm;
+  for (const SheetDistance* s : sheets) mm = std::min(mm, s->mm(point, kFarMm));
+  return mm;
+}
+
+Vec3 Kept::out_of(Vec3 point, double room_mm) const {
+  constexpr int kPushes = 6;
+  for (int push = 0; push < kPushes; ++push) {
+    point = bones->with_exact_room(point, room_mm);
+    const SheetDistance* deepest = nullptr;
+    double least = room_mm - kEnoughMm;
+    for (const SheetDistance* s : sheets) {
+      const double mm = s->mm(point, kFarMm);
+      if (mm >= least) continue;
+      least = mm;
+      deepest = s;
+    }
+    if (deepest == nullptr) break;
+    const auto near = deepest->nearest(point, kFarMm);
+    // On the middle itself either side is as near.
+    const Vec3 out =
+        normalized_or(point - near->point, facet_normal(deepest->sheet().middle, near->facet));
+    point += out * (room_mm - least);
+  }
+  return bones->with_exact_room(point, room_mm);
 }
 
 GridGeometry grid_about(const Aabb& box, double voxel_mm) {
@@ -149,19 +194,18 @@ namespace {
 
 /// Over a sharp rim of bone a facet may cut although its corners do not: they are pushed on by what
 /// its middle lacks.
-void lift_facets(TriangleMesh& surface, const Surroundings& bones) {
+void lift_facets(TriangleMesh& surface, const Kept& kept) {
   constexpr int kRounds = 3;
-  constexpr double kEnoughMm = 0.01;
   for (int round = 0; round < kRounds; ++round) {
     bool was_lifted = false;
     for (const Triangle& t : surface.facets) {
       const Vec3 middle =
           (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3.0;
-      const Vec3 lift = bones.with_exact_room(middle, 0) - middle;
+      const Vec3 lift = kept.out_of(middle, 0) - middle;
       if (length(lift) < kEnoughMm) continue;
       was_lifted = true;
       for (const std::uint32_t v : t) {
-        surface.vertices[v] = bones.with_exact_room(surface.vertices[v] + lift, kClearanceMm);
+        surface.vertices[v] = kept.out_of(surface.vertices[v] + lift, kClearanceMm);
       }
     }
     if (!was_lifted) break;
@@ -170,9 +214,7 @@ void lift_facets(TriangleMesh& surface, const Surroundings& bones) {
 
 }  // namespace
 
-TriangleMesh smooth_surface(const Grid<float>& values,
-                            const Surroundings& bones,
-                            double simplify_mm) {
+TriangleMesh smooth_surface(const Grid<float>& values, const Kept& kept, double simplify_mm) {
   // Marching cubes takes higher values as inside.
   Grid<float> inside = values;
   for (float& v : inside.values()) v = -v;
@@ -183,13 +225,12 @@ TriangleMesh smooth_surface(const Grid<float>& values,
   smoothing.restores_volume = false;
   surface = mesh::smooth(largest_piece(surface), smoothing);
   surface = mesh::simplify(surface, {0, simplify_mm}).mesh;
-  for (Vec3& v : surface.vertices) v = bones.with_exact_room(v, kClearanceMm);
-  lift_facets(surface, bones);
+  for (Vec3& v : surface.vertices) v = kept.out_of(v, kClearanceMm);
+  lift_facets(surface, kept);
   return surface;
 }
 
-SheetBody body_of(const Sheet& sheet, const Surroundings& bones) {
-  const SheetDistance distance(sheet);
+SheetBody body_of(const SheetDistance& distance, const Kept& kept) {
   Grid<float> values(grid_about(distance.box().grown(2 * kVoxelMm), kVoxelMm));
   const GridGeometry& g = values.geometry();
   for (std::size_t i = 0; i < g.voxel_count(); ++i) {
@@ -197,12 +238,15 @@ SheetBody body_of(const Sheet& sheet, const Surroundings& bones) {
     const Vec3 p = g.patient_from_voxel(
         {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
     double value = distance.mm(p, kFarMm);
-    if (value < kFarMm) value = std::max(value, kClearanceMm - bones.near(p).distance_mm);
+    if (value < kFarMm) value = std::max(value, kClearanceMm - kept.near_mm(p));
     values[i] = static_cast<float>(value);
   }
   SheetBody result;
-  result.body = smooth_surface(values, bones, kSimplifyMm);
-  result.thickness_mm = median_thickness(sheet, distance, bones);
+  result.body = smooth_surface(values, kept, kSimplifyMm);
+  const std::vector<double> thicknesses = thicknesses_of(distance, kept);
+  result.thickness_mm = median_of(thicknesses);
+  result.own_share = static_cast<double>(thicknesses.size()) /
+                     static_cast<double>(distance.sheet().middle.facets.size());
   return result;
 }
 
