@@ -131,7 +131,7 @@ export async function makesPortals(browser, station) {
     const { ways } = await skin();
     expect(ways.length === 1 && ways[0].id === "3-4", `portals: ${JSON.stringify(ways)}`);
     const isIn = async () => (await told())?.in_joint[0] === 1;
-    const end = Date.now() + PATIENCE_MS;
+    const end = Date.now() + 3 * PATIENCE_MS; // two pictures are drawn meanwhile, on a slow machine slowly
     await page.keyboard.down("a");
     while (!(await isIn()) && Date.now() < end) await page.waitForTimeout(20);
     await page.keyboard.up("a");
