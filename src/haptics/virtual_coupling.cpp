@@ -18,6 +18,10 @@ void VirtualCoupling::release(const Vec3& hand) noexcept {
   has_hand_ = is_finite(hand);
 }
 
+void VirtualCoupling::let_go() noexcept {
+  if (stored_n_mm_ < kUsedUpNMm) stored_n_mm_ = kFirstStoredNMm;
+}
+
 Vec3 VirtualCoupling::force_n(const Vec3& proxy, const Vec3& hand, double limit_n) noexcept {
   if (!is_finite(proxy) || !is_finite(hand)) {
     ++faults_;

@@ -4,7 +4,8 @@
 // The force law: a virtual coupling [colgate1995coupling] between the hand and the place where its
 // instrument may be (the proxy [zilles1995godobject]), a spring and a damper, never stronger than
 // the limit, and passive by an energy account [hannaford2002passivity]: whatever the proxy does,
-// the hand never gets back more work than it put in and the account's first kFirstStoredNMm.
+// the hand never gets back more work than it put in and the account's first kFirstStoredNMm, and as
+// much again each time that it is let go with an account that is used up.
 //
 // The account E holds that first store and what the hand put in less what it got. In the next tick
 // the force f does at most |f| w of work on the hand, w = max(0, d.f/|f| + kMostSurpriseMm), where
@@ -30,6 +31,9 @@ inline constexpr double kForceLimitN = 40.0;
 /// 20 microjoules: a tenth of what a key of a keyboard gives back [E].
 inline constexpr double kFirstStoredNMm = 0.02;
 
+/// Less in store lets no force begin: a hundredth of a newton could not be answered for.
+inline constexpr double kUsedUpNMm = 0.0005;
+
 /// 50 m/s2 over a tick of 1 ms, ten times what a hand reaches in a fast tap [E].
 inline constexpr double kMostSurpriseMm = 0.05;
 
@@ -43,6 +47,10 @@ class VirtualCoupling {
 
   /// No force, and nothing stored: an empty hand, a paused or stalled exercise. @param hand  [mm].
   void release(const Vec3& hand) noexcept;
+
+  /// Nothing holds the hand: an account that the proxy's own moves have used up begins anew with
+  /// its first store. Else no force could ever begin again, as none is felt against which to work.
+  void let_go() noexcept;
 
   /// What the hand has put in and not got back [N mm]; not negative.
   [[nodiscard]] double stored_n_mm() const noexcept { return stored_n_mm_; }

@@ -80,6 +80,30 @@ TEST(VirtualCoupling, ASteadyPushIsAnsweredByTheSpring) {
   EXPECT_GT(coupling.stored_n_mm(), 1.0);
 }
 
+/// What holds the tip moves by itself and uses up the account: a hand that is free again and then
+/// presses on something must feel it.
+TEST(VirtualCoupling, AnAccountThatIsUsedUpBeginsAnewInTheFree) {
+  VirtualCoupling coupling;
+  Vec3 hand{0, 0, 0};
+  // Pushed back again and again by a proxy that goes ahead of it, without ever pressing.
+  double proxy = 0;
+  for (int tick = 0; tick < 4000; ++tick) {
+    proxy = hand.x + 0.2;
+    hand.x += 0.01;
+    (void)coupling.force_n({proxy, 0, 0}, hand, kForceLimitN);
+  }
+  EXPECT_LT(coupling.stored_n_mm(), kUsedUpNMm);
+  const double wall = hand.x;
+  (void)coupling.force_n(hand, hand, kForceLimitN);
+  coupling.let_go();
+  Vec3 force;
+  for (int tick = 0; tick < 400; ++tick) {
+    hand.x = std::max(wall - 1.5, hand.x - 0.01);
+    force = coupling.force_n({wall, 0, 0}, hand, kForceLimitN);
+  }
+  EXPECT_NEAR(force.x, 1.5 * kContactStiffnessNPerMm, 1e-9);
+}
+
 TEST(VirtualCoupling, IsNeverStrongerThanItsLimit) {
   VirtualCoupling coupling;
   Vec3 force;

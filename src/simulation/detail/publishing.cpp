@@ -89,6 +89,8 @@ void World::State::publish_hand(const Model& model, std::size_t hand) noexcept {
   // The hand is tied to where its instrument could go: free, to beside the bone; in bone to its
   // line, along which it goes as far as the bone lets it.
   view.force_in_patient = held.coupling.force_n(item->tip, wish, haptics::kForceLimitN);
+  // In joints walls and tissue move a tip by themselves; recordings of bone keep their forces.
+  if (enters_joints(model, *item) && item->tip == wish) held.coupling.let_go();
   view.force_in_patient += hook_force(model, hand);
   scope_state.felt[hand] = view.force_in_patient;
   faults.forces_zeroed += held.coupling.take_faults();
