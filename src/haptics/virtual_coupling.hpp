@@ -31,7 +31,7 @@ inline constexpr double kForceLimitN = 40.0;
 /// 20 microjoules: a tenth of what a key of a keyboard gives back [E].
 inline constexpr double kFirstStoredNMm = 0.02;
 
-/// Less in store lets no force begin: a hundredth of a newton could not be answered for.
+/// Less in store lets no force begin: a hundredth of a newton could not be answered for [E].
 inline constexpr double kUsedUpNMm = 0.0005;
 
 /// 50 m/s2 over a tick of 1 ms, ten times what a hand reaches in a fast tap [E].

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 
 #include "instruments/instrument.hpp"
 #include "session/scope_message.hpp"

@@ -125,7 +125,7 @@ inline constexpr std::size_t kMaxCuts = 8;
 struct OwnWayView {
   std::uint8_t portal = 0;  ///< in ArthroscopicMap::portals
   std::uint8_t joint = 0;   ///< in ArthroscopicMap::joints: the one that it leads into
-  Vec3 skin;
+  Vec3 skin;                ///< [mm]
   Vec3 inwards;             ///< unit
   double capsule_mm = 0.0;  ///< from the skin
   bool operator==(const OwnWayView&) const = default;

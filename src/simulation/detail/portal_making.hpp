@@ -50,7 +50,7 @@ struct UnderSkin {
 /// The way by which a sheath came into a joint first. Frame Bone of the body that the portal goes
 /// with.
 struct OwnWay {
-  Vec3 skin;
+  Vec3 skin;                ///< [mm]
   Vec3 inwards{0, 0, -1};   ///< unit
   double capsule_mm = 0.0;  ///< from the skin
   std::uint8_t joint = 0;   ///< that it came into: not always the portal's
