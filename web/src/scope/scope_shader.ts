@@ -98,6 +98,10 @@ float power28(float x) {
   float x4 = x * x * x * x, x8 = x4 * x4;
   return x4 * x8 * x8 * x8;
 }
+float power420(float x) {
+  float x28 = power28(x), x56 = x28 * x28, x112 = x56 * x56;
+  return x28 * x56 * x112 * x112 * x112;
+}
 const mat3 ASLANT = mat3(0.36, 0.48, -0.80, -0.80, 0.60, 0.0, 0.48, 0.64, 0.60);
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
 ${LESIONS_GLSL}
@@ -123,12 +127,15 @@ void main() {
   float red = 1.0 - known;
 
   vec3 cartilage = mix(vec3(0.80, 0.83, 0.82), vec3(0.93, 0.90, 0.83), soft);
-  vec3 disc = mix(vec3(0.80, 0.72, 0.56), vec3(0.93, 0.88, 0.76), cloudy(vAt * 1.7));
+  vec3 disc = vec3(0.80, 0.72, 0.56);
+  for (int i = ifAny(w.y); i > 0; --i) disc = mix(disc, vec3(0.93, 0.88, 0.76), cloudy(vAt * 1.7));
   vec3 bone = mix(vec3(0.80, 0.68, 0.50), vec3(0.86, 0.76, 0.60), soft);
   // Bundles of fibres: long along a ligament's strands, narrow across; they lie in the tissue and go with it.
   vec2 weave = vFibre.xy + 0.35 * (soft - 0.5);
-  float bundle = 0.6 * noise(vec3(2.6 * weave.x, 0.25 * weave.y, 0.5)) +
-    0.4 * noise(vec3(5.2 * weave.x, 0.4 * weave.y, 3.7));
+  float bundle = 0.5;
+  for (int i = ifAny(w.z); i > 0; --i)
+    bundle = 0.6 * noise(vec3(2.6 * weave.x, 0.25 * weave.y, 0.5)) +
+      0.4 * noise(vec3(5.2 * weave.x, 0.4 * weave.y, 3.7));
   // None between two ligaments, nor where they are crowded, nor finer than the picture's points.
   vec2 pace = fwidth(vAt.xy) + fwidth(vAt.yz);
   float crowded = length(fwidth(vFibre.xy)) / max(length(pace), 1e-6);
@@ -136,9 +143,12 @@ void main() {
   bundle = mix(0.5, bundle, smoothstep(0.0, 0.8, vFibre.z));
   vec3 ligament = mix(vec3(0.70, 0.56, 0.43), vec3(0.94, 0.88, 0.78), smoothstep(0.2, 0.75, bundle));
   // Synovium with its vessels: thin ridges of noise.
-  float ridge = 1.0 - abs(2.0 * noise(vAt * 1.5 + 2.0 * soft) - 1.0);
-  float twig = 1.0 - abs(2.0 * noise(vAt * 2.9 + 11.0) - 1.0);
-  float vessel = 0.8 * smoothstep(0.955, 0.998, ridge) + 0.5 * smoothstep(0.94, 0.995, twig);
+  float vessel = 0.0;
+  for (int i = ifAny(red); i > 0; --i) {
+    float ridge = 1.0 - abs(2.0 * noise(vAt * 1.5 + 2.0 * soft) - 1.0);
+    float twig = 1.0 - abs(2.0 * noise(vAt * 2.9 + 11.0) - 1.0);
+    vessel = 0.8 * smoothstep(0.955, 0.998, ridge) + 0.5 * smoothstep(0.94, 0.995, twig);
+  }
   // Its grid aslant and bent: straight, it would be seen in the glints.
   float villi = noise(ASLANT * vAt * 3.4 + 1.6 * (soft - 0.5));
   vec3 synovium = mix(vec3(0.66, 0.25, 0.19), vec3(0.90, 0.62, 0.50), 0.55 * soft + 0.45 * villi);
@@ -170,7 +180,8 @@ void main() {
   float wet = 1.0;
   paintLesions(albedo, rough, wet);
   // Where a shaver took the disc away: its cut edge, and beneath it the cartilage of the ulna's head.
-  float cut = vGone + 0.30 * (noise(vRest * 4.0) - 0.5) * step(0.01, vGone);
+  float cut = vGone;
+  for (int i = ifAny(vGone - 0.01); i > 0; --i) cut += 0.30 * (noise(vRest * 4.0) - 0.5);
   float edge = smoothstep(0.14, 0.30, cut) * (1.0 - smoothstep(0.55, 0.75, cut));
   float under = smoothstep(0.55, 0.75, cut);
   albedo = mix(albedo, mix(vec3(0.95, 0.90, 0.76), vec3(0.98, 0.97, 0.92), grain), edge);
@@ -206,10 +217,10 @@ void main() {
   colour += 0.3 * e * isMetal * (1.0 - vLining.w) * power5(nh);
   // A film of fluid over all of it, uneven: a small hard glare.
   vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
-  float coat = pow(max(dot(film, h), 0.0), 420.0);
+  float coat = power420(max(dot(film, h), 0.0));
   // The fibres end in two crescents beside the lens: each has its glint.
   vec3 h2 = normalize(normalize(2.0 * eye - lamp - vAt) + view);
-  coat += 0.7 * pow(max(dot(film, h2), 0.0), 420.0);
+  coat += 0.7 * power420(max(dot(film, h2), 0.0));
   colour += (1.0 - isMetal) * e * step(0.0, nl) * 2.4 * coat * wet;
   colour += 0.16 * e * fresnel * wet * vec3(0.93, 0.98, 1.05);
   // A mark shines by itself, whatever the lamp does.
