@@ -171,6 +171,11 @@ class Hand {
     }
     for (int i = 0; i < then_ticks; ++i) step();
   }
+  /// There at once.
+  void lead(const Vec3& to) {
+    input_.hands[0].tip_in_patient = to;
+    step();
+  }
   void step() {
     world_.step(input_);
     inputs.push_back(input_);

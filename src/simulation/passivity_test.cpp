@@ -8,44 +8,20 @@
 #include <algorithm>
 #include <string>
 
+#include "core/amount_test_support.hpp"
 #include "core/rng.hpp"
-#include "core/units.hpp"
 #include "haptics/virtual_coupling.hpp"
+#include "simulation/muscle_hand_test_support.hpp"
 #include "simulation/operation_test_support.hpp"
-#include "simulation/quantisation.hpp"
 
 namespace carpus::simulation {
 namespace {
-
-/// A hand that is drawn to a place by a muscle against the force that it feels, never faster than a
-/// hand accelerates.
-struct MuscleHand {
-  void step(const Vec3& wanted, const Vec3& force) {
-    constexpr double kMassKg = 0.3;
-    const Vec3 muscle = (wanted - place) * 0.5;
-    Vec3 change = (muscle + force) * (1000.0 / kMassKg * kTickSeconds * kTickSeconds);
-    // Less the step of an input: what the world is given are whole units.
-    const double most = haptics::kMostSurpriseMm - 8 * kPositionUnitMm;
-    const double far = length(change);
-    if (far > most) change *= most / far;
-    move = (move + change) * 0.99;
-    place += move;
-  }
-  Vec3 place;
-  Vec3 move;
-};
-
-/// The world moves by whole units: that is the hand that it feels.
-Vec3 as_given(Vec3 place) {
-  for (std::size_t i = 0; i < 3; ++i) place[i] = quantised(place[i], kPositionUnitMm);
-  return place;
-}
 
 class Passivity : public testing::TestWithParam<std::string> {};
 
 TEST_P(Passivity, TheHandNeverGetsBackMoreThanItPutIn) {
   double most_put_in = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= carpus::test::amount<std::uint64_t>(1, 4, 40); ++seed) {
     Rng rng(seed);
     test::Operator op;
     const instruments::Instrument& kind = instruments::catalogue()[test::instrument(GetParam())];
@@ -58,7 +34,7 @@ TEST_P(Passivity, TheHandNeverGetsBackMoreThanItPutIn) {
       op.place_on_entry({});
     }
     ASSERT_EQ(op.item().instrument, test::instrument(GetParam()));
-    MuscleHand hand{op.item().tip_in_patient, {}};
+    test::MuscleHand hand{op.item().tip_in_patient, {}};
     op.hand().tip_in_patient = hand.place;
     op.hold(Driver::Off, 0, 3);
     Vec3 wanted = hand.place;
@@ -74,7 +50,7 @@ TEST_P(Passivity, TheHandNeverGetsBackMoreThanItPutIn) {
       hand.step(wanted, force);
       op.hand().tip_in_patient = hand.place;
       op.step();
-      work += dot(force, as_given(hand.place) - as_given(last));
+      work += dot(force, test::as_given(hand.place) - test::as_given(last));
       last = hand.place;
       most_put_in = std::min(most_put_in, work);
       ASSERT_LE(work, haptics::kFirstStoredNMm + 1e-9) << "seed " << seed << " tick " << tick;

@@ -10,6 +10,7 @@
 
 #include "arthroscopy/make_lesions.hpp"
 #include "arthroscopy/named_grades.hpp"
+#include "core/amount_test_support.hpp"
 #include "simulation/box_joint_test_support.hpp"
 #include "simulation/lesions_of.hpp"
 #include "simulation/recording.hpp"
@@ -59,6 +60,8 @@ Recording probed(const cases::CaseData& data) {
   return recorder.finished(world.now().state_hash);
 }
 
+const std::uint64_t kSeeds = carpus::test::amount<std::uint64_t>(5, 20, 200);
+
 TEST(PreparedPathology, IsWhatAnExaminationFindsWhateverItsSeed) {
   const cases::CaseData data = case_with(torn("III"));
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
@@ -68,7 +71,7 @@ TEST(PreparedPathology, IsWhatAnExaminationFindsWhateverItsSeed) {
     EXPECT_EQ(world.now().prepared, torn("III"));
   }
   const cases::CaseData healthy = case_with(cases::PreparedPathology{});
-  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+  for (std::uint64_t seed = 1; seed < kSeeds; ++seed) {
     EXPECT_EQ(World(healthy, examination(), seed).lesions()->lesions.size(), 0U);
   }
 }
@@ -76,7 +79,7 @@ TEST(PreparedPathology, IsWhatAnExaminationFindsWhateverItsSeed) {
 TEST(PreparedPathology, OfARecordingThatNamesNoGradesIsTheSeeds) {
   const cases::CaseData data = case_with(std::nullopt);
   const auto& table = arthroscopy::PathologyTable::generic();
-  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+  for (std::uint64_t seed = 1; seed < kSeeds; ++seed) {
     const World world(data, examination(), seed);
     EXPECT_FALSE(world.prepared());
     const cases::Grades grades =

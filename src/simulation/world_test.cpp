@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/amount_test_support.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "fields/distance_field.hpp"
@@ -60,7 +61,7 @@ TEST(World, AFreeInstrumentNeverEntersBoneWhateverTheHandAndTheWristDo) {
     input.command = take(id);
     world.step(input);
     input.command = {};
-    for (int i = 0; i < 12000; ++i) {
+    for (int i = 0; i < carpus::test::amount(4000, 12000, 120000); ++i) {
       if (i % 50 == 0) {
         input.hands[0].tip_in_patient =
             centre + Vec3{rng.uniform(-20, 20), rng.uniform(-20, 20), rng.uniform(-20, 40)};
