@@ -49,7 +49,7 @@ struct ScopeSkill {
   double grades_right = 0.88;
   double invents = 0.02;  ///< chance to see something where nothing is
   double says_nothing = 0.0;
-  int tries = 2;                ///< at an exercise before it is let be
+  int tries = 4;                ///< at an exercise before it is let be
   double leads_blind = 0.0;     ///< chance to move the probe without the scope after it
   double draws_mm_per_s = 4.0;  ///< what it has caught, out of the joint
   double looks_again = 1.0;     ///< chance to look for more once something is out
