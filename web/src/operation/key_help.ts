@@ -106,6 +106,10 @@ export const HELP: readonly HelpGroup[] = [
       },
       { keys: "{KeyV}", text: "the next portal" },
       { keys: "7 / 8 / 9", text: "panorama / level, both in practice alone / findings" },
+      {
+        keys: "{KeyH}, 7",
+        text: "where a second portal is made: the other hand works on the skin while the scope looks on / which of them is large",
+      },
     ],
   },
   {

@@ -4,8 +4,14 @@
 // An arthroscopy on the page: the scope's picture as the main monitor with the theatre beside it as a
 // panorama, and keys and mouse that lead what is in the portals. The host owns the truth: where a tip
 // really is, where the scope looks and what was seen, it says.
-import { make } from "../dom";
-import type { ExerciseMessage, ScopeMessage, SheetMessage, SnapshotMessage } from "../protocol";
+import { button, make } from "../dom";
+import type {
+  ExerciseMessage,
+  ScopeMessage,
+  SheetMessage,
+  SkinMessage,
+  SnapshotMessage,
+} from "../protocol";
 import { add, dot, length, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
 import { FocusControls } from "./focus_controls";
@@ -22,7 +28,7 @@ import { ScopeLeading, type LeadingRoom } from "./scope_leading";
 import { listenForScope, type ScopeAsked } from "./scope_listening";
 import { PicturePace } from "./picture_pace";
 import { ScopePicture } from "./scope_picture";
-import { areAtScope, cutPlaces, DISC_JOINT, type Plan, type PlanPortal } from "./scope_plan";
+import { cutPlaces, DISC_JOINT, isAtScope, makesPortal, type Plan } from "./scope_plan";
 import { ScopeReadings } from "./scope_readings";
 import { hasJaws, type ToolKind } from "./scope_tools";
 import type { SecondLead } from "./second_lead";
@@ -34,6 +40,8 @@ export interface ScopeRoom extends LeadingRoom {
   readonly stage: HTMLElement;
   answer(finding: string, grade: string): void;
   setFluid(setting: FluidSetting): void;
+  /** That mouse and keys move, also where nothing of the scope's is led. */
+  activeHand(): HandIndex;
   /** It leads the other hand. */
   hasGamepad(): boolean;
 }
@@ -65,10 +73,24 @@ export class ScopeDesk {
   private readonly posed = new Set<string>();
   private readonly leading: ScopeLeading;
   private inflow = { mmhg: 0, askedMs: -Infinity };
+  /** What is said and done while it stands beside the skin that a hand works on. */
+  private readonly beside = make(
+    "div.scope-beside",
+    {},
+    make("strong", {}, "Scope, live"),
+    button("Change places", "7", () => {
+      this.act("panorama");
+    }),
+  );
   private hasPanorama = true;
+  private isThere = false;
   /** Its portals are made in the exercise: there is no scope to be led before. */
   private makesPortals = false;
+  private skin: SkinMessage | undefined;
   private isShown = false;
+  private wasOn = false;
+  /** Beside the skin: it is the large one. */
+  private isLarge = false;
   /** Of the scope's rounded tip. */
   private radiusMm = 1;
 
@@ -104,6 +126,7 @@ export class ScopeDesk {
       this.drill.element,
       this.readings.words,
       this.readings.press,
+      this.beside,
       this.findings.element,
     );
     this.controls.hidden = true;
@@ -111,9 +134,17 @@ export class ScopeDesk {
     listenForScope(this.element, this.asked(), signal);
   }
 
-  /** Whether the hands are led from here. */
+  /** Whether mouse and keys lead at the scope. Where portals are made, that is so while their hand works there. */
   get isOn(): boolean {
-    return this.isShown;
+    const { plan, snapshot } = this;
+    if (!this.isThere || !this.makesPortals) return this.isThere;
+    if (snapshot === undefined || (plan?.portals.length ?? 0) === 0) return false;
+    return isAtScope(snapshot.items, this.exercise?.instruments ?? [], this.room.activeHand());
+  }
+
+  /** A hand works on skin while the other one holds the scope. */
+  private get isBeside(): boolean {
+    return this.isShown && !this.isOn;
   }
 
   /** What the host said of it last. */
@@ -124,7 +155,7 @@ export class ScopeDesk {
   /** How hard the hands press in a joint, of what was told last. */
   get pressGrade(): ForceGrade {
     const { scope, snapshot } = this;
-    if (!this.isOn || scope === undefined || snapshot === undefined) return "good";
+    if (!this.isShown || scope === undefined || snapshot === undefined) return "good";
     const inJoint = snapshot.hands.map(({ force_n: force }, hand) =>
       scope.in_joint[hand] === 1 ? length(force) : 0,
     );
@@ -138,16 +169,19 @@ export class ScopeDesk {
     this.snapshot = undefined;
     this.leading.begin(exercise);
     this.inflow = { mmhg: 0, askedMs: -Infinity };
-    const isThere = this.plan !== undefined && this.walls.length > 0;
-    this.makesPortals = isThere && this.plan?.portals.length === 0;
-    this.show(isThere && !this.makesPortals);
+    this.isThere = this.plan !== undefined && this.walls.length > 0;
+    this.makesPortals = this.isThere && this.plan?.portals.length === 0;
+    this.skin = undefined;
+    this.wasOn = this.isLarge = false;
+    this.arrange(undefined);
     offerScopeAids(this.controls, this.isAssessed);
-    if (!isThere || this.plan === undefined) return;
+    if (!this.isThere || this.plan === undefined) return;
     if (this.picture === undefined) {
       this.picture = new ScopePicture(this.walls);
       this.element.prepend(this.picture.canvas);
     }
     this.picture.setField(this.plan.field_deg);
+    this.picture.setInstruments(exercise.instruments);
     const bodies = exercise.bodies.map((one) => one.name);
     this.picture.setWrong(this.plan.lesions, this.plan.pieces, bodies);
     this.picture.setScrew(this.plan.screw, bodies);
@@ -162,25 +196,35 @@ export class ScopeDesk {
     this.showPoints();
   }
 
-  private show(isShown: boolean): void {
-    this.isShown = isShown;
-    this.element.hidden = this.controls.hidden = !isShown;
-    this.room.stage.classList.toggle("is-panorama", isShown);
-    this.room.stage.hidden = isShown && (this.isAssessed || !this.hasPanorama);
+  /** What stands where: one of scope and theatre is large, the other, if it is there, small beside it. */
+  private arrange(snapshot: SnapshotMessage | undefined): void {
+    const { stage } = this.room;
+    const { isOn } = this;
+    const isHeld = snapshot?.items.some(
+      (one) => one.hand >= 0 && one.instrument === this.plan?.scope,
+    );
+    this.isShown = isOn || (this.makesPortals && isHeld === true);
+    const isInset = this.isShown && !isOn && !this.isLarge;
+    this.element.hidden = !this.isShown;
+    this.controls.hidden = !isOn;
+    this.beside.hidden = !this.isBeside;
+    this.element.classList.toggle("is-beside", this.isBeside);
+    this.element.classList.toggle("is-inset", isInset);
+    stage.classList.toggle("is-panorama", this.isShown && !isInset);
+    stage.classList.toggle("is-worked-on", this.isBeside && !isInset);
+    stage.hidden = isOn && (this.isAssessed || !this.hasPanorama);
   }
 
-  /** Portals as they were made. */
-  seeWays(ways: readonly PlanPortal[]): void {
+  /** The skin, and portals as they were made. */
+  seeSkin(message: SkinMessage): void {
     if (!this.makesPortals || this.plan === undefined) return;
-    this.plan = { ...this.plan, portals: ways };
-    this.leading.hands.setPortals(ways);
+    this.skin = message;
+    this.plan = { ...this.plan, portals: message.ways };
+    this.leading.hands.setPortals(message.ways);
   }
 
-  /** A hand that takes the scope leads it from here; one that goes back to the skin, from there. */
+  /** A hand that holds the scope leads it from here; one that works on skin, from there. */
   private followHands(snapshot: SnapshotMessage): void {
-    const isAtScope =
-      (this.plan?.portals.length ?? 0) > 0 &&
-      areAtScope(snapshot.items, this.exercise?.instruments ?? []);
     const isHeld = snapshot.items.some(
       (item) => item.hand >= 0 && item.instrument === this.plan?.scope,
     );
@@ -188,12 +232,24 @@ export class ScopeDesk {
       this.scope = undefined; // once it is taken again the host tells where it is
       this.leading.forgetScope();
     }
-    if (isAtScope === this.isShown) return;
-    this.show(isAtScope);
-    if (!isAtScope) return;
+    this.arrange(snapshot);
+    const { isOn } = this;
+    if (isOn === this.wasOn) return;
+    this.wasOn = isOn;
     this.leading.beginAnew();
-    this.room.showHand(this.moved);
+    if (!isOn) return;
+    this.leading.hands.moved = this.room.activeHand();
     this.showPoints();
+  }
+
+  /** Name of what works on skin in the hand beside the scope. */
+  private get toolOnSkin(): string {
+    if (!this.makesPortals) return "";
+    const instruments = this.exercise?.instruments ?? [];
+    const held = this.snapshot?.items.find(
+      (item) => item.hand >= 0 && makesPortal(item.instrument, instruments),
+    );
+    return instruments.find((one) => one.id === held?.instrument)?.name.toLowerCase() ?? "";
   }
 
   /** The controls that it has. */
@@ -260,7 +316,10 @@ export class ScopeDesk {
 
   /** Once per frame: what is held goes on, the newest wishes are sent. */
   frame(nowMs: number): void {
-    if (this.isOn) this.leading.frame(nowMs);
+    if (!this.isOn) return;
+    // Hands may have been exchanged since the host was heard of last.
+    if (this.makesPortals && this.snapshot !== undefined) this.followHands(this.snapshot);
+    this.leading.frame(nowMs);
   }
 
   /** Whoever leads the hand that mouse and keys do not. */
@@ -270,7 +329,7 @@ export class ScopeDesk {
 
   draw(): void {
     const { picture, plan, scope, snapshot } = this;
-    if (!this.isOn || picture === undefined) return;
+    if (!this.isShown || picture === undefined) return;
     if (plan === undefined || snapshot === undefined) return;
     const item = snapshot.items.find((one) => one.hand === (scope?.hand ?? 0));
     if (item === undefined || scope === undefined) return;
@@ -301,7 +360,7 @@ export class ScopeDesk {
       },
       other === undefined
         ? undefined
-        : this.leading.tools.rod(other, scope, portal?.up ?? plan.distal, picture.nowMs),
+        : this.leading.tools.rod(other, scope, portal?.up ?? plan.distal, picture.nowMs, this.skin),
       scope,
       this.pace.pixels(sidePx, performance.now()),
       isOutside ? portal : undefined,
@@ -311,13 +370,14 @@ export class ScopeDesk {
   /** Readings, ten times a second. */
   showReadings(): void {
     const { scope, snapshot, plan } = this;
-    if (!this.isOn || plan === undefined) return;
+    if (!this.isShown || plan === undefined) return;
     const wanted = this.leading.hands.portalOf(0)?.name ?? "";
     this.readings.show({
       plan,
       scope,
       snapshot,
-      moved: this.moved,
+      moved: this.makesPortals ? this.room.activeHand() : this.moved,
+      onSkin: this.toolOnSkin,
       hasGamepad: this.room.hasGamepad(),
       wanted,
       tool: this.leading.tool,
@@ -343,6 +403,11 @@ export class ScopeDesk {
   }
 
   private act(act: ScopeAct): void {
+    if (this.isBeside && act === "panorama") {
+      this.isLarge = !this.isLarge;
+      this.arrange(this.snapshot);
+      return;
+    }
     if (!this.isOn) return;
     if (this.isAssessed && (act === "panorama" || act === "level")) {
       this.room.say(WHY_NO_AID[act]);
@@ -351,7 +416,7 @@ export class ScopeDesk {
     switch (act) {
       case "panorama":
         this.hasPanorama = !this.hasPanorama;
-        this.room.stage.hidden = !this.hasPanorama;
+        this.arrange(this.snapshot);
         return;
       case "findings":
         this.findings.open(this.scope?.answers ?? []);
@@ -377,10 +442,12 @@ export class ScopeDesk {
   /** Of keys and mouse. */
   private asked(): ScopeAsked {
     const takesKeys = (): boolean => this.isOn && this.room.operates();
+    const isBeside = (): boolean => this.isBeside;
     const tool = (): ToolKind => this.leading.tool;
     const hasFluid = (): boolean => (this.scope?.fluid ?? null) !== null;
     return {
       takesKeys,
+      isBeside,
       get tool() {
         return tool();
       },
@@ -403,13 +470,13 @@ export class ScopeDesk {
         this.actOnFluid(act);
       },
       lean: (lead, yawRad, pitchRad) => {
-        this.leading.leanBy(lead, yawRad, pitchRad);
+        if (this.isOn) this.leading.leanBy(lead, yawRad, pitchRad);
       },
       turn: (deg) => {
-        this.leading.turnHeld(deg);
+        if (this.isOn) this.leading.turnHeld(deg);
       },
       advance: (mm) => {
-        this.leading.advance(mm);
+        if (this.isOn) this.leading.advance(mm);
       },
     };
   }

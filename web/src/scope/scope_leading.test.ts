@@ -12,8 +12,8 @@ const PORTAL = { joint: "", body: "radius", inwards: [0, 0, -1], capsule_mm: 10,
 const EXERCISE = {
   bodies: [{ name: "radius" }],
   instruments: [
-    { id: "scope", name: "Scope", has_jaws: false, has_mouth: false },
-    { id: "shaver", name: "Shaver", has_jaws: false, has_mouth: true },
+    { id: "scope", name: "Scope", has_jaws: false, has_mouth: false, skin_work: "none" },
+    { id: "shaver", name: "Shaver", has_jaws: false, has_mouth: true, skin_work: "none" },
   ],
   tray: ["shaver"],
   arthroscopy: {

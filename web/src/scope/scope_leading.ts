@@ -14,6 +14,7 @@ import { HandsToSend, PEDAL_REPEAT_MS } from "./hands_to_send";
 import { wrappedDeg } from "./scope_hand_model";
 import { ScopeHands, type HandIndex, type Lead } from "./scope_hands";
 import type { ScopeMotion } from "./scope_keys";
+import { makesPortal } from "./scope_plan";
 import { ScopeTools, type ToolKind } from "./scope_tools";
 import type { SecondLead } from "./second_lead";
 
@@ -122,7 +123,7 @@ export class ScopeLeading {
 
   private sendHand(hand: HandIndex, nowMs = performance.now()): void {
     const wish = this.hands.wishOf(hand);
-    if (wish === undefined) return;
+    if (wish === undefined || this.isForSkin(hand)) return;
     this.sending.sent(hand, nowMs);
     this.room.send({
       hand,
@@ -205,6 +206,12 @@ export class ScopeLeading {
   /** Of what works beside the scope, or will. */
   get tool(): ToolKind {
     return this.toolOf(this.scope?.hand === 1 ? 0 : 1);
+  }
+
+  /** What it holds works on skin: it is led over that, and not from here. */
+  private isForSkin(hand: HandIndex): boolean {
+    const item = this.itemOf(hand);
+    return item !== undefined && makesPortal(item.instrument, this.exercise?.instruments ?? []);
   }
 
   private toolOf(hand: HandIndex): ToolKind {
@@ -291,7 +298,7 @@ export class ScopeLeading {
     if (hand !== 1 || this.itemOf(1) !== undefined || probe === undefined) return false;
     const portal = this.hands.portalOf(1);
     if (portal === undefined) {
-      this.room.say("There is no second portal to go in by: make one first.");
+      this.room.say("There is no second portal to go in by yet: take what makes one, {KeyC}.");
       return true;
     }
     if (performance.now() - this.askedToTakeMs < TAKING_MS) return true;

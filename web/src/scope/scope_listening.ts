@@ -17,6 +17,8 @@ const TURN_DEG_PER_PX = 0.6;
 
 export interface ScopeAsked {
   takesKeys(): boolean;
+  /** Its picture stands beside the skin that a hand works on: one key changes which is large. */
+  isBeside(): boolean;
   /** Which of them there are hangs on what works beside the scope, and on whether there is fluid. */
   readonly tool: ToolKind;
   readonly hasFluid: boolean;
@@ -58,7 +60,14 @@ function listenToKeys(asked: ScopeAsked, signal: AbortSignal): void {
   window.addEventListener(
     "keydown",
     (event) => {
-      if (!asked.takesKeys() || isForPage(event)) return;
+      if (isForPage(event)) return;
+      if (!asked.takesKeys()) {
+        if (scopeAct(event.code) !== "panorama" || !asked.isBeside()) return;
+        event.preventDefault();
+        event.stopImmediatePropagation();
+        if (!event.repeat) asked.act("panorama");
+        return;
+      }
       const motion = motionOf(event.code, event.shiftKey, asked.tool);
       const act = actOf(event.code, asked.tool);
       const tap = asked.hasFluid ? fluidAct(event.code) : undefined;

@@ -3,7 +3,14 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import type { BodyPose, ControlledScrew, JointFluid, ScopeMessage, Vec3 } from "../protocol";
+import type {
+  BodyPose,
+  ControlledScrew,
+  Instrument,
+  JointFluid,
+  ScopeMessage,
+  Vec3,
+} from "../protocol";
 import { meanGrey, nextExposure } from "./auto_exposure";
 import type { JointWall } from "./joint_wall";
 import { LooseBodies } from "./loose_bodies";
@@ -21,7 +28,7 @@ import {
   type Lesion,
   type Painted,
 } from "./scope_lesions";
-import { rodGeometries } from "./scope_rod";
+import { rodGeometries, rodOf } from "./scope_rod";
 import { ScopeScrew } from "./scope_screw";
 import { holeUniforms, setHole } from "./screw_hole";
 import { lensUniforms, setScrewed, wetMaterial } from "./scope_shader";
@@ -54,6 +61,8 @@ export class ScopePicture {
   private readonly lens = lensUniforms();
   private readonly rod: THREE.Mesh;
   private readonly rods = rodGeometries();
+  /** Of what makes portals, by instrument. */
+  private skinTools: ReadonlyMap<string, THREE.BufferGeometry> = new Map();
   private readonly walls: ReadonlyMap<
     string,
     THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>
@@ -119,6 +128,16 @@ export class ScopePicture {
   /** @param fieldDeg  across the picture */
   setField(fieldDeg: number): void {
     this.lens.halfField.value = (fieldDeg * Math.PI) / 360;
+  }
+
+  /** Of an exercise: what makes portals comes into view as well. */
+  setInstruments(instruments: readonly Instrument[]): void {
+    for (const geometry of this.skinTools.values()) geometry.dispose();
+    this.skinTools = new Map(
+      instruments
+        .filter((one) => one.skin_work !== "none")
+        .map((one) => [one.id, rodOf(one.parts)]),
+    );
   }
 
   /** @param step  of the camera head's ring, as focus_model.ts has it */
@@ -213,7 +232,7 @@ export class ScopePicture {
       this.nowMs / 1000,
     );
     if (rod !== undefined) {
-      this.rod.geometry = this.rods[rod.look];
+      this.rod.geometry = this.skinTools.get(rod.instrument ?? "") ?? this.rods[rod.look];
       this.rod.position.set(...rod.tipMm);
       this.rod.quaternion.copy(turnOf(rod));
       this.rod.updateMatrixWorld();
@@ -261,6 +280,7 @@ export class ScopePicture {
     this.focus.dispose();
     this.screw.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
+    for (const geometry of this.skinTools.values()) geometry.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();

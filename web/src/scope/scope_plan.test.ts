@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { areAtScope, cutPlaces, type Plan } from "./scope_plan";
+import { cutPlaces, isAtScope, type Plan } from "./scope_plan";
 
 const plan = (kinds: readonly ("synovium" | "disc")[]): Plan =>
   ({ pieces: kinds.map((kind, i) => ({ kind, inwards: [0, i, 1] })) }) as unknown as Plan;
@@ -28,15 +28,18 @@ describe("hands where portals are made before a scope goes in", () => {
   const held = (...ids: string[]): { hand: number; instrument: string }[] =>
     ids.map((instrument, hand) => ({ hand, instrument }));
 
-  it("are at the scope once one has taken it, whatever the other holds that goes in too", () => {
-    expect(areAtScope(held("scope"), instruments)).toBe(true);
-    expect(areAtScope(held("scope", "probe"), instruments)).toBe(true);
+  it("are led at the scope while theirs holds what goes in, or is empty beside it", () => {
+    expect(isAtScope(held("scope"), instruments, 0)).toBe(true);
+    expect(isAtScope(held("scope"), instruments, 1)).toBe(true);
+    expect(isAtScope(held("scope", "probe"), instruments, 1)).toBe(true);
+    expect(isAtScope(held("scope", "needle"), instruments, 0)).toBe(true);
   });
 
-  it("are at the skin with empty hands, or while either works there", () => {
-    expect(areAtScope([], instruments)).toBe(false);
-    expect(areAtScope(held("needle"), instruments)).toBe(false);
-    expect(areAtScope(held("scope", "needle"), instruments)).toBe(false);
-    expect(areAtScope([{ hand: -1, instrument: "scope" }], instruments)).toBe(false);
+  it("are led at the skin with empty hands, or while theirs works there", () => {
+    expect(isAtScope([], instruments, 0)).toBe(false);
+    expect(isAtScope(held("needle"), instruments, 0)).toBe(false);
+    expect(isAtScope(held("needle"), instruments, 1)).toBe(false);
+    expect(isAtScope(held("scope", "needle"), instruments, 1)).toBe(false);
+    expect(isAtScope([{ hand: -1, instrument: "scope" }], instruments, 0)).toBe(false);
   });
 });

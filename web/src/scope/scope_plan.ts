@@ -8,16 +8,24 @@ export type Plan = NonNullable<ExerciseMessage["arthroscopy"]>;
 
 export type PlanPortal = Plan["portals"][number];
 
-/** Whether hands are at the scope, where portals are made before: one holds what goes in by them, and none
- * what works on skin. */
-export function areAtScope(
+/** Whether a hand is led at the scope, where portals are made before: it holds what goes in by them; an
+ * empty one is where the other is. */
+export function isAtScope(
   items: readonly Pick<Item, "hand" | "instrument">[],
   instruments: readonly Pick<Instrument, "id" | "skin_work">[],
+  hand: 0 | 1,
 ): boolean {
-  const held = items.filter((item) => item.hand >= 0);
-  const worksOnSkin = (id: string): boolean =>
-    instruments.find((one) => one.id === id)?.skin_work !== "none";
-  return held.length > 0 && !held.some((item) => worksOnSkin(item.instrument));
+  const held =
+    items.find((item) => item.hand === hand) ?? items.find((item) => item.hand === 1 - hand);
+  return held !== undefined && !makesPortal(held.instrument, instruments);
+}
+
+/** Whether what is held makes portals. */
+export function makesPortal(
+  id: string,
+  instruments: readonly Pick<Instrument, "id" | "skin_work">[],
+): boolean {
+  return instruments.some((one) => one.id === id && one.skin_work !== "none");
 }
 
 /** In which the disc lies. */

@@ -24,6 +24,8 @@ export interface ScopeSituation {
   readonly wanted: string;
   /** What works beside the scope. */
   readonly tool: ToolKind;
+  /** What makes a portal, in the other hand; empty: nothing does. */
+  readonly onSkin: string;
 }
 
 export class ScopeReadings {
@@ -60,7 +62,7 @@ export class ScopeReadings {
     );
   }
 
-  show({ plan, scope, snapshot, moved, hasGamepad, wanted, tool }: ScopeSituation): void {
+  show({ plan, scope, snapshot, moved, hasGamepad, wanted, tool, onSkin }: ScopeSituation): void {
     const forces = snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [];
     this.gauge.show(forces, performance.now());
     const words = scopeWords(
@@ -89,9 +91,10 @@ export class ScopeReadings {
     }[tool];
     setText(
       this.status,
-      `Scope ${where(0)} · ${tool} ${where(1)}${state} · ` +
-        `moving the ${moved === 0 ? "scope" : tool}` +
-        (hasGamepad ? `, gamepad the ${moved === 0 ? tool : "scope"} · ` : " · ") +
+      `Scope ${where(0)} · ` +
+        (onSkin === "" ? `${tool} ${where(1)}${state}` : `${onSkin}: on the skin`) +
+        ` · moving the ${moved === 0 ? "scope" : onSkin === "" ? tool : onSkin}` +
+        (hasGamepad && onSkin === "" ? `, gamepad the ${moved === 0 ? tool : "scope"} · ` : " · ") +
         (tool === "grasper" ? `brought out ${scope?.loose_out ?? 0} · ` : "") +
         (plan.drill === null
           ? `seen ${scope?.points_seen.length ?? 0} of ${plan.points.length} · `

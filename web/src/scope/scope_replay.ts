@@ -48,6 +48,7 @@ export class ScopeReplay {
     this.walls = walls;
     this.picture = new ScopePicture(walls);
     this.picture.setField(plan.field_deg);
+    this.picture.setInstruments(exercise.instruments);
     this.tools.begin(exercise);
     const bodies = exercise.bodies.map((one) => one.name);
     this.picture.setWrong(plan.lesions, plan.pieces, bodies);
@@ -111,7 +112,7 @@ export class ScopeReplay {
       },
       other === undefined
         ? undefined
-        : this.tools.rod(other, scope, this.plan.distal, snapshot.tick),
+        : this.tools.rod(other, scope, this.plan.distal, snapshot.tick, moment.skin),
       scope,
       box.width * Math.min(1, window.devicePixelRatio),
       undefined,

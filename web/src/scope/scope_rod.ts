@@ -6,6 +6,7 @@
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
+import type { InstrumentPart } from "../protocol";
 import type { ToolKind } from "./scope_tools";
 
 export type RodLook =
@@ -132,6 +133,23 @@ function cutAway(shape: THREE.BufferGeometry, planeAt: (z: number) => number): r
   });
   shape.computeVertexNormals();
   return cut;
+}
+
+/** What makes a portal, by the parts that it has on its axis. */
+export function rodOf(parts: readonly InstrumentPart[]): THREE.BufferGeometry {
+  const [first] = parts;
+  const profile = parts
+    .filter((part) => part.from_mm < LENGTH_MM)
+    .flatMap((part) => {
+      const { from_mm: from, to_mm: to, radius_mm: at, end_radius_mm: end } = part;
+      const zs = [from, ...ringsFrom(0.5).filter((z) => z > from && z < to), to];
+      return zs.map((z) => [at + ((end - at) * (z - from)) / (to - from || 1), z] as const);
+    });
+  const made = turned(profile);
+  const [across, up] = first?.squash ?? [1, 1];
+  made.scale(across ?? 1, up ?? 1, 1);
+  made.computeVertexNormals();
+  return finished(made);
 }
 
 export function rodGeometries(): Readonly<Record<RodLook, THREE.BufferGeometry>> {

@@ -1,7 +1,14 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import type { ExerciseMessage, Item, ScopeMessage, Vec3 } from "../protocol";
+import type {
+  ExerciseMessage,
+  Instrument,
+  Item,
+  ScopeMessage,
+  SkinMessage,
+  Vec3,
+} from "../protocol";
 import { mouthTowards, ScopeTools } from "./scope_tools";
 
 const instrument = (id: string, ...has: ("has_jaws" | "has_bite" | "has_mouth")[]) => ({
@@ -70,11 +77,12 @@ describe("what works beside the scope", () => {
 
   it("is drawn as a punch, open and closed as the host has it", () => {
     const punch = tools(PUNCH, SHAVER);
-    const look = (closed: number): string =>
-      punch.rod(item("punch_2_0"), { ...told(0, 0), jaws_closed: [0, closed] }, LEVEL, 0).look;
+    const look = (closed: number): string | undefined =>
+      punch.rod(item("punch_2_0"), { ...told(0, 0), jaws_closed: [0, closed] }, LEVEL, 0, undefined)
+        ?.look;
     expect([look(0), look(1)]).toEqual(["punch_open", "punch_closed"]);
     // However a shaver's mouth was turned before in that hand: upwards.
-    expectWay(punch.rod(item("punch_2_0"), told(0, 90), LEVEL, 0).mouth, [0, 0, 1]);
+    expectWay(punch.rod(item("punch_2_0"), told(0, 90), LEVEL, 0, undefined)?.mouth, [0, 0, 1]);
   });
 
   it("runs while a pedal is down; jaws know no pedal, and a probe has neither", () => {
@@ -105,20 +113,52 @@ describe("what works beside the scope", () => {
 
   it("is drawn with its mouth as the host has it, and a blade that moves while it runs", () => {
     const shaver = tools(SHAVER);
-    const looks = (running: number): Set<string> =>
+    const looks = (running: number): Set<string | undefined> =>
       new Set(
         [0, 100, 200, 300].map(
-          (ms) => shaver.rod(item("shaver_2_0"), told(running, 90), LEVEL, ms).look,
+          (ms) => shaver.rod(item("shaver_2_0"), told(running, 90), LEVEL, ms, undefined)?.look,
         ),
       );
     expect(looks(0)).toEqual(new Set(["shaver"]));
     expect(looks(1)).toEqual(new Set(["shaver", "blade"]));
-    const rod = shaver.rod(item("shaver_2_0"), told(0, 90), LEVEL, 0);
-    expect(rod.tipMm).toEqual([1, 2, 3]);
-    expectWay(rod.mouth, [0, -1, 0]);
-    const closed = tools(GRASPER).rod(item("grasper_2_0"), told(0, 90), LEVEL, 0);
-    expect(closed.look).toBe("closed");
-    expect(closed.mouth).toBeUndefined();
+    const rod = shaver.rod(item("shaver_2_0"), told(0, 90), LEVEL, 0, undefined);
+    expect(rod?.tipMm).toEqual([1, 2, 3]);
+    expectWay(rod?.mouth, [0, -1, 0]);
+    const closed = tools(GRASPER).rod(item("grasper_2_0"), told(0, 90), LEVEL, 0, undefined);
+    expect(closed?.look).toBe("closed");
+    expect(closed?.mouth).toBeUndefined();
+  });
+});
+
+describe("what makes a portal, as the scope shows it", () => {
+  const made = new ScopeTools();
+  const works = (id: string, work: Instrument["skin_work"]) => ({
+    ...instrument(id),
+    skin_work: work,
+  });
+  const instruments = [
+    works("needle_22g", "needle"),
+    works("mosquito_clamp", "spread"),
+    works("fingertip", "palpate"),
+  ];
+  made.begin({ instruments } as unknown as ExerciseMessage);
+  const skin = (spreads: boolean): SkinMessage =>
+    ({ hands: [{ is_spreading: false }, { is_spreading: spreads }] }) as unknown as SkinMessage;
+  const seen = (id: string, spreads = false) =>
+    made.rod(item(id), told(0, 0), LEVEL, 0, skin(spreads));
+
+  it("is drawn by its own parts, where the host has its tip", () => {
+    expect(seen("needle_22g")).toMatchObject({ instrument: "needle_22g", tipMm: [1, 2, 3] });
+  });
+
+  it("is a pair of open jaws while a clamp spreads", () => {
+    expect(seen("mosquito_clamp")?.instrument).toBe("mosquito_clamp");
+    expect(seen("mosquito_clamp", true)).toMatchObject({ look: "open" });
+    expect(seen("mosquito_clamp", true)?.instrument).toBeUndefined();
+  });
+
+  it("is nothing for a fingertip, which stays outside", () => {
+    expect(seen("fingertip")).toBeUndefined();
   });
 });
 

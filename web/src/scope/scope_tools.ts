@@ -9,6 +9,7 @@ import type {
   Instrument,
   Item,
   ScopeMessage,
+  SkinMessage,
   Vec3,
 } from "../protocol";
 import { cross, dot, normalized, rotated, scaled, subtract } from "../tool_placement";
@@ -25,6 +26,8 @@ export interface Rod {
   readonly look: RodLook;
   /** Unit: where a shaver's mouth looks, or a punch's jaw opens to. */
   readonly mouth: Vec3 | undefined;
+  /** Of what makes a portal: it looks as its parts do. */
+  readonly instrument?: string;
 }
 
 export class ScopeTools {
@@ -33,10 +36,13 @@ export class ScopeTools {
   /** By instrument; and that of the tray's last one. */
   private kinds: ReadonlyMap<string, ToolKind> = new Map();
   private usual: ToolKind = "probe";
+  /** Of the instruments that work on skin what each does. */
+  private skinWork: ReadonlyMap<string, Instrument["skin_work"]> = new Map();
 
   begin(exercise: ExerciseMessage): void {
     this.kinds = new Map(exercise.instruments.map((one) => [one.id, kindOf(one)]));
     this.usual = this.kindOf(exercise.instruments.at(-1)?.id ?? "");
+    this.skinWork = new Map(exercise.instruments.map((one) => [one.id, one.skin_work]));
     this.areClosed.fill(false);
     this.mouthDeg.fill(0);
   }
@@ -85,9 +91,21 @@ export class ScopeTools {
     return kind === "shaver" && pedalIsDown ? "forward" : "off";
   }
 
-  /** @param level  up in a level picture. @param nowMs  a running blade turns by it; the same where nothing is to move */
-  rod(item: Item, scope: ScopeMessage, level: Vec3, nowMs: number): Rod {
+  /** @param level  up in a level picture. @param nowMs  a running blade turns by it; the same where nothing is to move
+   * @param skin  where portals are made. @returns  undefined: nothing that comes into a joint */
+  rod(
+    item: Item,
+    scope: ScopeMessage,
+    level: Vec3,
+    nowMs: number,
+    skin: SkinMessage | undefined,
+  ): Rod | undefined {
     const hand = item.hand === 1 ? 1 : 0;
+    const work = this.skinWork.get(item.instrument) ?? "none";
+    if (work === "palpate" || work === "mark") return undefined;
+    const bare = { tipMm: item.tip_mm, shaft: item.shaft, mouth: undefined };
+    if (skin?.hands[hand]?.is_spreading === true) return { ...bare, look: "open" };
+    if (work !== "none") return { ...bare, look: "probe", instrument: item.instrument };
     const runs = scope.running[hand] === 1;
     const look = this.hasMouth(item.instrument)
       ? shaverLook(runs, nowMs)

@@ -79,8 +79,11 @@ export class StepPanel {
     this.shown = "";
     this.items = steps.map((step, index) => {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
-      const keys = keysOf(step.actions, arthroscopy !== null).map((key) => keyCap(key));
       const tool = instruments.find((one) => one.id === step.instrument);
+      const isOnSkin = tool !== undefined && tool.skin_work !== "none";
+      const keys = keysOf(step.actions, arthroscopy !== null && !isOnSkin).map((key) =>
+        keyCap(key),
+      );
       const again = make("button.step-again", {
         type: "button",
         title: "Do this step again",

@@ -326,6 +326,7 @@ export class TrainPage {
           // The tray, too, is this hand's.
           if (hand !== this.hand.active) this.hand.switchHand();
         },
+        activeHand: () => this.hand.active,
         hasGamepad: () => this.gamepad.isConnected,
       },
       walls,
@@ -513,7 +514,7 @@ export class TrainPage {
         break;
       case "skin":
         this.skin.take(message);
-        this.scope.seeWays(message.ways);
+        this.scope.seeSkin(message);
         this.theatre.showSkinWork(message);
         break;
       case "sheet":
