@@ -18,6 +18,8 @@ namespace carpus::procedure {
 inline constexpr std::size_t kPortalsMade = 2;
 /// Along each side of the square about a place within which it counts as felt.
 inline constexpr int kCellsAcross = 4;
+/// A needle that a scope saw for so long without a break was seen, as a place of the tour is [E].
+inline constexpr std::uint32_t kNeedleSeenTicks = 1000;
 
 /// What is felt for before a portal: a bone of ArthroscopicMap::landmarks, or another portal.
 struct PortalLandmark {
@@ -110,6 +112,9 @@ struct PortalMade {
   /// How far off the portal's way a needle, the blade or the sheath went in at most, on its side of
   /// the wrist.
   double strayed_mm = 0.0;
+  /// For so long without a break a scope saw the needle's point in the joint, at most: of the
+  /// needle that came in last before the skin was cut.
+  std::uint32_t needle_seen_ticks = 0;
   bool operator==(const PortalMade&) const = default;
 };
 

@@ -149,6 +149,8 @@ class Sentence {
         return with_mm("The sheath gave way into a joint, and went on by", event_.value);
       case EventKind::HeldBySkin:
         return subject() + " is blunt: the skin holds it, but where it was cut wide enough";
+      case EventKind::NeedleSeen:
+        return "The needle is seen in the scope's picture";
       case EventKind::None:
         break;
     }

@@ -163,7 +163,7 @@ class Hand {
     input_.hands[1] = input_.hands[0];
   }
   void go(const Vec3& to, int then_ticks = 0) {
-    Vec3& tip = input_.hands[0].tip_in_patient;
+    Vec3& tip = input_.hands[led].tip_in_patient;
     while (distance(tip, to) > 1e-9) {
       const double far = distance(tip, to);
       tip = far <= mm_per_tick ? to : tip + (to - tip) * (mm_per_tick / far);
@@ -188,9 +188,10 @@ class Hand {
   [[nodiscard]] const Snapshot& now() const { return world_.now(); }
   [[nodiscard]] Vec3 tip() const { return now().items[0].tip_in_patient; }
   void drive(Driver driver) {
-    input_.hands[0].driver = driver;
+    input_.hands[led].driver = driver;
     step();
   }
+  std::uint8_t led = 0;  ///< the hand that goes; the other one stays
   std::vector<Input> inputs;
   double mm_per_tick = 0.02;
 

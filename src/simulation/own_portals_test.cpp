@@ -5,6 +5,8 @@
 // far from the bones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,6 +18,7 @@ namespace {
 using namespace box_joint;  // NOLINT(google-build-using-namespace)
 
 constexpr double kAside = 1.5;  // of the portal's place
+constexpr double kSecondY = 7;  // 4-5
 constexpr const char* kScope = "arthroscope_1_9_30";
 
 const procedure::Procedure& from_the_skin() {
@@ -116,6 +119,120 @@ TEST(OwnPortals, TheWayComesBackFromItsBytes) {
     ASSERT_EQ(world.now().state_hash, again.now().state_hash) << i;
   }
   EXPECT_TRUE(again.now().scope.facts.is_in_joint[0]);
+}
+
+/// 3-4 is made and the scope in by it, its sight to the side on which the second one comes in or to
+/// the other; the other hand works from here on.
+void look_in(Maker& maker, bool looks_there) {
+  make_portal(maker, 0.0);
+  maker.take(kScope);
+  maker.hand.go(at(15));
+  maker.hand.go(at(-7.5), 300);
+  Command turn;
+  turn.kind = CommandKind::TurnScope;
+  turn.rotation_deg = looks_there ? -90 : 90;
+  maker.hand.command(turn);
+  maker.hand.led = 1;
+}
+
+/// With the needle at 4-5 into the joint, where it stays for so long.
+void needle_in(Maker& maker, int ticks) {
+  maker.take("needle_22g");
+  maker.hand.go(at(15, kSecondY));
+  maker.hand.go(at(-13, kSecondY), ticks);
+}
+
+std::uint32_t seen_ticks(const World& world) {
+  return world.now().skin.facts.portal[1].needle_seen_ticks;
+}
+
+bool tells_needle(const World& world) {
+  const Snapshot& now = world.now();
+  return std::any_of(now.events.begin(), now.events.begin() + now.event_count,
+                     [](const Event& event) { return event.kind == EventKind::NeedleSeen; });
+}
+
+TEST(OwnPortals, TheNeedleOfTheSecondIsSeenByTheScopeThatLooksThere) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  ASSERT_TRUE(world.now().scope.facts.is_in_joint[0]);
+  EXPECT_EQ(seen_ticks(world), 0U);
+  needle_in(maker, 0);
+  EXPECT_TRUE(world.now().skin.facts.portal[1].needle.is_in);
+  int told = 0;
+  for (int i = 0; i < 2000; ++i) {
+    maker.hand.step();
+    told += tells_needle(world) ? 1 : 0;
+  }
+  EXPECT_GE(seen_ticks(world), 2000U);
+  EXPECT_EQ(told, 1);
+  EXPECT_TRUE(world.now().scope.facts.is_in_joint[0]) << "it stays in meanwhile";
+}
+
+TEST(OwnPortals, ANeedleThatComesInElsewhereThanTheScopeLooksIsNotSeen) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, false);
+  needle_in(maker, 2000);
+  EXPECT_TRUE(world.now().skin.facts.portal[1].needle.is_in);
+  EXPECT_EQ(seen_ticks(world), 0U);
+}
+
+TEST(OwnPortals, ANeedleIsNotSeenBeforeItIsThroughTheCapsule) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  maker.take("needle_22g");
+  maker.hand.go(at(15, kSecondY));
+  maker.hand.go(at(-5, kSecondY), 2000);
+  EXPECT_EQ(seen_ticks(world), 0U);
+}
+
+TEST(OwnPortals, WhatIsSeenOnceTheSkinIsCutComesTooLate) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, false);
+  maker.prick(kSecondY, 0.0, 13.0);
+  maker.cut(kSecondY);
+  Command turn;
+  turn.kind = CommandKind::TurnScope;
+  turn.rotation_deg = -90;
+  maker.hand.command(turn);
+  needle_in(maker, 2000);
+  EXPECT_EQ(seen_ticks(world), 0U);
+}
+
+TEST(OwnPortals, WhatIsSeenIsOfTheNeedleThatCameInLast) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  needle_in(maker, 2000);
+  maker.hand.go(at(15, kSecondY), 50);
+  EXPECT_GE(seen_ticks(world), 1000U);
+  Command turn;
+  turn.kind = CommandKind::TurnScope;
+  turn.rotation_deg = 90;
+  maker.hand.command(turn);
+  needle_in(maker, 1000);
+  EXPECT_EQ(seen_ticks(world), 0U) << "this one nobody saw";
+}
+
+TEST(OwnPortals, WhatWasSeenComesBackFromItsBytes) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  needle_in(maker, 700);
+  ASSERT_GT(seen_ticks(world), 0U);
+  World again(wrist_with_skin(), from_the_skin(), 1);
+  ASSERT_TRUE(again.read_state(world.write_state()));
+  const Input input = maker.hand.inputs.back();
+  for (int i = 0; i < 600; ++i) {
+    world.step(input);
+    again.step(input);
+    ASSERT_EQ(world.now().state_hash, again.now().state_hash) << i;
+  }
+  EXPECT_EQ(seen_ticks(again), seen_ticks(world));
 }
 
 TEST(OwnPortals, WithoutToolsOfAJointNoWayIsKept) {

@@ -20,6 +20,7 @@ class Maker {
   void take(const char* id) {
     Command command;
     command.kind = CommandKind::Take;
+    command.hand = hand.led;
     command.index = tool(id);
     hand.command(command);
     hand.go(hand_at(), 60);

@@ -266,6 +266,7 @@ enum class EventKind : std::uint8_t {
   WaySpread = 63,         ///< down to the capsule
   SheathIn = 64,          ///< in a joint; value: by how much it went on beyond the capsule [mm]
   HeldBySkin = 65,        ///< what is blunt does not go through it
+  NeedleSeen = 66,        ///< its point, by the scope, before the skin was cut
 };
 
 struct Event {

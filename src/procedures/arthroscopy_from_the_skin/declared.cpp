@@ -45,10 +45,16 @@ std::string merged() {
   return text.dump();
 }
 
+/// In the scope's picture, in the joint, while the skin was whole.
+bool has_seen_needle_2(const procedure::Situation& now) noexcept {
+  return now.making.portal[1].needle_seen_ticks >= procedure::kNeedleSeenTicks;
+}
+
 /// Those of making portals, and of looking round those that these have not.
 std::vector<NamedPredicate> named_predicates() {
   const auto making = arthroscopic_portal_making::named_predicates();
   std::vector<NamedPredicate> all(making.begin(), making.end());
+  all.push_back({"has_seen_needle_2", has_seen_needle_2});
   for (const NamedPredicate& other : arthroscopy::named_predicates()) {
     const bool is_there = std::any_of(
         all.begin(), all.end(), [&](const NamedPredicate& one) { return one.name == other.name; });

@@ -42,11 +42,18 @@ Vec3 World::State::lesion_middle(const Model& model, std::size_t lesion) const n
 
 /// Whether the scope in the other hand sees a place in the joint of this one.
 bool World::State::is_seen_beside(const Model& model, std::uint8_t hand, const Vec3& at) noexcept {
+  return is_seen_beside(model, hand, joint_of(model, scope_state.portal[hand]), at);
+}
+
+/// Likewise, in the joint that is said: what came in by no portal.
+bool World::State::is_seen_beside(const Model& model,
+                                  std::uint8_t hand,
+                                  std::uint8_t joint,
+                                  const Vec3& at) noexcept {
   const auto other = static_cast<std::uint8_t>(1U - hand);
   const Item* scope = in_hand(other);
   if (scope == nullptr || !scope_state.is_in_joint[other]) return false;
-  const std::uint8_t joint = joint_of(model, scope_state.portal[other]);
-  if (joint != joint_of(model, scope_state.portal[hand])) return false;
+  if (joint != joint_of(model, scope_state.portal[other])) return false;
   const auto sight = sight_of(model, *scope);
   return sight && sees(model, joint, *sight, at);
 }

@@ -173,6 +173,29 @@ procedure::CutMade World::State::cut_made(const Model& model,
   return made;
 }
 
+/// Where a needle is, for the portal that it goes in for: what it showed is what the blade follows.
+bool World::State::is_uncut(const UnderSkin& under) const noexcept {
+  const detail::Worked& worked = making.worked;
+  return under.cut == kNoCut && making.facts.made == under.portal &&
+         std::none_of(worked.cuts.begin(), worked.cuts.begin() + worked.cut_count,
+                      [&](const SkinCut& cut) { return cut.portal == under.portal; });
+}
+
+/// How long the scope in the other hand has its point in the picture, in the joint.
+void World::State::watch_needle(const Model& model, std::uint8_t hand) noexcept {
+  if (!model.goes_in_by_own()) return;
+  UnderSkin& under = making.worked.hands[hand];
+  const Vec3 point = under.entry + under.towards * under.travel_mm;
+  const auto joint = joint_at(model, point);
+  const bool is_seen = joint && is_seen_beside(model, hand, *joint, point);
+  under.seen_ticks = is_seen ? under.seen_ticks + 1 : 0;
+  if (!under.is_told || !is_uncut(under)) return;
+  std::uint32_t& most = making.facts.portal[under.portal].needle_seen_ticks;
+  if (under.seen_ticks <= most) return;
+  most = under.seen_ticks;
+  if (most == procedure::kNeedleSeenTicks) emit(EventKind::NeedleSeen, now.held[hand], 0, 0.0);
+}
+
 /// A needle and a sheath, after they went on.
 void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
   const procedure::PortalMaking& figures = *model.procedure.making;
@@ -196,11 +219,13 @@ void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
     made.overrun_mm = std::max(made.overrun_mm, under.travel_mm - under.capsule_mm);
   }
   ++under.ticks;
+  if (work == SkinWork::Needle) watch_needle(model, hand);
   if (under.is_told || static_cast<double>(under.ticks) * kTickSeconds < figures.in_joint_s) return;
   under.is_told = true;
   note_line_in(model, hand);
   if (work == SkinWork::Needle) {
     if (making.facts.made == under.portal) made.needle = way_made(model, under);
+    if (is_uncut(under)) made.needle_seen_ticks = 0;  // what was seen of one before led to nothing
     return emit(EventKind::FluidBack, now.held[hand], 0, 0.0);
   }
   made.overrun_mm = std::max(made.overrun_mm, under.travel_mm - under.capsule_mm);

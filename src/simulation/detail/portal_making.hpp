@@ -45,6 +45,7 @@ struct UnderSkin {
   double travel_mm = 0.0;     ///< from the entry
   double capsule_mm = 0.0;    ///< where it went through the capsule
   std::uint32_t ticks = 0;    ///< in the joint, or spreading
+  std::uint32_t seen_ticks = 0;  ///< a needle's point, by a scope, without a break
 };
 
 /// The way by which a sheath came into a joint first. Frame Bone of the body that the portal goes
@@ -144,6 +145,7 @@ void visit(SomeState& state, Visitor&& v) noexcept {
   }
 }
 
+/// Of procedures that go in by them: the ways, and what a scope saw of the needle.
 template <Is<MakingState> SomeState, typename Visitor>
 void visit_ways(SomeState& state, Visitor&& v) noexcept {
   for (std::size_t i = 0; i < state.facts.made && i < state.ways.size(); ++i) {
@@ -153,6 +155,8 @@ void visit_ways(SomeState& state, Visitor&& v) noexcept {
     v(way.capsule_mm);
     v(way.joint);
   }
+  for (auto& made : state.facts.portal) v(made.needle_seen_ticks);
+  for (auto& under : state.worked.hands) v(under.seen_ticks);
 }
 
 /// Whether a tick could have left them.

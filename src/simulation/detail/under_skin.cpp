@@ -113,7 +113,7 @@ void World::State::advance_under_skin(const Model& model,
       if (pressed_n < kind.skin->capsule_n) return;
       under.is_through = true;
       under.capsule_mm = next;
-      under.ticks = 0;
+      under.ticks = under.seen_ticks = 0;
     }
     under.travel_mm = next;
   }

@@ -417,6 +417,10 @@ struct World::State {
   void float_loose(const Model& model, std::size_t which) noexcept;
   void publish_loose(const Model& model) noexcept;
   [[nodiscard]] bool is_seen_beside(const Model& model, std::uint8_t hand, const Vec3& at) noexcept;
+  [[nodiscard]] bool is_seen_beside(const Model& model,
+                                    std::uint8_t hand,
+                                    std::uint8_t joint,
+                                    const Vec3& at) noexcept;
   [[nodiscard]] Vec3 lesion_middle(const Model& model, std::size_t lesion) const noexcept;
   [[nodiscard]] procedure::LooseFacts loose_facts(const Model& model) const noexcept;
 
@@ -541,6 +545,8 @@ struct World::State {
                     const Vec3& at,
                     const Vec3& towards) noexcept;
   void note_under(const Model& model, std::uint8_t hand) noexcept;
+  void watch_needle(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] bool is_uncut(const detail::UnderSkin& under) const noexcept;
   [[nodiscard]] procedure::WayMade way_made(const Model& model,
                                             const detail::UnderSkin& under) const noexcept;
   [[nodiscard]] detail::OwnWay way_as_made(const Model& model,
