@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "arthroscopy/make_map.hpp"
 #include "arthroscopy/opened_space.hpp"
@@ -106,9 +107,10 @@ HandPose ScriptedArthroscopist::hole(std::uint8_t portal) const {
           -(poses_[p.body] * Direction<frame::Bone>{p.inwards}).v};
 }
 
-Vec3 ScriptedArthroscopist::place_of(std::size_t point) const {
-  const cases::TourPoint& p = map_.points[point];
-  return (poses_[p.body] * Point<frame::Bone>{p.at}).v;
+Vec3 ScriptedArthroscopist::place_of(std::size_t point) const { return moved(map_.points[point]); }
+
+Vec3 ScriptedArthroscopist::moved(const cases::TourPoint& point) const {
+  return (poses_[point.body] * Point<frame::Bone>{point.at}).v;
 }
 
 Vec3 ScriptedArthroscopist::in_portal(std::uint8_t portal, double beyond_capsule_mm) const {
@@ -329,9 +331,35 @@ void ScriptedArthroscopist::look_round(const Stop& stop) {
   }
 }
 
+void ScriptedArthroscopist::watches_first(std::uint8_t portal,
+                                          std::vector<cases::TourPoint> places) {
+  watch_ = Watch{portal, std::move(places)};
+}
+
+/// All of them at once; from where they are not seen so, the last of them.
+void ScriptedArthroscopist::plan_watch(const Watch& watch) {
+  enter(kScope, watch.portal);
+  std::vector<Vec3> places;
+  for (const cases::TourPoint& place : watch.places) places.push_back(moved(place));
+  const double half_field = arthroscopy::cos_sin_deg(lens_.field_deg / 2)[0];
+  View view =
+      view_of(watch.portal, places, planned_[kScope], half_field + kInFieldCosine, kTurnStepDeg);
+  if (!view.is_found) view = view_of(watch.portal, places.back(), planned_[kScope]);
+  if (view.is_found) look(watch.portal, view);
+}
+
+void ScriptedArthroscopist::goes_on() noexcept {
+  watch_.reset();
+  has_planned_ = false;
+}
+
 void ScriptedArthroscopist::plan() {
   tilt_deg_ = rng_.normal() * skill_.tilt_deg;
   planned_[kScope] = hands_[kScope].tip;
+  if (watch_) {
+    plan_watch(*watch_);
+    return;
+  }
   if (procedure_.drill) {
     plan_drill(*procedure_.drill);
   } else if (procedure_.removal) {

@@ -71,6 +71,13 @@ class ScriptedArthroscopist {
   /// What it may come to see and is asked about at the end; nullptr: nothing. Must outlive it.
   void examines(const cases::JointLesions* lesions) noexcept { lesions_ = lesions; }
 
+  /// At first it goes in by this portal of the map, has these in its picture, and holds still.
+  void watches_first(std::uint8_t portal, std::vector<cases::TourPoint> places);
+  /// It has, and does.
+  [[nodiscard]] bool holds_still() const noexcept { return has_planned_ && at_ >= tasks_.size(); }
+  /// ... no longer: it goes on from there with all the rest.
+  void goes_on() noexcept;
+
   /// The input for the next tick, from the state that the last one left.
   [[nodiscard]] simulation::Input next(const simulation::Snapshot& now);
   [[nodiscard]] bool is_done() const noexcept { return is_finished_; }
@@ -106,8 +113,14 @@ class ScriptedArthroscopist {
     bool is_found = false;
   };
 
+  struct Watch {
+    std::uint8_t portal = 0;
+    std::vector<cases::TourPoint> places;
+  };
+
   void plan();
   void plan_tour();
+  void plan_watch(const Watch& watch);
   void plan_finish();
   void take_probe(std::uint8_t portal);
   void begin(const simulation::Snapshot& now);
@@ -180,6 +193,7 @@ class ScriptedArthroscopist {
   [[nodiscard]] std::uint8_t decided() const;
 
   [[nodiscard]] Vec3 place_of(std::size_t point) const;
+  [[nodiscard]] Vec3 moved(const cases::TourPoint& point) const;
   [[nodiscard]] HandPose hole(std::uint8_t portal) const;
   [[nodiscard]] HandPose through(std::uint8_t portal, const Vec3& tip) const;
   [[nodiscard]] Vec3 in_portal(std::uint8_t portal, double beyond_capsule_mm) const;
@@ -218,6 +232,7 @@ class ScriptedArthroscopist {
   std::vector<Pose<frame::Patient, frame::Bone>> poses_;  ///< by body
   /// By hand: the portal that it is in; none where it is outside.
   std::array<std::uint8_t, simulation::kHands> in_{procedure::kNoBody, procedure::kNoBody};
+  std::optional<Watch> watch_;
   std::vector<Task> tasks_;
   std::size_t at_ = 0;
   bool has_planned_ = false;

@@ -3,12 +3,16 @@
 #include "trainee/entering_arthroscopist.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace carpus::trainee {
 namespace {
 
+constexpr std::uint8_t kScope = 0;  // hands
+constexpr std::uint8_t kWorks = 1;
 constexpr Tick kDrawTicks = 1500;
-constexpr double kDrawnMm = 0.03;  // a tick, out of the second portal
+constexpr double kDrawnMm = 0.03;                // a tick, out of the portal that was made
+constexpr std::array kNeedleBeyondMm{2.0, 4.0};  // of the capsule
 
 /// The case's map with the portals that were made in place of its own, and of its points those that
 /// they lead to.
@@ -57,32 +61,88 @@ EnteringArthroscopist::EnteringArthroscopist(const cases::CaseData& data,
                 [](const auto index) { return !instruments::catalogue()[index].enters_joints; });
 }
 
-void EnteringArthroscopist::begin_to_look(const simulation::Snapshot& now) {
+/// Where the second portal comes in, from a little beyond the capsule on: there its needle shows.
+std::vector<cases::TourPoint> EnteringArthroscopist::where_needle_comes_in(
+    const simulation::Snapshot& now) const {
+  const cases::Portal& portal = data_.arthroscopy->portals[now.skin.facts.asked[1]];
+  std::vector<cases::TourPoint> places;
+  for (const double beyond_mm : kNeedleBeyondMm) {
+    cases::TourPoint place;
+    place.at = portal.skin + portal.inwards * (portal.capsule_mm + beyond_mm);
+    place.body = portal.body;
+    place.joint = portal.joint;
+    places.push_back(place);
+  }
+  return places;
+}
+
+simulation::Input EnteringArthroscopist::make(const simulation::Snapshot& now) {
+  simulation::Input input = maker_.next(now);
+  if (looker_ != nullptr) {
+    input.hands[kScope] = looker_->next(now).hands[kScope];
+  } else if (maker_.works_under_vision()) {
+    drawn_ = 0;
+    stage_ = Stage::DrawOut;
+  }
+  if (maker_.is_done() && now.skin.facts.made == procedure::kPortalsMade) {
+    input.command = {};  // it would have finished
+    drawn_ = 0;
+    stage_ = Stage::DrawOut;
+  }
+  return input;
+}
+
+/// The sheath, whichever hand holds it.
+simulation::Input EnteringArthroscopist::draw_out(const simulation::Snapshot& now) {
+  simulation::Input input = last_;
+  input.command = {};
+  const std::uint8_t hand = looker_ != nullptr ? kWorks : kScope;
+  input.hands[hand].driver = simulation::Driver::Off;
+  if (++drawn_ < kDrawTicks) {
+    input.hands[hand].tip_in_patient += input.hands[hand].shaft_in_patient * kDrawnMm;
+    return input;
+  }
   map_ = as_made(*data_.arthroscopy, now.skin);
-  looker_ = std::make_unique<ScriptedArthroscopist>(data_, look_, skill_, seed_, &map_);
+  if (looker_ != nullptr) {
+    looker_->goes_on();
+    stage_ = Stage::Look;
+    return input;
+  }
+  input.command.kind = simulation::CommandKind::Take;
+  input.command.index = look_.tray.front();
+  stage_ = maker_.is_done() ? Stage::Look : Stage::Watch;
+  return input;
+}
+
+simulation::Input EnteringArthroscopist::look(const simulation::Snapshot& now) {
+  if (looker_ == nullptr) {
+    looker_ = std::make_unique<ScriptedArthroscopist>(data_, look_, skill_, seed_, &map_);
+    if (stage_ == Stage::Watch) {
+      looker_->watches_first(now.skin.ways[0].portal, where_needle_comes_in(now));
+    }
+  }
+  simulation::Input input = looker_->next(now);
+  if (stage_ == Stage::Watch && looker_->holds_still()) {
+    maker_.works_with(kWorks);
+    stage_ = Stage::Make;
+  }
+  return input;
 }
 
 simulation::Input EnteringArthroscopist::next(const simulation::Snapshot& now) {
-  if (looker_ != nullptr) return looker_->next(now);
-  if (!maker_.is_done()) {
-    last_ = maker_.next(now);
-    const bool goes_on = maker_.is_done() && now.skin.facts.made == procedure::kPortalsMade;
-    if (goes_on) last_.command = {};  // it would have finished
-    return last_;
+  switch (stage_) {
+    case Stage::Make:
+      last_ = make(now);
+      break;
+    case Stage::DrawOut:
+      last_ = draw_out(now);
+      break;
+    case Stage::Watch:
+    case Stage::Look:
+      last_ = look(now);
+      break;
   }
-  last_.command = {};
-  last_.hands[0].driver = simulation::Driver::Off;
-  if (++drawn_ < kDrawTicks) {
-    last_.hands[0].tip_in_patient += last_.hands[0].shaft_in_patient * kDrawnMm;
-    return last_;
-  }
-  if (drawn_ == kDrawTicks) {
-    last_.command.kind = simulation::CommandKind::Take;
-    last_.command.index = look_.tray.front();
-    return last_;
-  }
-  begin_to_look(now);
-  return looker_->next(now);
+  return last_;
 }
 
 }  // namespace carpus::trainee

@@ -1,11 +1,13 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scripted operator of an arthroscopy from closed skin on: makes two portals, then looks round by
-// these, wherever they came to lie.
+// A scripted operator of an arthroscopy from closed skin on: makes a portal, looks in by it and
+// makes the second one in the scope's sight, or both from outside as its skill says; then looks
+// round by these, wherever they came to lie.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "cases/case_data.hpp"
 #include "procedure/procedure.hpp"
@@ -33,13 +35,20 @@ class EnteringArthroscopist {
   [[nodiscard]] simulation::Input next(const simulation::Snapshot& now);
 
  private:
-  void begin_to_look(const simulation::Snapshot& now);
+  enum class Stage : std::uint8_t { Make, DrawOut, Watch, Look };
+
+  [[nodiscard]] std::vector<cases::TourPoint> where_needle_comes_in(
+      const simulation::Snapshot& now) const;
+  simulation::Input make(const simulation::Snapshot& now);
+  simulation::Input draw_out(const simulation::Snapshot& now);
+  simulation::Input look(const simulation::Snapshot& now);
 
   const cases::CaseData& data_;
   procedure::Procedure look_;  ///< with scope and probe alone
   Skill skill_;
   std::uint64_t seed_;
   ScriptedPortalMaker maker_;
+  Stage stage_ = Stage::Make;
   simulation::Input last_;
   Tick drawn_ = 0;
   cases::ArthroscopicMap map_;  ///< with the portals as they were made, and what they show

@@ -19,6 +19,7 @@ using simulation::CommandKind;
 constexpr double kOutsideMm = 14.0;
 constexpr double kBeforeMm = 3.0;   // off the skin, where it is aimed
 constexpr double kBeyondMm = 7.0;   // of the capsule a needle is not led on
+constexpr double kInSightMm = 4.5;  // ... under vision
 constexpr double kPressesMm = 2.0;  // with a fingertip
 constexpr double kFeltApartMm = 2.5;
 constexpr double kFeltS = 0.25;
@@ -40,9 +41,11 @@ Tick ticks_of(double s) { return static_cast<Tick>(std::max(0.0, s) / kTickSecon
 PortalSkill portal_skill_of(Skill skill) noexcept {
   PortalSkill made;
   if (skill == Skill::Middle) {
-    made = {50.0, 22.0, 6.0, 6.0, 0.1, 1.6, 7.0, 2, 5, 0.75, 5.5, 1.0, 20.0, 2.2, 0.3, 0.1, 0.25};
+    made = {50.0, 22.0, 6.0,  6.0, 0.1, 1.6, 7.0,  2,    5,  0.75,
+            5.5,  1.0,  20.0, 2.2, 0.3, 0.1, 0.25, true, 1.2};
   } else if (skill == Skill::Novice) {
-    made = {40.0, 16.0, 5.0, 8.0, 0.2, 3.2, 14.0, 1, 8, 0.85, 8.0, 2.0, 45.0, 3.8, 0.0, 0.45, 0.4};
+    made = {40.0, 16.0, 5.0,  8.0, 0.2, 3.2,  14.0, 1,     8,  0.85,
+            8.0,  2.0,  45.0, 3.8, 0.0, 0.45, 0.4,  false, 0.0};
   }
   return made;
 }
@@ -148,7 +151,8 @@ void ScriptedPortalMaker::plan_prick(bool is_first) {
   const Vec3 shaft = -found_way_;
   go({found_ + shaft * kOutsideMm, shaft}, skill_.speed_mm_per_s, is_first ? 0.3 : 0.0);
   go({found_ + shaft * kBeforeMm, shaft}, skill_.speed_mm_per_s, 0.2);
-  go({found_ + found_way_ * (at_.capsule_mm + kBeyondMm), shaft}, skill_.in_mm_per_s,
+  const double beyond_mm = works_under_vision() ? kInSightMm : kBeyondMm;
+  go({found_ + found_way_ * (at_.capsule_mm + beyond_mm), shaft}, skill_.in_mm_per_s,
      2 * skill_.reaction_s + 0.3);
   tasks_.back().until = Until::FluidBack;
   tasks_.back().is_prick = true;
@@ -177,7 +181,7 @@ void ScriptedPortalMaker::plan_portal() {
 
 /// By where the needle was, straight into the skin as it lies there.
 void ScriptedPortalMaker::plan_cut(const simulation::Snapshot& now) {
-  const Vec3 out = normalized_or(now.skin.out_of_skin[0], -at_.inwards);
+  const Vec3 out = normalized_or(now.skin.out_of_skin[works_], -at_.inwards);
   const Vec3 distal = data_.arthroscopy->distal;
   const Vec3 flat = normalized_or(distal - out * dot(distal, out), distal);
   const Vec3 start = found_ - flat * (skill_.cut_mm / 2);
@@ -191,7 +195,7 @@ void ScriptedPortalMaker::plan_cut(const simulation::Snapshot& now) {
 
 /// Along the skin as it lies there.
 void ScriptedPortalMaker::lead_blade(const simulation::Snapshot& now) {
-  const Vec3 out = now.skin.out_of_skin[0];
+  const Vec3 out = now.skin.out_of_skin[works_];
   const Vec3 distal = data_.arthroscopy->distal;
   const Vec3 flat = normalized_or(distal - out * dot(distal, out), distal);
   const double turn = radians_from_degrees(skill_.cut_turn_deg) * rng_.normal();
@@ -262,13 +266,20 @@ bool ScriptedPortalMaker::is_reached(const Task& task, const simulation::Snapsho
     case Until::There:
       return false;
     case Until::FluidBack:
-      return now.skin.is_wet[0];
+      return now.skin.is_wet[works_];
     case Until::Deep:
-      return now.skin.under_mm[0] >= cut_deep_mm_ - skill_.foresees_mm;
+      return now.skin.under_mm[works_] >= cut_deep_mm_ - skill_.foresees_mm;
     case Until::Made:
       return now.skin.facts.made > which_;
   }
   return false;
+}
+
+bool ScriptedPortalMaker::works_under_vision() const noexcept {
+  return which_ > 0 && skill_.works_under_vision &&
+         std::any_of(procedure_.tray.begin(), procedure_.tray.end(), [](const auto index) {
+           return instruments::catalogue()[index].optic.has_value();
+         });
 }
 
 simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
@@ -292,6 +303,7 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
       reached_at_ = 0;
       if (task.takes) {
         input.command.kind = CommandKind::Take;
+        input.command.hand = works_;
         input.command.index = task.instrument;
       }
     }
@@ -301,12 +313,16 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
     if (!reacts) hand_ = move_.at(in_task_);
     opens = task.opens;
     if (task.keeps_deep) {
-      const double off = now.skin.under_mm[0] - cut_deep_mm_;
+      const double off = now.skin.under_mm[works_] - cut_deep_mm_;
       lifted_mm_ += std::clamp(kFollows * off, -kMostFollowMm, kMostFollowMm);
     } else if (task.takes) {
       lifted_mm_ = 0.0;
     }
-    if (reacts || in_task_ >= move_ticks_ + task.dwell) {
+    // In sight it stays where it is until it was looked at.
+    const double looks_s = task.is_prick && works_under_vision() ? skill_.looks_s : 0.0;
+    const bool is_over = reacts ? now.tick >= reached_at_ + ticks_of(skill_.reaction_s + looks_s)
+                                : in_task_ >= move_ticks_ + task.dwell;
+    if (is_over) {
       const Task done = task;
       tasks_.pop_front();
       in_task_ = 0;
@@ -355,8 +371,9 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
     hand.tip_in_patient = hand_.tip;
     hand.shaft_in_patient = hand_.shaft;
   }
-  input.hands[0].tip_in_patient += tremor_.next() + hand_.shaft * lifted_mm_;
-  if (opens) input.hands[0].driver = simulation::Driver::Forward;
+  simulation::HandInput& works = input.hands[works_];
+  works.tip_in_patient += tremor_.next() + hand_.shaft * lifted_mm_;
+  if (opens) works.driver = simulation::Driver::Forward;
   return input;
 }
 

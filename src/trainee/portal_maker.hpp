@@ -41,6 +41,8 @@ struct PortalSkill {
   double foresees_mm = 0.7;  ///< of that a blade is held back: it goes on while one reacts
   double skips = 0.0;        ///< chance to leave out the needle, or to spread
   double reaction_s = 0.15;
+  bool works_under_vision = true;  ///< where there is a scope: the second portal
+  double looks_s = 1.6;            ///< at the needle in the joint, then
 };
 [[nodiscard]] PortalSkill portal_skill_of(Skill skill) noexcept;
 
@@ -55,6 +57,10 @@ class ScriptedPortalMaker {
   /// The input for the next tick, from the state that the last one left.
   [[nodiscard]] simulation::Input next(const simulation::Snapshot& now);
   [[nodiscard]] bool is_done() const noexcept { return is_finished_; }
+  /// From now on with this hand.
+  void works_with(std::uint8_t hand) noexcept { works_ = hand; }
+  /// Whether the portal that it makes now is one that a scope is to look at meanwhile.
+  [[nodiscard]] bool works_under_vision() const noexcept;
 
  private:
   enum class Until : std::uint8_t { There, FluidBack, Made, Deep };
@@ -113,6 +119,7 @@ class ScriptedPortalMaker {
   Tick move_ticks_ = 1;
   Tick reached_at_ = 0;
   std::size_t which_ = 0;
+  std::uint8_t works_ = 0;  ///< hand
   Portal at_;
   double cut_deep_mm_ = 0.0;
   double lifted_mm_ = 0.0;  ///< of the blade, so that it keeps its depth
