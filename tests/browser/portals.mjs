@@ -140,6 +140,22 @@ export async function makesPortals(browser, station) {
     const off = minus(item.tip_mm, ways[0].skin_mm);
     expect(Math.sqrt(dot(off, off)) < 30, "it went in elsewhere");
     await picture("scope");
+  });
+  await check(page, "its picture stays beside the skin while the other hand works there", async () => {
+    const large = page.locator(".scope:not(.is-inset)");
+    const inset = page.locator(".scope.is-inset");
+    await operator.otherHand();
+    await operator.take("needle_22g");
+    await inset.waitFor({ state: "visible" });
+    await picture("inset");
+    await page.keyboard.press("7");
+    await large.waitFor({ state: "visible" });
+    await page.getByRole("button", { name: "Change places" }).click();
+    await inset.waitFor({ state: "visible" });
+    await operator.otherHand();
+    await large.waitFor({ state: "visible" });
+    const { in_joint: inJoint } = await page.evaluate(() => window.carpus.scope());
+    expect(inJoint[0] === 1, "the scope came out meanwhile");
     await operator.take("needle_22g");
     await page.locator(".scope").waitFor({ state: "hidden" });
     await picture("skin_again");
