@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "arthroscopy/detail/carry_wall.hpp"
 #include "arthroscopy/detail/lay_fibres.hpp"
 #include "arthroscopy/portal_table.hpp"
 #include "cases/joint_under_block.hpp"
@@ -31,12 +32,19 @@ constexpr std::uint8_t kRingsAboutCut = 3;
 constexpr int kSmoothedTimes = 30;
 /// With a probe's 672 and a loose body's 720 less than 15 000 triangles are drawn.
 constexpr std::size_t kMostFacets = 13500;
+/// As far from a bone as a wall may lie that is on it: the grid of its space.
+constexpr double kTouchMm = 0.2;
+/// Of a place on a bone: so far it keeps to it rather than to what is about, which evens it out
+/// over one facet or so.
+constexpr float kHold = 0.5F;
 /// So far scaphoid and triquetrum may part from the lunate: Geissler IV, a scope passes [E].
 constexpr double kPartedMm = 3.2;
 
 struct Nearest {
   std::uint8_t body = 0;
   double mm = kFarMm;
+  std::uint8_t next_body = 0;  ///< of the row's other bones
+  double next_mm = kFarMm;
 };
 
 enum class Row : std::uint8_t { Forearm, Proximal, Distal };
@@ -68,11 +76,18 @@ class NearestBones {
       const cases::Bone& bone = data_.bones[b];
       if (!is_of(bone, row) || bone.distance_field.values().empty()) continue;
       const fields::DistanceSample s = fields::sample_distance(bone.distance_field, at);
-      if (!s.is_inside_grid || s.distance_mm >= best.mm) continue;
-      best = {static_cast<std::uint8_t>(b), s.distance_mm};
+      if (!s.is_inside_grid) continue;
+      const auto body = static_cast<std::uint8_t>(b);
+      if (s.distance_mm < best.mm) {
+        best = {body, s.distance_mm, best.body, best.mm};
+      } else if (s.distance_mm < best.next_mm) {
+        best.next_body = body;
+        best.next_mm = s.distance_mm;
+      }
     }
     if (best.mm >= kFarMm) best.body = far_from(at, row);
     best.mm = std::max(0.0, best.mm);
+    best.next_mm = std::max(0.0, best.next_mm);
     return best;
   }
 
@@ -117,9 +132,34 @@ bool is_of_row(const soft_tissue::Ligament& ligament, const cases::CaseData& dat
 
 /// By vertex of a wall, until its sides are parted.
 struct OnWall {
-  std::vector<float> gap_mm;  ///< from one side to the other
-  std::vector<bool> spans;    ///< of a ligament from one side to the other
+  std::vector<float> gap_mm;   ///< from one side to the other
+  std::vector<bool> spans;     ///< of a ligament from one side to the other
+  std::vector<Carried> guess;  ///< how it goes with the bones, by how near they are ...
+  std::vector<float> hold;     ///< ... and how firmly it does
 };
+
+/// By how near each is, so that on one bone's cartilage a place goes with that bone alone.
+Carried by_distance(const Nearest& proximal, const Nearest& distal) {
+  Carried carried;
+  carried.body = {proximal.body, distal.body, proximal.next_body, distal.next_body};
+  const std::array<double, Carried::kMost> mm{proximal.mm, distal.mm, proximal.next_mm,
+                                              distal.next_mm};
+  double sum = 0;
+  std::array<double, Carried::kMost> parts{};
+  for (std::size_t k = 0; k < mm.size(); ++k) {
+    if (k > 1 && mm[k] >= kFarMm) continue;
+    parts[k] = 1 / ((mm[k] + kTouchMm) * (mm[k] + kTouchMm));
+    sum += parts[k];
+  }
+  for (std::size_t k = 0; k < mm.size(); ++k) carried.share[k] = static_cast<float>(parts[k] / sum);
+  return carried;
+}
+
+/// What lies on a bone, or is the disc, goes as that does; all else hangs between.
+float hold_of(Lining lining) {
+  if (lining == Lining::Disc) return 1.0F;
+  return lining == Lining::Cartilage || lining == Lining::Bone ? kHold : 0.0F;
+}
 
 OnWall line(JointWall& wall,
             const cases::CaseData& data,
@@ -152,13 +192,16 @@ OnWall line(JointWall& wall,
     wall.distal_share.push_back(static_cast<float>(share));
     on.gap_mm.push_back(static_cast<float>(both));
     on.spans.push_back(spans);
+    on.guess.push_back(wall.lining[i] == Lining::Disc ? Carried{{proximal.body}, {1.0F}}
+                                                      : by_distance(proximal, distal));
+    on.hold.push_back(hold_of(wall.lining[i]));
   }
   return on;
 }
 
 /// About a cut all that lies between sides which nearly touch goes with its own side, and its stump
 /// is smoothed down.
-void take_sides(JointWall& wall, const OnWall& on, std::size_t first_cut) {
+void take_sides(JointWall& wall, OnWall& on, std::size_t first_cut) {
   std::vector<Vec3>& vertices = wall.surface.vertices;
   std::vector<std::uint8_t> rings(vertices.size(), 0);
   std::fill(rings.begin() + static_cast<std::ptrdiff_t>(first_cut), rings.end(), 1);
@@ -169,6 +212,7 @@ void take_sides(JointWall& wall, const OnWall& on, std::size_t first_cut) {
         if (rings[v] != 0 || on.spans[v] || on.gap_mm[v] > kTouchingMm) continue;
         rings[v] = static_cast<std::uint8_t>(ring + 1);
         wall.distal_share[v] = std::round(wall.distal_share[v]);
+        on.hold[v] = 0;
       }
     }
   }
@@ -186,7 +230,7 @@ void take_sides(JointWall& wall, const OnWall& on, std::size_t first_cut) {
 
 /// Where forearm and row, or the rows, touch as scanned the space has a bridge, which the opened
 /// joint would draw out to a peg: no tissue is there.
-void part(JointWall& wall, const OnWall& on) {
+void part(JointWall& wall, OnWall& on) {
   const std::size_t count = wall.surface.vertices.size();
   mesh::PartedBridges parted =
       mesh::part_bridges(wall.surface.vertices, wall.surface.facets, wall.distal_share,
@@ -201,6 +245,8 @@ void part(JointWall& wall, const OnWall& on) {
     wall.proximal.push_back(wall.proximal[c.a]);
     wall.distal.push_back(wall.distal[c.a]);
     wall.distal_share.push_back(std::round(wall.distal_share[c.a]));
+    on.guess.push_back(on.guess[c.a]);
+    on.hold.push_back(0);
   }
   take_sides(wall, on, count);
 }
@@ -213,7 +259,9 @@ JointWall wall_of(const cases::CaseData& data,
   wall.joint = joint.id;
   wall.surface = space.surface;
   wall.lining = space.lining;
-  part(wall, line(wall, data, tissue, joint));
+  OnWall on = line(wall, data, tissue, joint);
+  part(wall, on);
+  wall.carried = detail::carry_wall(wall.surface, on.guess, on.hold);
   return wall;
 }
 
@@ -224,9 +272,14 @@ std::vector<Vec3> laid(const JointWall& wall, const std::vector<BodyMotion>& mot
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < wall.surface.vertices.size(); ++i) {
     const Point<frame::Bone> at{wall.surface.vertices[i]};
-    const Vec3 proximal = (motions[wall.proximal[i]] * at).v;
-    const Vec3 distal = (motions[wall.distal[i]] * at).v;
-    places.push_back(proximal + (distal - proximal) * static_cast<double>(wall.distal_share[i]));
+    const Carried& with = wall.carried[i];
+    Vec3 place;
+    for (std::size_t k = 0; k < Carried::kMost; ++k) {
+      if (with.share[k] > 0) {
+        place += (motions[with.body[k]] * at).v * static_cast<double>(with.share[k]);
+      }
+    }
+    places.push_back(place);
   }
   return places;
 }
@@ -271,6 +324,7 @@ void simplify(JointWall& wall, const cases::CaseData& data) {
   keep_only(wall.proximal, fewer.kept);
   keep_only(wall.distal, fewer.kept);
   keep_only(wall.distal_share, fewer.kept);
+  keep_only(wall.carried, fewer.kept);
 }
 
 }  // namespace

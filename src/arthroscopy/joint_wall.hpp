@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "arthroscopy/carried.hpp"
 #include "cases/case_data.hpp"
 #include "soft_tissue/soft_tissue.hpp"
 
@@ -22,9 +23,10 @@ struct JointWall {
   /// Across and along a ligament's strands [mm], far apart for two ligaments; z: 1 well on one,
   /// less towards another, 0 on none.
   std::vector<Vec3> fibre;
-  std::vector<std::uint8_t> proximal;  ///< body that it goes with: of the proximal side ...
+  std::vector<std::uint8_t> proximal;  ///< nearest body of the proximal side ...
   std::vector<std::uint8_t> distal;    ///< ... and of the distal one
-  std::vector<float> distal_share;     ///< of that one's motion, 0 to 1
+  std::vector<float> distal_share;     ///< which side it is: 0 the proximal one, 1 the distal one
+  std::vector<Carried> carried;        ///< how it goes with the bodies as they move
   double simplified_by_mm = 0;         ///< against the space's surface, however the joint is opened
   std::size_t parted =
       0;  ///< places where both sides touched as scanned, cut through so that they can part

@@ -30,6 +30,7 @@ TEST(JointWall, OfBothJointsIsClosedAndDrawnInTime) {
     EXPECT_EQ(wall.proximal.size(), count);
     EXPECT_EQ(wall.distal.size(), count);
     EXPECT_EQ(wall.distal_share.size(), count);
+    EXPECT_EQ(wall.carried.size(), count);
     for (const auto& space : wrist.tissue.spaces) {
       if (space.id != wall.joint) continue;
       EXPECT_NEAR(volume_of(wall.surface), space.volume_mm3, 0.005 * space.volume_mm3);
@@ -82,6 +83,35 @@ TEST(JointWall, EachPlaceGoesWithTheBoneOfItsRowThatIsNearest) {
     EXPECT_EQ(wrong, 0U) << wall.joint;
   }
   EXPECT_GT(far, 0U);
+}
+
+/// With the nearest bone alone, neighbours that go with different ones tore apart as these parted.
+TEST(JointWall, NoFacetIsTornWhereScaphoidAndLunatePart) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  const auto& bones = wrist.data.bones;
+  const auto share_of = [&](const Carried& one, BoneId bone) {
+    float sum = 0;
+    for (std::size_t k = 0; k < Carried::kMost; ++k) {
+      if (one.share[k] > 0 && bones[one.body[k]].bone == bone) sum += one.share[k];
+    }
+    return sum;
+  };
+  for (const JointWall& wall : make_joint_walls(wrist.data, wrist.tissue)) {
+    std::size_t edges = 0;
+    std::size_t torn = 0;
+    float whole = 0;
+    for (const Triangle& t : wall.surface.facets) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float a = share_of(wall.carried[t[k]], BoneId::Scaphoid);
+        const float b = share_of(wall.carried[t[(k + 1) % 3]], BoneId::Scaphoid);
+        ++edges;
+        torn += std::abs(a - b) > 0.7F ? 1 : 0;
+        whole = std::max(whole, a);
+      }
+    }
+    EXPECT_GT(whole, 0.99F) << wall.joint;  // on the scaphoid it goes with that alone
+    EXPECT_EQ(torn, 0U) << wall.joint << " of " << edges;
+  }
 }
 
 TEST(JointWall, FibresRunOnFromVertexToVertexOfALigament) {

@@ -14,6 +14,7 @@
 #include <deque>
 #include <limits>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "case_io/bone_normals.hpp"
@@ -42,9 +43,9 @@ int add_accessor(tinygltf::Model& model,
   accessor.bufferView = static_cast<int>(model.bufferViews.size());
   accessor.componentType = component;
   accessor.type = type;
-  accessor.count = values.size() / (type == TINYGLTF_TYPE_VEC3   ? 3U
-                                    : type == TINYGLTF_TYPE_VEC2 ? 2U
-                                                                 : 1U);
+  accessor.count =
+      values.size() /
+      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
   model.bufferViews.push_back(std::move(view));
   model.accessors.push_back(std::move(accessor));
   return static_cast<int>(model.accessors.size()) - 1;
@@ -334,6 +335,16 @@ tinygltf::Node add_joint(tinygltf::Model& model, const arthroscopy::JointWall& j
   attributes["_PROXIMAL"] = add_scalars(model, joint.proximal);
   attributes["_DISTAL"] = add_scalars(model, joint.distal);
   attributes["_DISTAL_SHARE"] = add_scalars(model, joint.distal_share);
+  std::vector<float> bodies;
+  std::vector<float> shares;
+  for (const arthroscopy::Carried& one : joint.carried) {
+    bodies.insert(bodies.end(), one.body.begin(), one.body.end());
+    shares.insert(shares.end(), one.share.begin(), one.share.end());
+  }
+  for (const auto& [name_of_it, values] : {std::pair{"_BODIES", &bodies}, {"_SHARES", &shares}}) {
+    attributes[name_of_it] = add_accessor(model, *values, TINYGLTF_COMPONENT_TYPE_FLOAT,
+                                          TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
+  }
   tinygltf::Node node;
   node.name = name;
   node.mesh = mesh;

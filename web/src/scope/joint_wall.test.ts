@@ -21,6 +21,11 @@ function wall() {
   scalars("_proximal", [0, 0, 0, 0]);
   scalars("_distal", [1, 1, 1, 1]);
   scalars("_distal_share", [0, 0, 0, 1]);
+  const four = (name: string, values: number[]): void => {
+    surface.setAttribute(name, new THREE.Float32BufferAttribute(values, 4));
+  };
+  four("_bodies", [0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0]);
+  four("_shares", [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]);
   const made = jointWallOf("radiocarpal", surface);
   if (made === undefined) throw new Error("no wall");
   return made;

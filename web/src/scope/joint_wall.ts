@@ -5,6 +5,7 @@
 // Generated, not seen in the CT.
 import * as THREE from "three";
 import type { BodyPose, Vec3 } from "../protocol";
+import { CarriedPlaces } from "./carried_places";
 import { WallSheet, type SheetPlan } from "./wall_sheet";
 import type { SidedWall } from "./wall_sides";
 
@@ -37,14 +38,20 @@ const DISC_SHEET = 0;
 /** @param surface  of the node, in Patient [mm]. undefined where it is no joint's wall. */
 export function jointWallOf(joint: string, surface: THREE.BufferGeometry): JointWall | undefined {
   const lining = surface.getAttribute("_lining");
-  const [proximal, distal, share] = ["_proximal", "_distal", "_distal_share"].map((name) =>
-    surface.getAttribute(name),
-  );
+  const [proximal, distal, share, withBodies, withShares] = [
+    "_proximal",
+    "_distal",
+    "_distal_share",
+    "_bodies",
+    "_shares",
+  ].map((name) => surface.getAttribute(name));
   if (
     lining === undefined ||
     proximal === undefined ||
     distal === undefined ||
-    share === undefined
+    share === undefined ||
+    withBodies === undefined ||
+    withShares === undefined
   ) {
     return undefined;
   }
@@ -57,8 +64,8 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
     "fibre",
     fibre === undefined ? new THREE.BufferAttribute(new Float32Array(3 * count), 3) : fibre.clone(),
   );
-  for (const name of ["_lining", "_proximal", "_distal", "_distal_share", "_fibre"])
-    geometry.deleteAttribute(name);
+  for (const name of Object.keys(geometry.attributes))
+    if (name.startsWith("_")) geometry.deleteAttribute(name);
   const rest = new Float32Array(surface.getAttribute("position").array);
   geometry.setAttribute("rest", new THREE.BufferAttribute(rest, 3));
   geometry.setAttribute("share", share.clone());
@@ -73,17 +80,7 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
   const position = new THREE.BufferAttribute(new Float32Array(rest), 3);
   position.setUsage(THREE.DynamicDrawUsage);
   geometry.setAttribute("position", position);
-  const moved = [new THREE.Vector3(), new THREE.Vector3()] as const;
-  const turn = new THREE.Quaternion();
-  const at = (pose: BodyPose | undefined, v: number, into: THREE.Vector3): void => {
-    into.fromArray(rest, 3 * v);
-    if (pose === undefined) return;
-    const [w, x, y, z] = pose.quaternion;
-    into.applyQuaternion(turn.set(x, y, z, w));
-    into.x += pose.translation_mm[0];
-    into.y += pose.translation_mm[1];
-    into.z += pose.translation_mm[2];
-  };
+  const carried = new CarriedPlaces(withBodies.array, withShares.array);
   geometry.computeBoundingSphere();
   const isDisc = Array.from({ length: count }, (_, v) => Math.round(lining.getX(v)) === DISC);
   let sheets: readonly (WallSheet | undefined)[] = [];
@@ -102,11 +99,7 @@ export function jointWallOf(joint: string, surface: THREE.BufferGeometry): Joint
     sides,
     triangles: (surface.getIndex()?.count ?? 0) / 3,
     pose: (poses) => {
-      for (let v = 0; v < count; ++v) {
-        at(poses[proximal.getX(v)], v, moved[0]);
-        at(poses[distal.getX(v)], v, moved[1]);
-        moved[0].lerp(moved[1], share.getX(v)).toArray(position.array, 3 * v);
-      }
+      carried.lay(position.array as Float32Array, rest, poses);
       for (const sheet of sheets) sheet?.addTo(position.array as Float32Array, rest, poses);
       position.needsUpdate = true;
       geometry.computeVertexNormals();
