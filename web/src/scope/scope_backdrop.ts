@@ -35,15 +35,13 @@ vec3 tract(vec3 way) {
   vec3 at = eye + way * kAwayMm;
   float soft = 0.65 * noise(at * 0.8) + 0.35 * noise(at * 1.9 + 7.1);
   float villi = noise(at * 2.6);
-  float ridge = 1.0 - abs(2.0 * noise(at * 1.5 + 2.0 * soft) - 1.0);
-  vec3 synovium = mix(vec3(0.62, 0.22, 0.17), vec3(0.88, 0.58, 0.46), 0.5 * soft + 0.5 * villi);
-  synovium = mix(synovium, vec3(0.50, 0.04, 0.04), 0.5 * smoothstep(0.95, 0.995, ridge));
-  vec3 fat = mix(vec3(0.82, 0.50, 0.32), vec3(0.96, 0.72, 0.52), villi);
-  vec3 albedo = mix(synovium, fat, smoothstep(0.52, 0.66, noise(at * 0.45 + 3.3)));
+  vec3 synovium = mix(vec3(0.46, 0.12, 0.09), vec3(0.72, 0.34, 0.25), 0.5 * soft + 0.5 * villi);
+  vec3 fat = mix(vec3(0.66, 0.32, 0.18), vec3(0.80, 0.50, 0.32), villi);
+  vec3 albedo = mix(synovium, fat, 0.7 * smoothstep(0.50, 0.72, noise(at * 0.45 + 3.3)));
   float cone = mix(0.15, 1.0, smoothstep(0.55, 0.95, dot(way, axis)));
   float e = ${LAMP} * (cone / (kAwayMm * kAwayMm + 11.0) + 0.0032);
-  // Folds: what turns away from the light is darker.
-  float fold = 0.35 + 0.65 * smoothstep(0.25, 0.75, 0.6 * soft + 0.4 * noise(at * 1.1 + 19.0));
+  // Folds: what turns away from the light is darker, and all of it lies beside the lamp.
+  float fold = 0.12 + 0.45 * smoothstep(0.25, 0.75, 0.6 * soft + 0.4 * noise(at * 1.1 + 19.0));
   return albedo * (0.75 * e * fold + 0.03) * exposure;
 }
 void main() {

@@ -113,13 +113,14 @@ void main() {
   vec3 view = -to / far;
   // By the place on the screen: within a large triangle the true direction lies a chord beside it.
   float r = length(vScreen.xy / vScreen.z);
-  if (r > 1.0) discard;
+  // A facet that goes round behind the lens would be drawn right across what is before it.
+  if (r > 1.0 || dot(to, axis) < 0.2 * far) discard;
   // Into the joint, by which side it is: asked of the view it would flip along every edge, as dots.
   vec3 n = normalize(vNormal) * (isMetal > 0.5 ? 1.0 : -1.0);
   vec3 smooth_n = n;
 
   float soft = cloudy(vAt * 0.9);
-  float grain = noise(vAt * 6.0);
+  float grain = noise(ASLANT * vAt * 6.0);
   // What lines it, sharpened: edges are some tenths of a millimetre wide, and ragged.
   vec4 w = vLining + (soft - 0.5) * 0.16 * step(0.02, vLining) ;
   w = smoothstep(0.22, 0.78, w) * (1.0 - isMetal);
