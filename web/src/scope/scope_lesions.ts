@@ -171,8 +171,10 @@ void paintLesions(inout vec3 albedo, inout float rough, inout float wet) {
       grain = transpose(mat3(bone)) * (vAt - bone[3].xyz);
     }
     if (gap <= 0.0 && off > 2.6 * radius) continue;
-    float ragged = noise(grain * 3.1 + 5.0) - 0.5;
-    float fine = noise(grain * 9.0) - 0.5;
+    // Tissue is torn ragged; cartilage ends smoothly where it did.
+    float frays = 1.0 - 0.75 * parted * vLining.x;
+    float ragged = frays * (noise(grain * 3.1 + 5.0) - 0.5);
+    float fine = frays * (noise(grain * 9.0) - 0.5);
     float s = off / radius + 0.45 * ragged + 0.2 * fine + 3.0 * (1.0 - here) + 3.0 * parted;
     if (look < 0.5) {  // bleeding into a ligament
       float t = 1.0 - smoothstep(0.35, 1.25, s);

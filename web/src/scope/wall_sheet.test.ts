@@ -86,4 +86,32 @@ describe("a ligament of the wall", () => {
     expect(high[3]).toBeLessThan(1);
     expect(new THREE.Vector3().fromArray(position, 12).x).toBe(3);
   });
+
+  it("shows no place of its own as a step where it is pressed aslant", () => {
+    const EVERY_MM = 0.25;
+    const xs = Array.from({ length: 41 }, (_, i) => 5.03 + EVERY_MM * i);
+    const row = new Float32Array(xs.flatMap((x) => [x, 0, 0]));
+    const along = {
+      rest: row,
+      normals: new Float32Array(xs.flatMap(() => [0, 0, 1])),
+      isDisc: xs.map(() => false),
+      distalShare: xs.map(() => 1),
+      distal: xs.map(() => 0),
+    };
+    const places = Array.from(
+      { length: 60 },
+      (_, i) => [i % 20, Math.floor(i / 20) - 1, 0.5] as const,
+    );
+    const sheet = new WallSheet(along, ligament(places), 0);
+    sheet.yield(places.flatMap(([x]) => [0, 0, 100 * x])); // a tenth of a millimetre each
+    const position = new Float32Array(row);
+    sheet.addTo(position, row, [REST]);
+    const high = xs.map((_, i) => position[3 * i + 2] ?? 0);
+    const meant = 0.1 * EVERY_MM;
+    for (let i = 1; i < high.length; ++i) {
+      const step = (high[i] ?? 0) - (high[i - 1] ?? 0);
+      expect(step).toBeGreaterThan(0.8 * meant);
+      expect(step).toBeLessThan(1.2 * meant);
+    }
+  });
 });

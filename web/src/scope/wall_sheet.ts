@@ -27,8 +27,10 @@ interface Bound {
   readonly goes: number;
 }
 
-/** A vertex goes with so many places, by how near they are. */
-const PLACES = 4;
+/** A vertex goes with so many places, by how near they are: of a disc, which is cut away place by place, with the
+ * nearest most of all; of a ligament evenly, since each place would show as a facet of its own. */
+const DISC_PLACES = 4;
+const LIGAMENT_PLACES = 10;
 /** Of the disc the wall goes along so far from its nearest place [mm] ... */
 const DISC_REACH_MM = 2.5;
 /** ... and half as much where something else lines it, so near. */
@@ -135,31 +137,58 @@ function boundTo(wall: ScannedWall, plan: SheetPlan, body: number): readonly Bou
     if (!isNear) continue;
     const near = plan.places_mm
       .map((place, i) => ({ i, mm: Math.hypot(place[0] - x, place[1] - y, place[2] - z) }))
-      .sort((a, b) => a.mm - b.mm)
-      .slice(0, PLACES);
+      .sort((a, b) => a.mm - b.mm);
     const [nearest] = near;
     if (nearest === undefined) continue;
-    const place = plan.places_mm[nearest.i] ?? [0, 0, 0];
+    const { places, parts } = plan.kind === "disc" ? sharply(near) : evenly(near);
+    const middle = [0, 0, 0];
+    places.forEach((i, p) => {
+      plan.places_mm[i]?.forEach((value, k) => {
+        middle[k] = (middle[k] ?? 0) + (parts[p] ?? 0) * value;
+      });
+    });
+    const [mx = 0, my = 0, mz = 0] = middle;
     const under =
-      (place[0] - x) * (normals[3 * vertex] ?? 0) +
-      (place[1] - y) * (normals[3 * vertex + 1] ?? 0) +
-      (place[2] - z) * (normals[3 * vertex + 2] ?? 0);
+      (mx - x) * (normals[3 * vertex] ?? 0) +
+      (my - y) * (normals[3 * vertex + 1] ?? 0) +
+      (mz - z) * (normals[3 * vertex + 2] ?? 0);
     const goes =
       plan.kind === "disc"
         ? goesWithDisc(nearest.mm, wall.isDisc[vertex] === true)
         : goesWithLigament(nearest.mm, under) *
           onSide(isDistal ? (wall.distalShare[vertex] ?? 0) : 1 - (wall.distalShare[vertex] ?? 0));
     if (goes === 0) continue;
-    const parts = near.map(({ mm }) => 1 / (mm * mm + 0.04));
-    const sum = parts.reduce((a, b) => a + b, 0);
-    all.push({
-      vertex,
-      places: near.map(({ i }) => i),
-      weights: parts.map((part) => (goes * part) / sum),
-      goes,
-    });
+    all.push({ vertex, places, weights: parts.map((part) => goes * part), goes });
   }
   return all;
+}
+
+interface Near {
+  readonly i: number;
+  readonly mm: number;
+}
+
+/** Parts of places, 1 in all. */
+interface Parts {
+  readonly places: readonly number[];
+  readonly parts: readonly number[];
+}
+
+function sharply(near: readonly Near[]): Parts {
+  return normalized(near.slice(0, DISC_PLACES), ({ mm }) => 1 / (mm * mm + 0.04));
+}
+
+/** Down to none for the next place, so that nothing jumps where another becomes the next. */
+function evenly(near: readonly Near[]): Parts {
+  const some = near.slice(0, LIGAMENT_PLACES);
+  const nextMm = near[LIGAMENT_PLACES]?.mm ?? (some.at(-1)?.mm ?? 0) + 1;
+  return normalized(some, ({ mm }) => (nextMm - mm) ** 2 + 1e-9);
+}
+
+function normalized(near: readonly Near[], partOf: (one: Near) => number): Parts {
+  const all = near.map(partOf);
+  const sum = all.reduce((a, b) => a + b, 0);
+  return { places: near.map(({ i }) => i), parts: all.map((part) => part / sum) };
 }
 
 function goesWithDisc(mm: number, isDisc: boolean): number {
