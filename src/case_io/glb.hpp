@@ -49,7 +49,8 @@ struct NamedTube {
 /// case.
 /// @param joints  for each a node `joint_wall_<its id>` more: `extras` {generated: true, joint: its
 ///     id}, and by vertex `_LINING` (soft_tissue::Lining), `_FIBRE`, `_PROXIMAL` and `_DISTAL`
-///     (place of a bone in the case), `_DISTAL_SHARE`.
+///     (place of a bone in the case), `_DISTAL_SHARE`, and how it goes with the bones: of four,
+///     `_BODIES` (places in the case) and `_SHARES` (1 in all, the foremost first).
 /// @param besides  surfaces of the same patient, after the skin.
 [[nodiscard]] std::string make_case_glb(const cases::CaseData& data,
                                         std::span<const arthroscopy::JointWall> joints = {},
