@@ -98,9 +98,10 @@ float power28(float x) {
   float x4 = x * x * x * x, x8 = x4 * x4;
   return x4 * x8 * x8 * x8;
 }
-float power420(float x) {
+// A hard glare; on villi it is broken up and wider: as sharp as on cartilage it would flicker from point to point.
+float glare(float x, float villous) {
   float x28 = power28(x), x56 = x28 * x28, x112 = x56 * x56;
-  return x28 * x56 * x112 * x112 * x112;
+  return mix(x28 * x56 * x112 * x112 * x112, 0.5 * x112, villous);
 }
 const mat3 ASLANT = mat3(0.36, 0.48, -0.80, -0.80, 0.60, 0.0, 0.48, 0.64, 0.60);
 float cloudy(vec3 p) { return 0.65 * noise(p) + 0.35 * noise(2.3 * p + 7.1); }
@@ -217,11 +218,11 @@ void main() {
   colour += e * step(0.0, nl) * wet * (min(ggx * (0.03 + 0.5 * isMetal), 2.2) * 0.5 + 0.10 * power28(nh));
   colour += 0.3 * e * isMetal * (1.0 - vLining.w) * power5(nh);
   // A film of fluid over all of it, uneven: a small hard glare.
-  vec3 film = normalize(mix(smooth_n, n, 0.5) + 0.05 * (vec3(soft, villi, grain) - 0.5));
-  float coat = power420(max(dot(film, h), 0.0));
+  vec3 film = normalize(mix(smooth_n, n, 0.25) + 0.05 * (vec3(soft, villi, grain) - 0.5));
+  float coat = glare(max(dot(film, h), 0.0), red);
   // The fibres end in two crescents beside the lens: each has its glint.
   vec3 h2 = normalize(normalize(2.0 * eye - lamp - vAt) + view);
-  coat += 0.7 * power420(max(dot(film, h2), 0.0));
+  coat += 0.7 * glare(max(dot(film, h2), 0.0), red);
   colour += (1.0 - isMetal) * e * step(0.0, nl) * 2.4 * coat * wet;
   colour += 0.16 * e * fresnel * wet * vec3(0.93, 0.98, 1.05);
   // A mark shines by itself, whatever the lamp does.
