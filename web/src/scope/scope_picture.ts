@@ -203,7 +203,7 @@ export class ScopePicture {
     skin: { readonly skinMm: Vec3; readonly inwards: Vec3 } | undefined,
   ): void {
     const size = Math.max(64, Math.min(LARGEST_PX, Math.round(sizePx)));
-    if (this.canvas.width !== size) this.renderer.setSize(size, size, false);
+    if (this.canvas.height !== size) this.renderer.setSize(size, size, false); // not so at first, which is no square
     const { eye, axis, up, right, lamp } = this.lens;
     eye.value.set(...sight.eyeMm);
     axis.value.set(...sight.axis);
