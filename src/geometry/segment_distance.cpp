@@ -9,7 +9,10 @@ double held_to_unit(double t) noexcept { return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : 
 
 }  // namespace
 
-double segment_distance(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) noexcept {
+NearestOnSegments nearest_on_segments(const Vec3& a0,
+                                      const Vec3& a1,
+                                      const Vec3& b0,
+                                      const Vec3& b1) noexcept {
   const Vec3 u = a1 - a0;
   const Vec3 v = b1 - b0;
   const Vec3 w = a0 - b0;
@@ -38,7 +41,12 @@ double segment_distance(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Ve
       }
     }
   }
-  return distance(a0 + u * s, b0 + v * t);
+  return {s, t};
+}
+
+double segment_distance(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) noexcept {
+  const NearestOnSegments at = nearest_on_segments(a0, a1, b0, b1);
+  return distance(a0 + (a1 - a0) * at.a, b0 + (b1 - b0) * at.b);
 }
 
 }  // namespace carpus

@@ -17,5 +17,15 @@ TEST(SegmentDistance, HoldsForCrossingParallelAndCollapsedSegments) {
   EXPECT_DOUBLE_EQ(segment_distance({-1, 2, 0}, {1, 2, 0}, o, o), 2);
 }
 
+TEST(NearestOnSegments, SaysHowFarAlongEachOfThem) {
+  const NearestOnSegments at = nearest_on_segments({-1, 0, 0}, {3, 0, 0}, {0, -3, 2}, {0, 1, 2});
+  EXPECT_DOUBLE_EQ(at.a, 0.25);
+  EXPECT_DOUBLE_EQ(at.b, 0.75);
+  const NearestOnSegments in_line =
+      nearest_on_segments({-1, 0, 0}, {1, 0, 0}, {3, 0, 0}, {4, 0, 0});
+  EXPECT_DOUBLE_EQ(in_line.a, 1);
+  EXPECT_DOUBLE_EQ(in_line.b, 0);
+}
+
 }  // namespace
 }  // namespace carpus
