@@ -12,6 +12,7 @@
 
 #include "cases/detail/bone_scene.hpp"
 #include "cases/detail/part_bones.hpp"
+#include "cases/detail/stored_digits.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -40,8 +41,7 @@ constexpr double kUlnarHeadMm = 8;
 constexpr std::size_t index(CarpalGroup group) { return static_cast<std::size_t>(group); }
 
 /// To millionths, which are printed in few digits and read back to the same bits.
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
-Vec3 rounded(const Vec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+using detail::rounded;
 anatomy::Interval rounded(const anatomy::Interval& i) { return {rounded(i.low), rounded(i.high)}; }
 
 /// Rises from `low` to `high` in equal steps of at most `step`, with `node` among them.

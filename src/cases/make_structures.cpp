@@ -15,9 +15,11 @@
 #include <span>
 
 #include "cases/detail/carried_landmarks.hpp"
+#include "cases/detail/stored_digits.hpp"
 #include "cases/detail/tube_course.hpp"
 #include "cases/find_structure.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace carpus::cases {
 namespace {
@@ -27,6 +29,7 @@ using anatomy::StructureTable;
 using anatomy::TabledStructure;
 using detail::CarriedLandmarks;
 using detail::LaidTube;
+using detail::rounded;
 using detail::WristSurfaces;
 
 /// What a scan leaves of a tube and is shorter than this tells nothing and is left out [mm].
@@ -42,10 +45,6 @@ constexpr double kLeastUnderSkinMm = 0.0;
 constexpr double kBlendFrom = 0.2;
 constexpr double kBlendTo = 0.8;
 constexpr int kEveningPasses = 6;
-/// To millionths, which are printed in few digits and read back to the same bits.
-constexpr double kMillionths = 1e6;
-
-double rounded(double value) { return std::round(value * kMillionths) / kMillionths; }
 
 /// The point in its layer.
 Vec3 in_layer(const Vec3& p,
@@ -109,7 +108,7 @@ Structure structure_of(const TabledStructure& tabled,
   std::vector<Vec3> line = within_scan(surfaces, tube.line);
   if (line.size() > kMaxStructurePoints) line.resize(kMaxStructurePoints);
   for (const Vec3& p : line) {
-    s.course.push_back({{rounded(p.x), rounded(p.y), rounded(p.z)}, hand_share(p, surfaces)});
+    s.course.push_back({rounded(p), hand_share(p, surfaces)});
   }
   for (int pass = 0; pass < kEveningPasses; ++pass) {
     const std::vector<StructurePoint> before = s.course;
@@ -136,6 +135,14 @@ double deepest_in(const WristSurfaces& surfaces, const Structure& structure) {
     }
   }
   return deepest;
+}
+
+StructureDepth depth_of(const Structure& structure, const WristSurfaces& surfaces) {
+  double under = std::numeric_limits<double>::infinity();
+  for (const StructurePoint& p : structure.course) {
+    if (const auto depth = surfaces.depth_at(p.at)) under = std::min(under, depth->mm);
+  }
+  return {deepest_in(surfaces, structure), under - structure.radius_mm};
 }
 
 double deepest_between(const Structure& a, const Structure& b) {
@@ -230,14 +237,9 @@ void measure(const CaseData& data,
   f.worst_misfit_mm = landmarks.worst_misfit_mm();
   f.least_under_skin_mm = std::numeric_limits<double>::infinity();
   for (const Structure& s : made.structures) {
-    const double in_bone = deepest_in(surfaces, s);
+    const auto [in_bone, under] = depth_of(s, surfaces);
     f.deepest_in_bone_mm = std::max(f.deepest_in_bone_mm, in_bone);
     if (in_bone > kDeepestInBoneMm) f.problems.push_back(millimetres(s.name + " in bone", in_bone));
-    double under = std::numeric_limits<double>::infinity();
-    for (const StructurePoint& p : s.course) {
-      if (const auto depth = surfaces.depth_at(p.at)) under = std::min(under, depth->mm);
-    }
-    under -= s.radius_mm;
     f.least_under_skin_mm = std::min(f.least_under_skin_mm, under);
     if (under < kLeastUnderSkinMm) {
       f.problems.push_back(millimetres(s.name + " outside the skin", -under));
@@ -306,6 +308,15 @@ AddedStructures add_missing_structures(CaseData& data, const StructureTable& tab
 
 double deepest_in_bone_mm(const CaseData& data, const Structure& structure) {
   return deepest_in(WristSurfaces(data), structure);
+}
+
+std::vector<StructureDepth> structure_depths(const CaseData& data) {
+  const WristSurfaces surfaces(data);
+  std::vector<StructureDepth> depths(data.structures.size());
+  parallel_for(depths.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) depths[i] = depth_of(data.structures[i], surfaces);
+  });
+  return depths;
 }
 
 }  // namespace carpus::cases

@@ -58,4 +58,13 @@ struct AddedStructures {
 /// to a millimetre of the middle line.
 [[nodiscard]] double deepest_in_bone_mm(const CaseData& data, const Structure& structure);
 
+struct StructureDepth {
+  double in_bone_mm = 0;  ///< deepest_in_bone_mm
+  /// Of its surface, where there is skin; negative outside, infinite where there is none.
+  double under_skin_mm = 0;
+};
+
+/// Of each of the case's structures, in their order.
+[[nodiscard]] std::vector<StructureDepth> structure_depths(const CaseData& data);
+
 }  // namespace carpus::cases

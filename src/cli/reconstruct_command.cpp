@@ -27,6 +27,7 @@
 #include "cli/series_choice.hpp"
 #include "cli/simulated_scan.hpp"
 #include "cli/soft_tissue_report.hpp"
+#include "cli/write_structures.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/person_name.hpp"
@@ -123,11 +124,13 @@ std::string source_in_words(const Arguments& a, const GridGeometry& g, bool simu
   return text.data();
 }
 
-/// After the case is whole: what no CT shows. The case is a case without it.
-std::string generate_soft_tissue(const cases::CaseData& data, const fs::path& folder) {
+/// After the case is whole: what no CT shows. The case is a case without it. Tendons, arteries and
+/// nerves give way to it.
+std::string generate_soft_tissue(cases::CaseData& data, const fs::path& folder) {
   show_progress("soft tissue", 0);
-  const soft_tissue::SoftTissue tissue = soft_tissue::make_soft_tissue(data);
+  const soft_tissue::SoftTissue tissue = soft_tissue::make_soft_tissue_moving_structures(data);
   for (const std::string& problem : tissue.problems) warn("generated soft tissue: " + problem);
+  write_structures(data, folder);
   case_io::write_soft_tissue(tissue, data, folder);
   show_progress("done", 1);
   return soft_tissue_line(tissue);

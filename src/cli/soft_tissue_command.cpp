@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "arthroscopy/make_map.hpp"
 #include "case_io/case_folder.hpp"
@@ -18,6 +19,7 @@
 #include "cli/section_picture.hpp"
 #include "cli/section_report.hpp"
 #include "cli/soft_tissue_report.hpp"
+#include "cli/write_structures.hpp"
 #include "reconstruct/skin_surface.hpp"
 #include "reconstruct/stage_clock.hpp"
 #include "records/atomic_file.hpp"
@@ -83,34 +85,47 @@ void print_section(const cases::CaseData& data,
   if (!a.svg.empty()) records::write_file_atomically(a.svg, section_picture(result, table));
 }
 
-/// Tendons, arteries and nerves that an older program did not know.
-void add_structures(cases::CaseData& data, const Arguments& a) {
+/// Tendons, arteries and nerves that an older program did not know. Returns whether there were any.
+bool add_structures(cases::CaseData& data, const Arguments& a) {
   const cases::AddedStructures added = cases::add_missing_structures(data);
   for (const std::string& problem : added.problems) {
     std::printf("problem: %s\n", problem.c_str());
   }
-  if (added.names.empty()) return;
-  if (!a.check) {
-    for (const auto& [name, content] : case_io::structure_files(data)) {
-      records::write_file_atomically(std::filesystem::path(a.case_folder) / name, content);
-    }
-  }
+  if (added.names.empty()) return false;
   std::printf("%s, generated, not seen in the CT:\n",
               a.check ? "missing and not written" : "added to the case");
   for (const std::string& each : added.names) std::printf("  %s\n", each.c_str());
-  std::printf("attempts recorded before are of the case as it was\n\n");
+  return true;
+}
+
+/// Writes soft tissue, and structures that had to give way to it.
+soft_tissue::SoftTissue make_anew(cases::CaseData& data,
+                                  const Arguments& a,
+                                  bool has_added,
+                                  const Progress& progress) {
+  const auto& table = soft_tissue::TissueTable::generic();
+  if (a.check) return soft_tissue::make_soft_tissue(data, table, progress);
+  const std::vector<cases::Structure> before = data.structures;
+  soft_tissue::SoftTissue tissue =
+      soft_tissue::make_soft_tissue_moving_structures(data, table, progress);
+  if (has_added || data.structures != before) {
+    write_structures(data, a.case_folder);
+    std::printf(
+        "tendons, arteries and nerves have changed: attempts recorded before are of the case as it "
+        "was\n\n");
+  }
+  case_io::write_soft_tissue(tissue, data, a.case_folder);
+  return tissue;
 }
 
 void run(const Arguments& a) {
   cases::CaseData data = case_io::read_case(a.case_folder);
-  add_structures(data, a);
+  const bool has_added = add_structures(data, a);
   cases::ensure_hand_motion(data);
   reconstruct::StageClock clock;
-  const auto tissue =
-      soft_tissue::make_soft_tissue(data, soft_tissue::TissueTable::generic(),
-                                    [&](std::string_view stage, double) { clock.begin(stage); });
+  const soft_tissue::SoftTissue tissue =
+      make_anew(data, a, has_added, [&](std::string_view stage, double) { clock.begin(stage); });
   clock.end();
-  if (!a.check) case_io::write_soft_tissue(tissue, data, a.case_folder);
   std::fputs(soft_tissue_table(tissue, data).c_str(), stdout);
   data.skin = reconstruct::trimmed_skin(data.skin, data.ct.geometry());
   const cases::ArthroscopicMap map = arthroscopy::make_map(data, tissue);

@@ -66,9 +66,6 @@ std::string soft_tissue_table(const soft_tissue::SoftTissue& tissue, const cases
   }
   print(out, "\ndeepest in bone %.3f mm, of one tissue in another %.2f mm\n",
         tissue.deepest_in_bone_mm, tissue.deepest_in_other_mm);
-  for (const soft_tissue::Overlap& o : tissue.overlaps) {
-    print(out, "%.2f mm in each other: %s, %s\n", o.mm, o.first.c_str(), o.second.c_str());
-  }
   for (const std::string& problem : tissue.problems) out += "problem: " + problem + "\n";
   return out;
 }

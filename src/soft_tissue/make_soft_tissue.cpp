@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "cases/lay_beside.hpp"
+#include "cases/make_structures.hpp"
 #include "core/parallel.hpp"
 #include "soft_tissue/detail/lay_cartilage.hpp"
 #include "soft_tissue/detail/lay_disc.hpp"
@@ -85,6 +87,7 @@ class Checks {
     for (const Cartilage& c : tissue_.cartilage) check(c);
     for (const Space& s : tissue_.spaces) closed(s.name, s.surface);
     measure_depths();
+    measure_structures();
     measure_overlaps();
   }
 
@@ -142,12 +145,33 @@ class Checks {
     }
   }
 
+  void measure_structures() {
+    const std::vector<cases::Structure>& structures = bones_.data().structures;
+    if (structures.empty()) return;
+    const std::vector<cases::StructureDepth> depths = cases::structure_depths(bones_.data());
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      const auto [in_bone_mm, under_skin_mm] = depths[i];
+      const std::string& name = structures[i].name;
+      if (in_bone_mm > kDeepestMm) {
+        tissue_.problems.push_back(text_of("%s: %.2f mm in bone", name, in_bone_mm, 0, 0));
+      }
+      if (under_skin_mm < 0) {
+        tissue_.problems.push_back(
+            text_of("%s: %.2f mm outside the skin", name, -under_skin_mm, 0, 0));
+      }
+    }
+  }
+
   void measure_overlaps() {
     tissue_.overlaps = overlaps_of(tissue_, bones_.data(), 0);
     for (const Overlap& o : tissue_.overlaps) {
       tissue_.deepest_in_other_mm = std::max(tissue_.deepest_in_other_mm, o.mm);
     }
     std::erase_if(tissue_.overlaps, [](const Overlap& o) { return o.mm <= kDeepestMm; });
+    for (const Overlap& o : tissue_.overlaps) {
+      tissue_.problems.push_back(
+          text_of("%s: %.2f mm in each other", o.first + ", " + o.second, o.mm, 0, 0));
+    }
   }
 
   SoftTissue& tissue_;
@@ -200,13 +224,14 @@ class Bodies {
 
 }  // namespace
 
-SoftTissue make_soft_tissue(const cases::CaseData& data,
-                            const TissueTable& table,
-                            const Progress& progress) {
+namespace {
+
+/// All of it, unchecked.
+SoftTissue laid_tissue(const Surroundings& bones,
+                       const TissueTable& table,
+                       const Progress& progress) {
   SoftTissue tissue;
-  progress("generic wrist", 0);
-  const Surroundings bones(data);
-  const detail::CarriedModel model(data);
+  const detail::CarriedModel model(bones.data());
   tissue.size = model.size();
   tissue.worst_misfit_mm = model.worst_misfit_mm();
 
@@ -260,10 +285,45 @@ SoftTissue make_soft_tissue(const cases::CaseData& data,
     }
   });
   for (LaidLigament& l : laid) tissue.ligaments.push_back(std::move(l.ligament));
+  return tissue;
+}
 
+void check(SoftTissue& tissue, const Surroundings& bones, const Progress& progress) {
   progress("checks", 0.9);
   Checks(tissue, bones).run();
   progress("done", 1.0);
+}
+
+/// What a tube must not lie in.
+std::vector<const TriangleMesh*> bodies_of(const SoftTissue& tissue) {
+  std::vector<const TriangleMesh*> bodies;
+  for (const Ligament& l : tissue.ligaments) bodies.push_back(&l.body);
+  bodies.push_back(&tissue.disc.body);
+  for (const Cartilage& c : tissue.cartilage) bodies.push_back(&c.body);
+  return bodies;
+}
+
+}  // namespace
+
+SoftTissue make_soft_tissue(const cases::CaseData& data,
+                            const TissueTable& table,
+                            const Progress& progress) {
+  progress("generic wrist", 0);
+  const Surroundings bones(data);
+  SoftTissue tissue = laid_tissue(bones, table, progress);
+  check(tissue, bones, progress);
+  return tissue;
+}
+
+SoftTissue make_soft_tissue_moving_structures(cases::CaseData& data,
+                                              const TissueTable& table,
+                                              const Progress& progress) {
+  progress("generic wrist", 0);
+  const Surroundings bones(data);
+  SoftTissue tissue = laid_tissue(bones, table, progress);
+  progress("structures beside it", 0.8);
+  cases::lay_structures_beside(data, bodies_of(tissue));
+  check(tissue, bones, progress);
   return tissue;
 }
 

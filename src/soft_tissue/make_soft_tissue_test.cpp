@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "cases/find_structure.hpp"
+#include "cases/make_structures.hpp"
 #include "geometry/voxels_inside.hpp"
 #include "soft_tissue/model_case_test_support.hpp"
 
@@ -130,6 +132,27 @@ TEST(MakeSoftTissue, FusedAndMissingBonesAreNamedAndTheRestIsMade) {
   EXPECT_NE(find(tissue, "RSC"), nullptr);
   EXPECT_FALSE(tissue.disc.body.facets.empty());
   EXPECT_THAT(tissue.overlaps, IsEmpty());
+}
+
+TEST(MakeSoftTissue, HoldsTendonsArteriesAndNervesToTheBoundAndMovesThemOutOfTheWay) {
+  cases::CaseData data = test::model_case(Side::Left, 1, Mat3::identity());
+  data.structures = cases::make_structures(data).structures;
+  const std::vector<cases::Structure> before = data.structures;
+  const SoftTissue tissue = make_soft_tissue_moving_structures(data);
+  EXPECT_THAT(tissue.problems, IsEmpty());
+  EXPECT_LE(tissue.deepest_in_other_mm, 0.1);
+  ASSERT_EQ(data.structures.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double mm = cases::length_of(before[i]);
+    EXPECT_NEAR(cases::length_of(data.structures[i]), mm, 0.04 * mm) << before[i].id;
+    EXPECT_EQ(data.structures[i].radius_mm, before[i].radius_mm);
+  }
+  // One of them as it lay before.
+  data.structures = {*cases::find_structure(before, "edc_index")};
+  const SoftTissue unmoved = make_soft_tissue(data);
+  EXPECT_GT(unmoved.deepest_in_other_mm, 0.5);
+  EXPECT_THAT(unmoved.problems, Contains(HasSubstr("DRC, extensor digitorum to the index finger")));
+  EXPECT_EQ(data.structures[0], *cases::find_structure(before, "edc_index"));
 }
 
 const Cartilage& of_label(const SoftTissue& tissue, std::uint8_t label) {

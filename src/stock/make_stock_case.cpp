@@ -132,13 +132,14 @@ cases::Lesson make_stock_case(const StockItem& item,
   phantom::Phantom wrist = phantom::make_phantom(item.wrist, progress);
   const std::optional<cases::FractureFacts> fracture = facts_of(wrist);
   Grid<std::uint8_t> labels = std::move(wrist.labels);
-  const cases::CaseData data = reconstructed(std::move(wrist), item, made_at, progress);
+  cases::CaseData data = reconstructed(std::move(wrist), item, made_at, progress);
   require_true_bones(data, std::move(labels));
   cases::Lesson lesson = item.lesson;
   lesson.difficulty = cases::difficulty_of(data.scaphoid, fracture, smallest_screw_radius_mm());
-  case_io::write_case(data, folder, case_io::Overwrite::Replace, progress);
   progress("soft tissue", 0.0);
-  case_io::write_soft_tissue(soft_tissue::make_soft_tissue(data), data, folder);
+  const soft_tissue::SoftTissue tissue = soft_tissue::make_soft_tissue_moving_structures(data);
+  case_io::write_case(data, folder, case_io::Overwrite::Replace, progress);
+  case_io::write_soft_tissue(tissue, data, folder);
   if (lesson.right_answer != cases::RightAnswer::Decline) {
     progress("scripted expert", 0.0);
     lesson.expert = prove(data);

@@ -25,6 +25,16 @@ constexpr double kTrimMm = 1.8;
 constexpr double kPlainCosine = 0.95;
 /// Nearest points of the skin that lie sideways of the point asked for are its rim.
 constexpr double kRimCosine = 0.5;
+/// Of a soft body's way out: leads to the skin, or away from it, which would press what lies in it
+/// against the bone.
+constexpr double kOutwards = 0.7;
+constexpr double kInwards = -0.3;
+/// Between both it is left aside, or over it where that is no more than so many times as far: what
+/// lies on a joint's capsule glides over it.
+constexpr double kLiftForAside = 3;
+/// Steps to over a soft body; nothing lies deeper under it [mm].
+constexpr double kLiftStepMm = 0.25;
+constexpr double kFarthestLiftMm = 6;
 
 Vec3 unit_normal(const TriangleMesh& mesh, std::uint32_t facet) {
   const Triangle& t = mesh.facets[facet];
@@ -34,10 +44,27 @@ Vec3 unit_normal(const TriangleMesh& mesh, std::uint32_t facet) {
 
 }  // namespace
 
-WristSurfaces::WristSurfaces(const CaseData& data) : data_(data), skin_(data.skin) {
+WristSurfaces::WristSurfaces(const CaseData& data, std::span<const TriangleMesh* const> soft)
+    : data_(data), skin_(data.skin) {
   for (const Bone& bone : data.bones) {
-    bones_.push_back({bone.bone, fields::ExactSurface(bone.surface)});
+    bones_.push_back(
+        {bone.bone, fields::ExactSurface(bone.surface), bounds_of(bone.surface.vertices)});
   }
+  for (const TriangleMesh* body : soft) {
+    if (check_surface(*body) != SurfaceStatus::Ok) continue;
+    soft_.push_back({{}, fields::ExactSurface(*body), bounds_of(body->vertices)});
+  }
+}
+
+WristSurfaces::Near WristSurfaces::near_of(const Surface& surface,
+                                           const Vec3& point,
+                                           const fields::NearestPoint& hit) {
+  const double away = std::sqrt(hit.squared_distance);
+  const Vec3 normal = unit_normal(surface.exact.surface(), hit.facet);
+  const double along = dot(point - hit.point, normal);
+  const bool is_outside = along > kPlainCosine * away || surface.exact.signed_distance(point) >= 0;
+  return {is_outside ? away : -away, hit.point,
+          normalized_or((point - hit.point) * (is_outside ? 1.0 : -1.0), normal)};
 }
 
 WristSurfaces::Near WristSurfaces::bone_near(const Vec3& point) const {
@@ -46,18 +73,70 @@ WristSurfaces::Near WristSurfaces::bone_near(const Vec3& point) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Surface& bone : bones_) {
     const auto hit = bone.exact.tree().nearest(point, nearest);
-    if (!hit) continue;
-    const double away = std::sqrt(hit->squared_distance);
-    if (!(away < nearest)) continue;
-    nearest = away;
-    const Vec3 normal = unit_normal(bone.exact.surface(), hit->facet);
-    const double along = dot(point - hit->point, normal);
-    const bool is_outside = along > kPlainCosine * away || bone.exact.signed_distance(point) >= 0;
-    near.distance_mm = is_outside ? away : -away;
-    near.point = hit->point;
-    near.outwards = normalized_or((point - hit->point) * (is_outside ? 1.0 : -1.0), normal);
+    if (!hit || !(std::sqrt(hit->squared_distance) < nearest)) continue;
+    near = near_of(bone, point, *hit);
+    nearest = std::abs(near.distance_mm);
   }
   return near;
+}
+
+std::optional<double> WristSurfaces::lift_mm(const Surface& soft,
+                                             const Vec3& point,
+                                             const Vec3& way,
+                                             double room_mm) {
+  for (double mm = kLiftStepMm; mm <= kFarthestLiftMm; mm += kLiftStepMm) {
+    const Vec3 there = point + way * mm;
+    const auto hit = soft.exact.tree().nearest(there, room_mm);
+    if (!hit) return mm;
+    const Near near = near_of(soft, there, *hit);
+    if (near.distance_mm > 0 && dot(near.outwards, way) > kOutwards) {
+      return mm + room_mm - near.distance_mm;
+    }
+  }
+  return std::nullopt;
+}
+
+void WristSurfaces::walls_near(const Vec3& point,
+                               double radius_mm,
+                               double room_mm,
+                               double within_mm,
+                               std::vector<Wall>& walls) const {
+  walls.clear();
+  for (const Surface& bone : bones_) {
+    if (!bone.box.grown(within_mm).contains(point)) continue;
+    const auto hit = bone.exact.tree().nearest(point);
+    if (!hit) continue;
+    const Near near = near_of(bone, point, *hit);
+    if (near.distance_mm < within_mm) walls.push_back({near, true});
+  }
+  for (const Surface& body : soft_) {
+    if (!body.box.grown(within_mm).contains(point)) continue;
+    const auto hit = body.exact.tree().nearest(point, within_mm);
+    if (!hit) continue;
+    const Near near = near_of(body, point, *hit);
+    walls.push_back({led_over(body, near, point, radius_mm + room_mm), false});
+  }
+}
+
+Vec3 WristSurfaces::skinwards(const Vec3& point) const {
+  const auto depth = depth_at(point);
+  return depth ? depth->outwards : bone_near(point).outwards;
+}
+
+WristSurfaces::Near WristSurfaces::led_over(const Surface& soft,
+                                            const Near& near,
+                                            const Vec3& point,
+                                            double room_mm) const {
+  const double missing = room_mm - near.distance_mm;
+  if (!(missing > 0)) return near;
+  const Vec3 way = skinwards(point);
+  const double along = dot(near.outwards, way);
+  if (along >= kOutwards) return near;
+  const auto lift = lift_mm(soft, point, way, room_mm);
+  const double most = along < kInwards ? kFarthestLiftMm : kLiftForAside * missing;
+  if (!lift || *lift > most) return near;
+  const double distance = room_mm - *lift;
+  return {distance, point - way * distance, way};
 }
 
 double WristSurfaces::nearest_mm(const Vec3& point, bool of_forearm) const {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "anatomy/similarity_fit.hpp"
@@ -14,13 +15,16 @@
 #include "cases/case_data.hpp"
 #include "fields/exact_surface.hpp"
 #include "fields/triangle_tree.hpp"
+#include "geometry/aabb.hpp"
 
 namespace carpus::cases::detail {
 
-/// Bones and skin of a case, for questions about nearest points. Keeps a reference to the case.
+/// Bones and skin of a case, and what lies on the bones (ligaments, say), for questions about
+/// nearest points. Keeps a reference to the case.
 class WristSurfaces {
  public:
-  explicit WristSurfaces(const CaseData& data);
+  /// @param soft  closed surfaces; what is not closed is left out.
+  explicit WristSurfaces(const CaseData& data, std::span<const TriangleMesh* const> soft = {});
 
   /// The bones' nearest surface.
   struct Near {
@@ -29,6 +33,21 @@ class WristSurfaces {
     Vec3 outwards;           ///< unit, from the surface through the point asked for
   };
   [[nodiscard]] Near bone_near(const Vec3& point) const;
+
+  /// What stands in the way of a ball: of each bone and each soft body nearer to its middle than
+  /// `within_mm` the surface's nearest place. What overlaps a soft body by lying in its side or
+  /// under it is led over it, towards the skin (without a skin, away from the bone): then a place
+  /// and a way out that do so.
+  struct Wall {
+    Near near;
+    bool is_bone = true;
+  };
+  /// @param room_mm  between the ball and a soft body.
+  void walls_near(const Vec3& point,
+                  double radius_mm,
+                  double room_mm,
+                  double within_mm,
+                  std::vector<Wall>& walls) const;
 
   /// Of one side: forearm, or distal row and metacarpals [mm].
   [[nodiscard]] double distance_to_forearm(const Vec3& point) const;
@@ -49,13 +68,29 @@ class WristSurfaces {
 
  private:
   struct Surface {
-    BoneId bone;
+    BoneId bone;  ///< of a bone's
     fields::ExactSurface exact;
+    Aabb box;
   };
+  [[nodiscard]] static Near near_of(const Surface& surface,
+                                    const Vec3& point,
+                                    const fields::NearestPoint& hit);
+  /// How far a point goes that way until it is over the body with so much room.
+  [[nodiscard]] static std::optional<double> lift_mm(const Surface& soft,
+                                                     const Vec3& point,
+                                                     const Vec3& way,
+                                                     double room_mm);
+  /// Where a ball that needs so much room is in the soft body: `near`, or the way over it.
+  [[nodiscard]] Near led_over(const Surface& soft,
+                              const Near& near,
+                              const Vec3& point,
+                              double room_mm) const;
+  [[nodiscard]] Vec3 skinwards(const Vec3& point) const;
   [[nodiscard]] double nearest_mm(const Vec3& point, bool of_forearm) const;
 
   const CaseData& data_;
   std::vector<Surface> bones_;
+  std::vector<Surface> soft_;
   fields::TriangleTree skin_;
 };
 

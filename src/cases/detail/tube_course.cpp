@@ -4,21 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/parallel.hpp"
+#include "geometry/segment_distance.hpp"
 
 namespace carpus::cases::detail {
 namespace {
 
-constexpr int kPasses = 40;
-constexpr int kLastPasses = 8;  ///< that only push out of bone
-/// Least room between a tube's surface and bone, skin or another tube [mm].
+/// In the first a push spreads, less and less; in the last each place gives way alone.
+constexpr int kSpreadingPasses = 60;
+constexpr int kLastPasses = 60;
+/// Walls are flat, and neighbours who they are, for so many passes.
+constexpr int kLookEvery = 4;
+/// Least room between a tube's surface and bone, a soft body, another tube or the skin [mm].
 constexpr double kFromBoneMm = 0.2;
-constexpr double kFromSkinMm = 0.5;
+constexpr double kFromSoftMm = 0.1;
 constexpr double kFromTubeMm = 0.1;
-/// How far a pass spreads a push to its neighbours, and lets a given point back to its place.
+constexpr double kFromSkinMm = 0.5;
+/// Of that room so much may be missing: what was settled stays so [mm].
+constexpr double kSettledMm = 0.1;
+/// How much farther walls and neighbours are looked for: as far as a tube goes until it looks anew.
+constexpr double kReachMm = 1.0;
+/// Places on each piece of a line that are asked for walls: half a mm apart.
+constexpr int kAskedOnAPiece = 3;
+/// How much a sweep spreads a push to its neighbours, how many a pass has; and how far a pass lets
+/// a given point back to its place.
 constexpr double kSpreading = 0.5;
+constexpr int kSweeps = 4;
 constexpr double kHold = 0.3;
 
 Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double t) {
@@ -28,64 +40,186 @@ Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, dou
                 (b * 3.0 - a - c * 3.0 + d) * t3);
 }
 
-/// Where a point was when bone was asked for, and how far bone was from there: as far as it moved
-/// since, bone can have come nearer.
-struct BoneAsked {
-  Vec3 at;
-  double bone_mm = -std::numeric_limits<double>::infinity();
+/// A place on a tube's line.
+struct OnLine {
+  std::size_t piece = 0;
+  double t = 0;
 };
 
-Vec3 out_of_bone(const Vec3& p, double radius_mm, const WristSurfaces& surfaces, BoneAsked& asked) {
-  const double room = radius_mm + kFromBoneMm;
-  if (asked.bone_mm - distance(p, asked.at) >= room) return p;
-  const WristSurfaces::Near near = surfaces.bone_near(p);
-  asked = {p, near.distance_mm};
-  return near.distance_mm < room ? near.point + near.outwards * room : p;
+Vec3 at(const LaidTube& tube, const OnLine& place) {
+  const Vec3& a = tube.line[place.piece];
+  if (!(place.t > 0)) return a;
+  return a + (tube.line[place.piece + 1] - a) * place.t;
 }
 
-Vec3 under_skin(const Vec3& p, double radius_mm, const WristSurfaces& surfaces) {
-  const auto depth = surfaces.depth_at(p);
-  const double room = radius_mm + kFromSkinMm;
-  return depth && depth->mm < room ? depth->point - depth->outwards * room : p;
+/// Moves the place by so much, and its piece's ends by the least that does it.
+void move(LaidTube& tube, const OnLine& place, const Vec3& by) {
+  const double squares = (1 - place.t) * (1 - place.t) + place.t * place.t;
+  tube.line[place.piece] += by * ((1 - place.t) / squares);
+  if (place.t > 0) tube.line[place.piece + 1] += by * (place.t / squares);
 }
 
-/// Spreads pushes along the line. The ends' pushes stay theirs.
-void spread(LaidTube& tube) {
-  std::vector<Vec3> push(tube.line.size());
-  for (std::size_t i = 0; i < push.size(); ++i) push[i] = tube.line[i] - tube.drawn[i];
-  for (const std::size_t i : tube.anchored) push[i] *= 1 - kHold;
-  for (std::size_t i = 0; i < push.size(); ++i) {
-    const Vec3& before = push[i > 0 ? i - 1 : 0];
-    const Vec3& after = push[std::min(i + 1, push.size() - 1)];
-    const Vec3 spread = push[i] + ((before + after) * 0.5 - push[i]) * kSpreading;
-    tube.line[i] = tube.drawn[i] + spread;
-  }
+/// A flat wall before a place on a tube's line.
+struct WallBefore {
+  OnLine place;
+  Vec3 point;
+  Vec3 outwards;
+  double room_mm = 0;
+};
+
+double missing_mm(const LaidTube& tube, const WallBefore& wall) {
+  return wall.room_mm - dot(at(tube, wall.place) - wall.point, wall.outwards);
 }
 
-/// Parts two tubes where they cross or lie in each other; each gives way by half.
-void part(LaidTube& a, LaidTube& b) {
-  const double room = a.radius_mm + b.radius_mm + kFromTubeMm;
-  for (Vec3& p : a.line) {
-    Vec3* nearest = nullptr;
-    double least = room;
-    for (Vec3& q : b.line) {
-      const double away = distance(p, q);
-      if (away < least) {
-        least = away;
-        nearest = &q;
+struct Walls {
+  std::vector<WallBefore> skin;
+  std::vector<WallBefore> hard;  ///< bone and soft bodies
+};
+
+Walls walls_of(const LaidTube& tube, const WristSurfaces& surfaces) {
+  Walls walls;
+  std::vector<WristSurfaces::Wall> near;
+  for (std::size_t i = 0; i < tube.line.size(); ++i) {
+    const int asked = i + 1 < tube.line.size() ? kAskedOnAPiece : 1;
+    for (int k = 0; k < asked; ++k) {
+      const OnLine place{i, static_cast<double>(k) / kAskedOnAPiece};
+      const Vec3 p = at(tube, place);
+      surfaces.walls_near(p, tube.radius_mm, kFromSoftMm, tube.radius_mm + kFromBoneMm + kReachMm,
+                          near);
+      for (const WristSurfaces::Wall& w : near) {
+        walls.hard.push_back({place, w.near.point, w.near.outwards,
+                              tube.radius_mm + (w.is_bone ? kFromBoneMm : kFromSoftMm)});
+      }
+      if (k > 0) continue;
+      const auto depth = surfaces.depth_at(p);
+      const double room = tube.radius_mm + kFromSkinMm;
+      if (depth && depth->mm < room + kReachMm) {
+        walls.skin.push_back({place, depth->point, -depth->outwards, room});
       }
     }
-    if (nearest == nullptr || !(least > 0)) continue;
-    const Vec3 way = (p - *nearest) * (0.25 * (room - least) / least);
-    p += way;
-    *nearest -= way;
   }
+  return walls;
 }
+
+/// Pieces of two tubes' lines that may come to touch.
+struct Neighbours {
+  LaidTube* a = nullptr;
+  LaidTube* b = nullptr;
+  std::size_t on_a = 0;
+  std::size_t on_b = 0;
+};
+
+double room_between(const Neighbours& n) { return n.a->radius_mm + n.b->radius_mm + kFromTubeMm; }
+
+std::vector<Neighbours> neighbours_among(std::vector<LaidTube>& tubes) {
+  std::vector<Neighbours> found;
+  for (std::size_t a = 0; a < tubes.size(); ++a) {
+    for (std::size_t b = a + 1; b < tubes.size(); ++b) {
+      Neighbours n{&tubes[a], &tubes[b]};
+      const double near = room_between(n) + kReachMm + 2 * kCourseStepMm;
+      for (n.on_a = 0; n.on_a + 1 < n.a->line.size(); ++n.on_a) {
+        for (n.on_b = 0; n.on_b + 1 < n.b->line.size(); ++n.on_b) {
+          const Vec3 way = n.a->line[n.on_a] - n.b->line[n.on_b];
+          if (squared_length(way) < near * near) found.push_back(n);
+        }
+      }
+    }
+  }
+  return found;
+}
+
+/// Parts two pieces by what room they lack; each gives way by half.
+/// @return that lack, negative where there is room.
+double part(const Neighbours& n, bool only_look) {
+  const auto [s, t] = nearest_on_segments(n.a->line[n.on_a], n.a->line[n.on_a + 1],
+                                          n.b->line[n.on_b], n.b->line[n.on_b + 1]);
+  const OnLine on_a{n.on_a, s};
+  const OnLine on_b{n.on_b, t};
+  const Vec3 way = at(*n.a, on_a) - at(*n.b, on_b);
+  const double away = length(way);
+  const double missing = room_between(n) - away;
+  if (only_look || !(missing > 0) || !(away > 0)) return missing;
+  const Vec3 by = way * (0.5 * missing / away);
+  move(*n.a, on_a, by);
+  move(*n.b, on_b, -by);
+  return missing;
+}
+
+/// Spreads pushes along the line, of which a point stays where it was: pushed along the line points
+/// would crowd.
+void spread(LaidTube& tube, double share) {
+  const std::size_t last = tube.line.size() - 1;
+  std::vector<Vec3> push(last + 1);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Vec3 along =
+        normalized_or(tube.drawn[std::min(i + 1, last)] - tube.drawn[i > 0 ? i - 1 : 0], {});
+    const Vec3 by = tube.line[i] - tube.drawn[i];
+    push[i] = (by - along * dot(by, along)) * (1 - share * tube.hold[i]);
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const std::vector<Vec3> before = push;
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Vec3& one = before[i > 0 ? i - 1 : 0];
+      const Vec3& other = before[std::min(i + 1, last)];
+      push[i] += ((one + other) * 0.5 - before[i]) * (share * kSpreading);
+    }
+  }
+  for (std::size_t i = 0; i <= last; ++i) tube.line[i] = tube.drawn[i] + push[i];
+}
+
+/// All tubes, and what stands in their way.
+class Settling {
+ public:
+  Settling(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces)
+      : tubes_(tubes), surfaces_(surfaces), walls_(tubes.size()) {}
+
+  void look() {
+    parallel_for(tubes_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) walls_[i] = walls_of(tubes_[i], surfaces_);
+    });
+    neighbours_ = neighbours_among(tubes_);
+  }
+
+  void spread_pushes(double share) {
+    for (LaidTube& tube : tubes_) spread(tube, share);
+  }
+
+  /// What is last has its way: no tube in bone, rather one in another.
+  void give_way() {
+    for (const Neighbours& n : neighbours_) part(n, false);
+    for (std::size_t i = 0; i < tubes_.size(); ++i) {
+      for (const auto* walls : {&walls_[i].skin, &walls_[i].hard}) {
+        for (const WallBefore& w : *walls) {
+          const double missing = missing_mm(tubes_[i], w);
+          if (missing > 0) move(tubes_[i], w.place, w.outwards * missing);
+        }
+      }
+    }
+  }
+
+  /// Of the room to walls and other tubes, by what was looked at last.
+  [[nodiscard]] bool is_settled() const {
+    for (std::size_t i = 0; i < tubes_.size(); ++i) {
+      for (const WallBefore& w : walls_[i].hard) {
+        if (missing_mm(tubes_[i], w) > kSettledMm) return false;
+      }
+    }
+    return std::all_of(neighbours_.begin(), neighbours_.end(),
+                       [](const Neighbours& n) { return part(n, true) <= kSettledMm; });
+  }
+
+ private:
+  std::vector<LaidTube>& tubes_;
+  const WristSurfaces& surfaces_;
+  std::vector<Walls> walls_;
+  std::vector<Neighbours> neighbours_;
+};
 
 }  // namespace
 
 LaidTube through(const std::vector<Vec3>& given, double radius_mm) {
   LaidTube tube;
+  std::vector<std::size_t> held;
   tube.radius_mm = radius_mm;
   const auto point = [&](std::ptrdiff_t i) {
     const auto last = static_cast<std::ptrdiff_t>(given.size()) - 1;
@@ -98,40 +232,30 @@ LaidTube through(const std::vector<Vec3>& given, double radius_mm) {
     const auto i = static_cast<std::ptrdiff_t>(k);
     const double way = distance(given[k], given[k + 1]);
     const int steps = std::max(1, static_cast<int>(std::lround(way / kCourseStepMm)));
-    tube.anchored.push_back(tube.drawn.size());
+    held.push_back(tube.drawn.size());
     for (int s = 0; s < steps; ++s) {
       tube.drawn.push_back(catmull_rom(point(i - 1), point(i), point(i + 1), point(i + 2),
                                        static_cast<double>(s) / steps));
     }
   }
-  tube.anchored.push_back(tube.drawn.size());
+  held.push_back(tube.drawn.size());
   tube.drawn.push_back(given.back());
+  tube.hold.resize(tube.drawn.size());
+  for (const std::size_t i : held) tube.hold[i] = kHold;
   tube.line = tube.drawn;
   return tube;
 }
 
 void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces) {
-  std::vector<std::vector<BoneAsked>> asked;
-  for (const LaidTube& tube : tubes) asked.emplace_back(tube.line.size());
-  const auto push = [&](bool skin_too) {
-    parallel_for(tubes.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        for (std::size_t k = 0; k < tubes[i].line.size(); ++k) {
-          Vec3& p = tubes[i].line[k];
-          if (skin_too) p = under_skin(p, tubes[i].radius_mm, surfaces);
-          p = out_of_bone(p, tubes[i].radius_mm, surfaces, asked[i][k]);
-        }
-      }
-    });
-  };
-  for (int pass = 0; pass < kPasses; ++pass) {
-    for (LaidTube& tube : tubes) spread(tube);
-    for (std::size_t a = 0; a < tubes.size(); ++a) {
-      for (std::size_t b = a + 1; b < tubes.size(); ++b) part(tubes[a], tubes[b]);
-    }
-    push(true);
+  Settling settling(tubes, surfaces);
+  settling.look();
+  if (settling.is_settled()) return;
+  for (int pass = 0; pass < kSpreadingPasses + kLastPasses; ++pass) {
+    if (pass > 0 && pass % kLookEvery == 0) settling.look();
+    const double share = 1 - static_cast<double>(pass) / kSpreadingPasses;
+    if (share > 0) settling.spread_pushes(share);
+    settling.give_way();
   }
-  for (int pass = 0; pass < kLastPasses; ++pass) push(false);
 }
 
 }  // namespace carpus::cases::detail
