@@ -28,7 +28,7 @@ void lay_structures_beside(CaseData& data, std::span<const TriangleMesh* const> 
     tube.hold.assign(tube.drawn.size(), kHold);
     tubes.push_back(std::move(tube));
   }
-  detail::settle(tubes, detail::WristSurfaces(data, bodies));
+  detail::settle(tubes, detail::WristSurfaces(data, bodies), detail::Settling::Wholly);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     for (std::size_t k = 0; k < tubes[i].line.size(); ++k) {
       const Vec3& now = tubes[i].line[k];

@@ -275,7 +275,7 @@ MadeStructures make_structures(const CaseData& data, const StructureTable& table
   for (const TabledStructure& tabled : table.structures) {
     tubes.push_back(lay(tabled, landmarks, surfaces));
   }
-  detail::settle(tubes, surfaces);
+  detail::settle(tubes, surfaces, detail::Settling::Roughly);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     check_length(table.structures[i], tubes[i], landmarks.scale(), made.figures.problems);
     Structure s = structure_of(table.structures[i], tubes[i], surfaces);

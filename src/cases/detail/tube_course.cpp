@@ -14,6 +14,9 @@ namespace {
 /// In the first a push spreads, less and less; in the last each place gives way alone.
 constexpr int kSpreadingPasses = 60;
 constexpr int kLastPasses = 60;
+constexpr int kLastRoughPasses = 8;
+/// Where lines stay near given points: with no hold left what is short and wedged folds.
+constexpr double kLeastRoughShare = 0.4;
 /// Walls are flat, and neighbours who they are, for so many passes.
 constexpr int kLookEvery = 4;
 /// Least room between a tube's surface and bone, a soft body, another tube or the skin [mm].
@@ -168,9 +171,9 @@ void spread(LaidTube& tube, double share) {
 }
 
 /// All tubes, and what stands in their way.
-class Settling {
+class Tubes {
  public:
-  Settling(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces)
+  Tubes(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces)
       : tubes_(tubes), surfaces_(surfaces), walls_(tubes.size()) {}
 
   void look() {
@@ -246,15 +249,17 @@ LaidTube through(const std::vector<Vec3>& given, double radius_mm) {
   return tube;
 }
 
-void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces) {
-  Settling settling(tubes, surfaces);
-  settling.look();
-  if (settling.is_settled()) return;
-  for (int pass = 0; pass < kSpreadingPasses + kLastPasses; ++pass) {
-    if (pass > 0 && pass % kLookEvery == 0) settling.look();
+void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces, Settling how) {
+  Tubes all(tubes, surfaces);
+  all.look();
+  if (all.is_settled()) return;
+  const int last = how == Settling::Roughly ? kLastRoughPasses : kLastPasses;
+  const double least_share = how == Settling::Roughly ? kLeastRoughShare : 0;
+  for (int pass = 0; pass < kSpreadingPasses + last; ++pass) {
+    if (pass > 0 && pass % kLookEvery == 0) all.look();
     const double share = 1 - static_cast<double>(pass) / kSpreadingPasses;
-    if (share > 0) settling.spread_pushes(share);
-    settling.give_way();
+    if (share > 0) all.spread_pushes(std::max(share, least_share));
+    all.give_way();
   }
 }
 

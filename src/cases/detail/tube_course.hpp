@@ -27,10 +27,14 @@ inline constexpr double kCourseStepMm = 1.5;
 /// A curve through the given points [catmull1974class].
 [[nodiscard]] LaidTube through(const std::vector<Vec3>& given, double radius_mm);
 
+/// Roughly: given points hold to the end, and small overlaps may stay. Wholly: until nothing is
+/// left for which there is room, wherever that takes a line; from rough places that is not far.
+enum class Settling { Roughly, Wholly };
+
 /// Lets all tubes settle: each as it was drawn but for what pushes it, which it spreads along its
 /// length; none in a bone, a soft body or another tube, or outside the skin as far as there is a
 /// skin. Where there is no room for all that, the skin gives way first. Tubes that are clear of all
 /// walls and of each other stay as they are, to the bit.
-void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces);
+void settle(std::vector<LaidTube>& tubes, const WristSurfaces& surfaces, Settling how);
 
 }  // namespace carpus::cases::detail
