@@ -20,7 +20,8 @@ namespace {
 constexpr double kToOutsideMm = 30.0;
 /// Of ways that cut as deep to so much the roomier is taken [E].
 constexpr double kCutStepMm = 0.5;
-constexpr double kRounding = 1e-3;  // of such a step: distances are true to rounding
+constexpr double kFieldErrorMm = 0.5;  // far more than a distance field is off
+constexpr double kRounding = 1e-3;     // of such a step: distances are true to rounding
 
 }  // namespace
 
@@ -32,6 +33,7 @@ PulledBones::PulledBones(const cases::CaseData& data, double traction_n)
   for (const cases::Bone& bone : data.bones) {
     poses.push_back(cases::pose_under_block(data.hand_motion, bone.bone, pose));
     from_patient_.push_back(poses.back().inverse());
+    boxes_.push_back(bounds_of(bone.surface.vertices));
   }
   structures_.follow(poses);
 }
@@ -80,10 +82,11 @@ double PulledBones::cut_mm(std::span<const anatomy::StructureKind> kinds,
   return std::max(0.0, std::ceil((clear_mm - least) / kCutStepMm - kRounding)) * kCutStepMm;
 }
 
-double PulledBones::distance_mm(const Vec3& point) const {
-  double least = kFarMm;
+double PulledBones::distance_mm(const Vec3& point, double at_most_mm) const {
+  double least = at_most_mm;
   for (std::size_t b = 0; b < data_.bones.size(); ++b) {
     const Vec3 local = (from_patient_[b] * Point<frame::Patient>{point}).v;
+    if (!boxes_[b].grown(least + kFieldErrorMm).contains(local)) continue;
     if (data_.bones[b].distance_field.values().empty()) continue;
     const fields::DistanceSample s = fields::sample_distance(data_.bones[b].distance_field, local);
     if (s.is_inside_grid) least = std::min(least, s.distance_mm);

@@ -15,6 +15,7 @@
 #include "cases/arthroscopic_map.hpp"
 #include "cases/case_data.hpp"
 #include "cases/laid_structures.hpp"
+#include "geometry/aabb.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/vec3.hpp"
 
@@ -46,12 +47,13 @@ class PulledBones {
                               double clear_mm,
                               const Vec3& capsule,
                               const Vec3& inwards) const;
-  /// Least distance to any of them; kFarMm where they are farther.
-  [[nodiscard]] double distance_mm(const Vec3& point) const;
+  /// Least distance to any of them; `at_most_mm`, of kFarMm or less, where they are farther.
+  [[nodiscard]] double distance_mm(const Vec3& point, double at_most_mm) const;
 
  private:
   const cases::CaseData& data_;
   std::vector<Pose<frame::Bone, frame::Patient>> from_patient_;
+  std::vector<Aabb> boxes_;  ///< of the surfaces, as scanned
   cases::LaidStructures structures_;
 };
 

@@ -45,12 +45,13 @@ std::optional<WayIn> way_in(const cases::JointSpace& joint,
     const bool is_in = wall.is_near && wall.distance_mm < 0;
     step = wall.is_near ? kStepMm : kFarStepMm;
     if (!way) {
-      if (!is_in && bones.distance_mm(p) < kBeforeRoomMm) return std::nullopt;  // bone is before it
+      if (!is_in && bones.distance_mm(p, kBeforeRoomMm) < kBeforeRoomMm)
+        return std::nullopt;  // bone
       if (!is_in) continue;
       way = WayIn{p, inwards, kFarMm};
     }
     if (!is_in || in > kWorkingMm) break;
-    way->room_mm = std::min(way->room_mm, bones.distance_mm(p));
+    way->room_mm = bones.distance_mm(p, way->room_mm);
     if (way->room_mm < stop_below_mm) return std::nullopt;
     in += kStepMm;
   }
