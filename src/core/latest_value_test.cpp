@@ -27,7 +27,10 @@ TEST(LatestValue, ReaderSeesOnlyWholeAndNewerValues) {
   std::uint64_t seen = 0;
   while (seen < kLast) {
     Twin value;
-    if (!latest.take(value)) continue;
+    if (!latest.take(value)) {
+      std::this_thread::yield();
+      continue;
+    }
     ASSERT_EQ(value.a, value.b);
     ASSERT_GT(value.a, seen);
     seen = value.a;
@@ -46,11 +49,19 @@ TEST(SpscRing, KeepsOrderAcrossThreadsAndRefusesWhenFull) {
 
   constexpr std::uint64_t kCount = 100'000;
   std::thread producer([&] {
-    for (std::uint64_t i = 0; i < kCount;) i += ring.push(i) ? 1 : 0;
+    for (std::uint64_t i = 0; i < kCount;) {
+      if (ring.push(i)) {
+        ++i;
+      } else {
+        std::this_thread::yield();
+      }
+    }
   });
   for (std::uint64_t expected = 0; expected < kCount;) {
     if (const auto value = ring.pop()) {
       ASSERT_EQ(*value, expected++);
+    } else {
+      std::this_thread::yield();
     }
   }
   producer.join();
