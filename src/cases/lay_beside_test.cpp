@@ -11,33 +11,10 @@
 
 #include "cases/structures.hpp"
 #include "fields/exact_surface.hpp"
+#include "fields/surface_test_support.hpp"
 
 namespace carpus::cases {
 namespace {
-
-/// A block with its edges along the axes.
-TriangleMesh block(const Vec3& low, const Vec3& high) {
-  return {{{low.x, low.y, low.z},
-           {high.x, low.y, low.z},
-           {high.x, high.y, low.z},
-           {low.x, high.y, low.z},
-           {low.x, low.y, high.z},
-           {high.x, low.y, high.z},
-           {high.x, high.y, high.z},
-           {low.x, high.y, high.z}},
-          {{0, 2, 1},
-           {0, 3, 2},
-           {4, 5, 6},
-           {4, 6, 7},
-           {0, 1, 5},
-           {0, 5, 4},
-           {1, 2, 6},
-           {1, 6, 5},
-           {2, 3, 7},
-           {2, 7, 6},
-           {3, 0, 4},
-           {3, 4, 7}}};
-}
 
 Structure tube(const std::string& id, const Vec3& from, const Vec3& to, double radius_mm) {
   Structure s;
@@ -85,15 +62,15 @@ class LayBeside : public ::testing::Test {
   LayBeside() {
     Bone bone;
     bone.bone = BoneId::Radius;
-    bone.surface = MeshIn<frame::Bone>(block({-40, -20, -10}, {40, 20, 0}));
+    bone.surface = MeshIn<frame::Bone>(fields::test::box({-40, -20, -10}, {40, 20, 0}));
     data_.bones.push_back(std::move(bone));
-    data_.skin = MeshIn<frame::Patient>(block({-60, -40, -30}, {60, 40, 12}));
+    data_.skin = MeshIn<frame::Patient>(fields::test::box({-60, -40, -30}, {60, 40, 12}));
   }
   void lay() {
     const std::vector<const TriangleMesh*> bodies{&band_};
     lay_structures_beside(data_, bodies);
   }
-  TriangleMesh band_ = block({-5, -15, 0.05}, {5, 15, 1.6});
+  TriangleMesh band_ = fields::test::box({-5, -15, 0.05}, {5, 15, 1.6});
   CaseData data_;
 };
 

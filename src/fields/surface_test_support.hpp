@@ -73,16 +73,19 @@ namespace carpus::fields::test {
   return mesh;
 }
 
-[[nodiscard]] inline TriangleMesh box(const Vec3& half) {
+/// A block with its edges along the axes.
+[[nodiscard]] inline TriangleMesh box(const Vec3& low, const Vec3& high) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
-    mesh.vertices.push_back({(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
-                             (i & 4) != 0 ? half.z : -half.z});
+    mesh.vertices.push_back({(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
+                             (i & 4) != 0 ? high.z : low.z});
   }
   mesh.facets = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
+
+[[nodiscard]] inline TriangleMesh box(const Vec3& half) { return box(-half, half); }
 
 [[nodiscard]] inline Vec3 random_direction(Rng& rng) {
   while (true) {

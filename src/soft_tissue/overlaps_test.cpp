@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "fields/surface_test_support.hpp"
 #include "soft_tissue/make_soft_tissue.hpp"
 #include "soft_tissue/model_case_test_support.hpp"
 
@@ -23,26 +24,7 @@ TriangleMesh ball(const Vec3& middle, double radius_mm) {
 
 /// A plate of 20 by 20 mm, and so thick.
 TriangleMesh plate(double low_mm, double high_mm) {
-  return {{{-10, -10, low_mm},
-           {10, -10, low_mm},
-           {10, 10, low_mm},
-           {-10, 10, low_mm},
-           {-10, -10, high_mm},
-           {10, -10, high_mm},
-           {10, 10, high_mm},
-           {-10, 10, high_mm}},
-          {{0, 2, 1},
-           {0, 3, 2},
-           {4, 5, 6},
-           {4, 6, 7},
-           {0, 1, 5},
-           {0, 5, 4},
-           {1, 2, 6},
-           {1, 6, 5},
-           {2, 3, 7},
-           {2, 7, 6},
-           {3, 0, 4},
-           {3, 4, 7}}};
+  return fields::test::box({-10, -10, low_mm}, {10, 10, high_mm});
 }
 
 TEST(DepthBetween, IsThatOfTheDeepestPlaceWhicheverIsAskedFirst) {
