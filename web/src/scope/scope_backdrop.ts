@@ -92,6 +92,7 @@ export class ScopeBackdrop {
     this.mesh = new THREE.Mesh(
       geometry,
       new THREE.ShaderMaterial({
+        name: "scope backdrop",
         uniforms: {
           ...lens,
           skin: this.skin,

@@ -56,6 +56,7 @@ export class ScopeFilm {
     this.mesh = new THREE.Mesh(
       geometry,
       new THREE.ShaderMaterial({
+        name: "scope film",
         uniforms: lens,
         vertexShader: VERTEX,
         fragmentShader: FRAGMENT,

@@ -92,6 +92,7 @@ export class ScopeFluid {
     this.mesh = new THREE.Mesh(
       geometry,
       new THREE.ShaderMaterial({
+        name: "scope fluid",
         uniforms: lens,
         vertexShader: VERTEX,
         fragmentShader: FRAGMENT,

@@ -207,6 +207,7 @@ export class ScopeFocus {
     into: THREE.WebGLRenderTarget | null,
   ): ScopeFocus["passes"][number] {
     const material = new THREE.ShaderMaterial({
+      name: "scope focus",
       glslVersion: THREE.GLSL3,
       uniforms,
       vertexShader: VERTEX,

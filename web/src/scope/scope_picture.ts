@@ -31,7 +31,7 @@ import {
 import { rodGeometries, rodOf } from "./scope_rod";
 import { ScopeScrew } from "./scope_screw";
 import { holeUniforms, setHole } from "./screw_hole";
-import { lensUniforms, setScrewed, wetMaterial } from "./scope_shader";
+import { depthMaterial, lensUniforms, setWall, wetMaterial } from "./scope_shader";
 import type { Rod } from "./scope_tools";
 import { TissuePieces, type TissuePiece } from "./tissue_pieces";
 
@@ -67,6 +67,9 @@ export class ScopePicture {
     string,
     THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>
   >;
+  /** Of the wall that is seen. */
+  private readonly depth: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  private hasScrew = false;
   private readonly lesions = lesionUniforms();
   private wrong: readonly Painted[] = [];
   private scuffs: readonly Painted[] = [];
@@ -102,6 +105,9 @@ export class ScopePicture {
         new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, this.lesions, this.hole)),
       ]),
     );
+    for (const { material } of this.walls.values()) setWall(material, this.hasScrew);
+    this.depth = new THREE.Mesh(new THREE.BufferGeometry(), depthMaterial(this.lens));
+    this.depth.renderOrder = -1;
     this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
     this.beads = new ScopeBeads(this.lens);
@@ -114,7 +120,7 @@ export class ScopePicture {
       this.screw.group,
       this.fluid.mesh,
     );
-    for (const mesh of [...this.walls.values(), this.rod]) {
+    for (const mesh of [...this.walls.values(), this.depth, this.rod]) {
       mesh.frustumCulled = false; // the lens is no frustum
       this.scene.add(mesh);
     }
@@ -161,7 +167,8 @@ export class ScopePicture {
   /** What lies in a bone from the beginning; null: nothing. */
   setScrew(screw: ControlledScrew | null, bodies: readonly string[]): void {
     setHole(this.hole, screw);
-    for (const { material } of this.walls.values()) setScrewed(material, screw !== null);
+    this.hasScrew = screw !== null;
+    for (const { material } of this.walls.values()) setWall(material, this.hasScrew);
     this.screw.set(screw, bodies, this.all);
   }
 
@@ -214,6 +221,9 @@ export class ScopePicture {
       .addScaledVector(up.value, LAMP_UP_MM)
       .addScaledVector(right.value, LAMP_RIGHT_MM);
     for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
+    const shown = skin === undefined ? this.walls.get(joint) : undefined;
+    if (shown !== undefined) this.depth.geometry = shown.geometry;
+    this.depth.visible = shown !== undefined && !this.hasScrew;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.loose.group.visible = this.beads.group.visible = skin === undefined;
     this.pieces.group.visible = skin === undefined;
@@ -237,9 +247,8 @@ export class ScopePicture {
       this.rod.quaternion.copy(turnOf(rod));
       this.rod.updateMatrixWorld();
     }
-    const wall = skin === undefined ? this.walls.get(joint) : undefined;
     this.fluid.lay(
-      wall?.geometry.getAttribute("position").array,
+      shown?.geometry.getAttribute("position").array,
       { ...sight, high: this.high, halfFieldRad: this.lens.halfField.value },
       performance.now(),
     );
@@ -281,6 +290,7 @@ export class ScopePicture {
     this.screw.dispose();
     for (const geometry of Object.values(this.rods)) geometry.dispose();
     for (const geometry of this.skinTools.values()) geometry.dispose();
+    this.depth.material.dispose();
     for (const mesh of [...this.walls.values(), this.rod]) {
       mesh.geometry.dispose();
       (mesh.material as THREE.Material).dispose();

@@ -58,6 +58,7 @@ varying vec4 vLining;
 varying vec3 vFibre;
 varying vec3 vScreen;
 varying vec3 vRest;
+invariant gl_Position; // for depths that must be equal
 void main() {
   vRest = rest;
   vShare = share;
@@ -79,6 +80,20 @@ void main() {
   vNormal = mat3(place) * normal;
   vLining = lining;
   vFibre = fibre;
+}`;
+
+// Neither beyond the round field, nor where a facet goes round behind the lens: that would be drawn right across what is before it.
+const IN_FIELD = `r <= 1.0 && dot(to, axis) >= 0.2 * length(to)`;
+
+const DEPTH_FRAGMENT = /* glsl */ `
+precision highp float;
+uniform vec3 eye, axis;
+varying vec3 vAt;
+varying vec3 vScreen;
+void main() {
+  vec3 to = vAt - eye;
+  float r = length(vScreen.xy / vScreen.z);
+  if (!(${IN_FIELD})) discard;
 }`;
 
 const FRAGMENT = /* glsl */ `
@@ -114,8 +129,9 @@ void main() {
   vec3 view = -to / far;
   // By the place on the screen: within a large triangle the true direction lies a chord beside it.
   float r = length(vScreen.xy / vScreen.z);
-  // A facet that goes round behind the lens would be drawn right across what is before it.
-  if (r > 1.0 || dot(to, axis) < 0.2 * far) discard;
+#ifndef DEPTH_IS_LAID
+  if (!(${IN_FIELD})) discard;
+#endif
   // Into the joint, by which side it is: asked of the view it would flip along every edge, as dots.
   vec3 n = normalize(vNormal) * (isMetal > 0.5 ? 1.0 : -1.0);
   vec3 smooth_n = n;
@@ -247,6 +263,7 @@ export function wetMaterial(
   hole: HoleUniforms = holeUniforms(),
 ): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
+    name: isMetal ? "scope metal" : "scope tissue",
     uniforms: {
       ...lens,
       ...lesions,
@@ -261,9 +278,28 @@ export function wetMaterial(
   });
 }
 
-/** Whether a screw may have gone through this: what has none saves its cost. */
-export function setScrewed(material: THREE.ShaderMaterial, hasScrew: boolean): void {
-  if (hasScrew === (material.defines?.["HAS_SCREW"] !== undefined)) return;
-  material.defines = hasScrew ? { HAS_SCREW: "" } : {};
+/**
+ * Draws the wall's depth alone, before all else: what it hides of itself, and what lies outside of the field, is then not
+ * shaded. Shading is dear and depth is cheap.
+ */
+export function depthMaterial(lens: LensUniforms): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    name: "scope depth",
+    uniforms: lens,
+    vertexShader: VERTEX,
+    fragmentShader: DEPTH_FRAGMENT,
+    side: THREE.BackSide,
+    colorWrite: false,
+  });
+}
+
+/**
+ * How a wall is shaded. @param hasScrew  one may have gone through it: what has none saves its cost. Its hole is cut as it is shaded, so
+ * that no depth may be laid before.
+ */
+export function setWall(material: THREE.ShaderMaterial, hasScrew: boolean): void {
+  material.defines = hasScrew ? { HAS_SCREW: "" } : { DEPTH_IS_LAID: "" };
+  material.depthFunc = hasScrew ? THREE.LessEqualDepth : THREE.EqualDepth;
+  material.depthWrite = hasScrew;
   material.needsUpdate = true;
 }
