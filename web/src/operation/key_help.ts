@@ -186,7 +186,7 @@ export const GAMEPAD_HELP: HelpGroup = {
     },
     {
       keys: "At a scope, B / cross",
-      text: "the next portal / up, down: pull more, less at the fingers",
+      text: "the next portal / up, down: pull more, less at the fingers; left, right: focus nearer, farther",
     },
     { keys: "At a scope, left stick pressed", text: "exchange the hands" },
   ],

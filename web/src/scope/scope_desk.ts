@@ -327,6 +327,11 @@ export class ScopeDesk {
     return this.leading.second;
   }
 
+  /** @param steps  nearer or, below 0, farther */
+  turnFocus(steps: number): void {
+    if (this.isOn) this.focus.turn(steps);
+  }
+
   draw(): void {
     const { picture, plan, scope, snapshot } = this;
     if (!this.isShown || picture === undefined) return;

@@ -12,17 +12,20 @@ function padWith(tool: ToolKind): { readonly pad: PadAtScope; readonly did: stri
       const words = values.map((v) => (typeof v === "number" ? v.toFixed(2) : JSON.stringify(v)));
       did.push([what, ...words].join(" "));
     };
-  const pad = new PadAtScope({
-    tool,
-    lean: note("lean"),
-    turn: note("turn"),
-    hold: note("hold"),
-    letGo: note("let go"),
-    setJaws: note("jaws"),
-    goToNextPortal: note("portal"),
-    switchHands: note("switch"),
-    pull: note("pull"),
-  });
+  const pad = new PadAtScope(
+    {
+      tool,
+      lean: note("lean"),
+      turn: note("turn"),
+      hold: note("hold"),
+      letGo: note("let go"),
+      setJaws: note("jaws"),
+      goToNextPortal: note("portal"),
+      switchHands: note("switch"),
+      pull: note("pull"),
+    },
+    note("focus"),
+  );
   return { pad, did };
 }
 
@@ -67,7 +70,9 @@ describe("a gamepad at a scope", () => {
     expect(pad.act({ kind: "pause" })).toBe(true);
     expect(pad.act({ kind: "finish" })).toBe(true);
     pad.hold("pad 12", { kind: "orbit", to: "up" });
+    pad.hold("pad 14", { kind: "orbit", to: "left" });
+    pad.hold("pad 15", { kind: "orbit", to: "right" });
     pad.hold("pad wrist", { kind: "move_wrist", axis: "flexion_deg", sign: 1 });
-    expect(did).toEqual(["switch", "portal", "pull 5.00"]);
+    expect(did).toEqual(["switch", "portal", "pull 5.00", "focus 1.00", "focus -1.00"]);
   });
 });

@@ -3,9 +3,9 @@
 //
 // What a gamepad asks for at a scope, where it leads the hand that mouse and keys do not: two hands at
 // once. Sticks lean and turn, bumpers draw back and go in, the triggers close and open jaws or run a
-// shaver. Pure.
+// shaver, its cross pulls and focuses. Pure.
 import type { HeldAction, OnceAction } from "../operation";
-import type { ScopeMotion } from "./scope_keys";
+import { focusBy, type ScopeMotion } from "./scope_keys";
 import type { ToolKind } from "./scope_tools";
 
 /** Of the hand that mouse and keys do not lead. */
@@ -37,7 +37,11 @@ const AS_ELSEWHERE: ReadonlySet<OnceAction["kind"]> = new Set([
 ]);
 
 export class PadAtScope {
-  constructor(private readonly second: SecondLead) {}
+  /** @param turnFocus  of the camera head's ring, by so many steps, whoever leads the scope */
+  constructor(
+    private readonly second: SecondLead,
+    private readonly turnFocus: (steps: number) => void,
+  ) {}
 
   /** @param right  as a tip would be moved on the screen [mm] */
   moveTipBy(right: number, up: number): void {
@@ -64,6 +68,8 @@ export class PadAtScope {
       case "orbit":
         if (action.to === "up") this.second.pull(PULL_N);
         if (action.to === "down") this.second.pull(-PULL_N);
+        if (action.to === "left") this.turnFocus(focusBy("focus_nearer"));
+        if (action.to === "right") this.turnFocus(focusBy("focus_farther"));
         return;
       default:
     }

@@ -28,7 +28,9 @@ export function padRoom(
   scope: ScopeDesk,
 ): PadRoom {
   const driven = drivenBy("gamepad", panels, hand, part);
-  const atScope = new PadAtScope(scope.second);
+  const atScope = new PadAtScope(scope.second, (steps) => {
+    scope.turnFocus(steps);
+  });
   return {
     ...driven,
     moveTipBy: (right, up) => {
