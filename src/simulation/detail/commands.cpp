@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "simulation/detail/world_state.hpp"
+#include "simulation/permission.hpp"
 
 namespace carpus::simulation {
 

@@ -1,145 +1,23 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a world holds while it runs: the case as the tick reads it, everything that changes, and
-// what changes it.
+// What changes a world's data: the parts of a tick, by the file that has them.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
-#include "anatomy/bone_solid.hpp"
-#include "anatomy/carpal_kinematics.hpp"
 #include "arthroscopy/opened_space.hpp"
 #include "arthroscopy/optics.hpp"
-#include "contact/instrument_scene.hpp"
-#include "fields/contact_field.hpp"
-#include "haptics/virtual_coupling.hpp"
-#include "instruments/instrument.hpp"
-#include "simulation/detail/bodies.hpp"
-#include "simulation/detail/joint_fluid.hpp"
-#include "simulation/detail/loose_bodies.hpp"
-#include "simulation/detail/operation_state.hpp"
-#include "simulation/detail/portal_making.hpp"
-#include "simulation/detail/punches.hpp"
-#include "simulation/detail/scope_drill.hpp"
-#include "simulation/detail/scope_watch.hpp"
-#include "simulation/detail/screw_watch.hpp"
-#include "simulation/detail/scuffs.hpp"
-#include "simulation/detail/shaving.hpp"
-#include "simulation/detail/skin_surface.hpp"
-#include "simulation/detail/structure_watch.hpp"
-#include "simulation/detail/tissue.hpp"
-#include "simulation/detail/yielding_sheet.hpp"
-#include "simulation/permission.hpp"
-#include "simulation/world.hpp"
-#include "yielding/net_state.hpp"
+#include "simulation/detail/changing_data.hpp"
+#include "simulation/detail/world_model.hpp"
 
 namespace carpus::simulation {
 
-struct World::Model {
-  Model(const cases::CaseData& data,
-        const procedure::Procedure& procedure,
-        std::uint64_t seed,
-        procedure::Mode mode,
-        const std::optional<cases::PreparedPathology>& prepared);
-
-  void open_skin();
-
-  const cases::CaseData& data;
-  const procedure::Procedure& procedure;
-  std::uint64_t seed;
-  procedure::Mode mode;
-  std::optional<cases::PreparedPathology> prepared;  ///< of an examination; else none
-  detail::BodyKinds kinds;
-  std::span<const instruments::Instrument> catalogue;
-  std::vector<fields::ContactField> fields;  ///< by body
-  std::array<anatomy::CarpalGroup, kMaxBodies> groups{};
-  std::optional<detail::FragmentFaces> fracture;  ///< of a target in two pieces
-  std::vector<Vec3> centres;                      ///< of the bodies' surfaces, frame Bone
-  std::vector<double> reaches_mm;                 ///< of the surfaces, from those
-  std::vector<BoneSolid> target;  ///< one: the target's fragments as scanned, gap bridged
-  procedure::Opening opening;
-  /// Of an arthroscopy; nullptr where nothing on the tray enters joints.
-  const cases::ArthroscopicMap* map = nullptr;
-  std::optional<cases::JointLesions> lesions;  ///< of an examination, or what lies loose
-  std::array<std::size_t, detail::kMaxLooseBodies> floats{};  ///< of these those that float
-  std::size_t float_count = 0;
-  std::array<std::uint8_t, kMaxBodies> loose{};  ///< bodies that it lets stand apart
-  std::size_t loose_count = 0;
-  std::vector<detail::YieldingSheet> sheets;  ///< of an arthroscopy, the disc first; else none
-  std::size_t disc_edge = yielding::kMaxParticles;  ///< what a hook test pulls at
-  /// Of a procedure that makes portals: the skin, which portals, what is felt for before each.
-  std::optional<detail::SkinSurface> skin;
-  std::array<std::uint8_t, procedure::kPortalsMade> asked{};
-  struct LandmarkPlace {
-    Vec3 at;  ///< frame Bone of `body`
-    std::uint8_t body = 0;
-  };
-  std::array<LandmarkPlace, procedure::kPortalsMade> felt_first{};
-  std::array<std::uint32_t, procedure::kPortalsMade> drawn_aside{};  ///< bit i: structure i
-  std::array<bool, procedure::kPortalsMade> is_opened_first{};
-  bool has_joint_tools = false;  ///< on the tray: what enters joints
-  [[nodiscard]] bool makes_portals() const noexcept { return skin.has_value(); }
-  /// Its joints are entered by portals that were made before, and by no other.
-  [[nodiscard]] bool goes_in_by_own() const noexcept { return makes_portals() && has_joint_tools; }
-  detail::DrillPlan drill;    ///< of a procedure that declares one
-  bool has_punch = false;     ///< on the tray, and there is tissue to be taken away
-  double cartilage_mm = 0.0;  ///< over bone (data/tissue_feel.json), of what has jaws that bite
-  /// What a shaver or a punch takes away; none of most procedures.
-  [[nodiscard]] std::span<const cases::TissuePiece> pieces() const noexcept;
-};
-
-/// Everything that changes.
-struct World::State {
+struct World::State : detail::ChangingData {
   explicit State(const Model& model);
-
-  detail::Operated now;
-  detail::Spent spent;
-  detail::StructureState structure_state;
-  detail::ScopeState scope_state;
-  detail::ScopeConduct conduct;  ///< told, and no part of the hash
-  detail::DrillState drill_state;
-  detail::LooseState loose_state;
-  detail::ShavingState shaving_state;
-  detail::PunchState punch_state;
-  detail::JointFluid fluid;
-  double suction_ml_per_s = 0.0;  ///< of the joint's fluid in this tick
-  detail::ScrewState screw_state;
-  detail::MakingState making;
-  std::array<yielding::NetState, kMaxSheets> sheets;  ///< as in the model
-  /// Of those between two bodies: as they were laid last. Follows from the poses.
-  std::array<Pose<frame::Bone, frame::Bone>, kMaxSheets> sheet_poses{};
-  std::array<bool, kMaxSheets> has_sheet_moved{};  ///< since it was published
-  /// What of a sheet lies under a tip, frame Bone of its first body.
-  struct UnderTip {
-    std::uint8_t sheet = detail::kNoSheet;
-    Vec3 at;
-    Vec3 out;  ///< unit, towards the tip
-    double most_gives_mm = 0.0;
-  };
-  std::array<UnderTip, kHands> under_tips{};  ///< found anew in every tick, by hand
-  std::array<procedure::ScopeLook, detail::kMaxLooks> looks{};
-  cases::LaidStructures structures;
-  detail::Tissue tissue;
-  contact::InstrumentScene scene;  ///< a place for each hand; what it keeps changes no answer
-  std::array<detail::BodyPose, kMaxBodies> poses{};  ///< follow from wrist and shifts
-  std::array<Pose<frame::Bone, frame::Patient>, kMaxBodies> inverses{};
-  std::array<detail::BodyPose, kMaxBodies> bases{};  ///< without the fragments' displacements
-  WristPose wrist_before;                            ///< at the beginning of the tick
-  Snapshot snapshot;
-  TickFaults faults;
-  std::array<procedure::Shot, kMaxShots> shots{};
-  std::array<detail::Operated, detail::kMaxCheckpoints> checkpoints{};
-  std::array<std::uint32_t, detail::kMaxCheckpoints> passes_at_checkpoint{};
-  std::array<detail::Worked, detail::kMaxCheckpoints> worked_at_checkpoint{};
-  std::size_t checkpoint_count = 0;
-  bool is_finishing = false;  ///< in the tick of Finish
-  bool is_hashed = true;
 
   void step(const Model& model, const Input& raw) noexcept;
   void open(const Model& model) noexcept;
