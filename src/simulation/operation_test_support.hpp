@@ -151,6 +151,10 @@ inline Command shot(double rotation_deg, double tilt_deg = 0) {
 }
 inline Command simple(CommandKind kind, std::uint8_t hand = 0) { return {kind, hand, 0, 0, 0}; }
 
+inline bool is_done(const Snapshot& now, unsigned step) {
+  return (now.completed_steps >> step & 1U) != 0;
+}
+
 inline bool has_event(const Snapshot& snapshot, EventKind kind) {
   for (std::size_t i = 0; i < snapshot.event_count; ++i) {
     if (snapshot.events[i].kind == kind) return true;
