@@ -228,15 +228,15 @@ std::string millimetres(const std::string& what, double mm) {
 }
 
 void measure(const CaseData& data,
+             const std::vector<Structure>& structures,
              const StructureTable& table,
              const CarriedLandmarks& landmarks,
              const WristSurfaces& surfaces,
-             MadeStructures& made) {
-  StructureFigures& f = made.figures;
+             StructureFigures& f) {
   f.scale = landmarks.scale();
   f.worst_misfit_mm = landmarks.worst_misfit_mm();
   f.least_under_skin_mm = std::numeric_limits<double>::infinity();
-  for (const Structure& s : made.structures) {
+  for (const Structure& s : structures) {
     const auto [in_bone, under] = depth_of(s, surfaces);
     f.deepest_in_bone_mm = std::max(f.deepest_in_bone_mm, in_bone);
     if (in_bone > kDeepestInBoneMm) f.problems.push_back(millimetres(s.name + " in bone", in_bone));
@@ -244,7 +244,7 @@ void measure(const CaseData& data,
     if (under < kLeastUnderSkinMm) {
       f.problems.push_back(millimetres(s.name + " outside the skin", -under));
     }
-    for (const Structure& other : made.structures) {
+    for (const Structure& other : structures) {
       if (&other != &s) {
         f.deepest_in_other_mm = std::max(f.deepest_in_other_mm, deepest_between(s, other));
       }
@@ -254,11 +254,11 @@ void measure(const CaseData& data,
   for (std::size_t i = 0; i < table.landmarks.size(); ++i) {
     if (table.landmarks[i].id != "lister") continue;
     const Vec3 lister = landmarks.at({i, {}, Layer::AsPlaced, 0});
-    check_order(data, made.structures, kDorsalOrder, lister, f.problems);
-    check_order(data, made.structures, kVolarOrder, lister, f.problems);
+    check_order(data, structures, kDorsalOrder, lister, f.problems);
+    check_order(data, structures, kVolarOrder, lister, f.problems);
   }
   for (const anatomy::TabledPortal& portal : table.portals) {
-    f.portals.push_back(measure_portal(portal, landmarks, surfaces, made.structures));
+    f.portals.push_back(measure_portal(portal, landmarks, surfaces, structures));
   }
 }
 
@@ -285,8 +285,16 @@ MadeStructures make_structures(const CaseData& data, const StructureTable& table
     }
     made.structures.push_back(std::move(s));
   }
-  measure(data, table, landmarks, surfaces, made);
+  measure(data, made.structures, table, landmarks, surfaces, made.figures);
   return made;
+}
+
+StructureFigures measure_structures(const CaseData& data, const StructureTable& table) {
+  const WristSurfaces surfaces(data);
+  const CarriedLandmarks landmarks(data, table);
+  StructureFigures figures;
+  measure(data, data.structures, table, landmarks, surfaces, figures);
+  return figures;
 }
 
 AddedStructures add_missing_structures(CaseData& data, const StructureTable& table) {

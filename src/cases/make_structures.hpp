@@ -43,6 +43,11 @@ struct MadeStructures {
     const CaseData& data,
     const anatomy::StructureTable& table = anatomy::StructureTable::generic());
 
+/// Of the structures that the case has now: whatever they gave way to since they were made.
+[[nodiscard]] StructureFigures measure_structures(
+    const CaseData& data,
+    const anatomy::StructureTable& table = anatomy::StructureTable::generic());
+
 struct AddedStructures {
   std::vector<std::string> names;     ///< of what was added, in the table's order
   std::vector<std::string> problems;  ///< of all that was laid; empty when all is well

@@ -125,10 +125,17 @@ std::string source_in_words(const Arguments& a, const GridGeometry& g, bool simu
 }
 
 /// After the case is whole: what no CT shows. The case is a case without it. Tendons, arteries and
-/// nerves give way to it.
-std::string generate_soft_tissue(cases::CaseData& data, const fs::path& folder) {
+/// nerves give way to it: what is told of them is of where they lie then.
+std::string generate_soft_tissue(reconstruct::Reconstruction& result, const fs::path& folder) {
   show_progress("soft tissue", 0);
+  cases::CaseData& data = result.data;
   const soft_tissue::SoftTissue tissue = soft_tissue::make_soft_tissue_moving_structures(data);
+  const std::vector<std::string> told = std::move(result.structures.problems);
+  result.structures = cases::measure_structures(data);
+  for (const std::string& problem : result.structures.problems) {
+    const bool is_new = std::find(told.begin(), told.end(), problem) == told.end();
+    if (is_new) warn("generated structures: " + problem);
+  }
   for (const std::string& problem : tissue.problems) warn("generated soft tissue: " + problem);
   write_structures(data, folder);
   case_io::write_soft_tissue(tissue, data, folder);
@@ -264,7 +271,7 @@ void run(const Arguments& a) {
   result.stages.push_back({"write", reconstruct::StageClock::seconds_since(writing)});
   peaks.begin("soft tissue");
   const auto generating = reconstruct::StageClock::Clock::now();
-  const std::string soft_tissue = generate_soft_tissue(result.data, a.out);
+  const std::string soft_tissue = generate_soft_tissue(result, a.out);
   result.stages.push_back({"soft tissue", reconstruct::StageClock::seconds_since(generating)});
   peaks.end();
   peaks.put_into(result.stages);

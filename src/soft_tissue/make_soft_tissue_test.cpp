@@ -134,6 +134,29 @@ TEST(MakeSoftTissue, FusedAndMissingBonesAreNamedAndTheRestIsMade) {
   EXPECT_THAT(tissue.overlaps, IsEmpty());
 }
 
+std::vector<double> portal_distances(const cases::StructureFigures& figures) {
+  std::vector<double> mm;
+  for (const cases::PortalDistance& portal : figures.portals) mm.push_back(portal.mm);
+  return mm;
+}
+
+TEST(MakeSoftTissue, StructuresAreMeasuredAsTheCaseHasThem) {
+  cases::CaseData data = test::model_case(Side::Left, 1, Mat3::identity());
+  const cases::MadeStructures made = cases::make_structures(data);
+  const std::vector<double> before = portal_distances(made.figures);
+  data.structures = made.structures;
+  EXPECT_EQ(portal_distances(cases::measure_structures(data)), before);
+  constexpr double kThickerMm = 0.5;
+  for (cases::Structure& each : data.structures) {
+    if (each.kind == anatomy::StructureKind::Nerve) each.radius_mm += kThickerMm;
+  }
+  const std::vector<double> after = portal_distances(cases::measure_structures(data));
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(after[i], before[i] - kThickerMm, 1e-9) << i;
+  }
+}
+
 TEST(MakeSoftTissue, HoldsTendonsArteriesAndNervesToTheBoundAndMovesThemOutOfTheWay) {
   cases::CaseData data = test::model_case(Side::Left, 1, Mat3::identity());
   data.structures = cases::make_structures(data).structures;
