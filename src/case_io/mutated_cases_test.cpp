@@ -118,7 +118,7 @@ TEST_F(MutatedCases, WhatLiesBesideACaseIsRefusedByNameOrRead) {
   const cases::CaseData data = test::small_case();
   write_case(data, whole);
   test::write(whole / "structures.json", structures_text(test::small_structures()));
-  test::write(whole / kTrustFile, trust_text({{"lunate", 0.5, true, "why"}}, "carpus"));
+  test::write(whole / kTrustFile, trust_text({{{"lunate", 0.5, true, "why"}}}, "carpus"));
   write_soft_tissue(test::small_tissue(), data, whole);
   const fs::path segments = folder() / "labels.dcm";
   write_dicom_segmentation(segments, data.labels.view(), {{data.bones[0].label, "lunate"}},

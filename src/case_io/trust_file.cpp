@@ -19,16 +19,14 @@ constexpr std::size_t kMostOfScan = 16;
 
 }  // namespace
 
-std::string trust_text(const std::vector<TrustLine>& lines,
-                       const std::string& made_by,
-                       const std::vector<std::string>& of_scan) {
+std::string trust_text(const Trust& trust, const std::string& made_by) {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
   json["schema_version"] = kTrustSchemaVersion;
   json["made_by"] = made_by;
-  if (!of_scan.empty()) json["of_scan"] = of_scan;
+  if (!trust.of_scan.empty()) json["of_scan"] = trust.of_scan;
   json["bones"] = nlohmann::ordered_json::array();
-  for (const TrustLine& line : lines) {
+  for (const TrustLine& line : trust.bones) {
     json["bones"].push_back(
         {{"name", line.name}, {"confidence", line.confidence}, {"flagged", line.flagged}});
     if (!line.why.empty()) json["bones"].back()["why"] = line.why;
@@ -36,7 +34,7 @@ std::string trust_text(const std::vector<TrustLine>& lines,
   return json.dump(1) + "\n";
 }
 
-std::vector<TrustLine> parse_trust(const std::string& text, const std::string& file) {
+Trust parse_trust(const std::string& text, const std::string& file) {
   if (text.size() > kLargestFile) throw InvalidInput(file + ": is larger than any such file");
   const nlohmann::json json = parse_json_text(text, file);
   JsonFields fields(json, file, "trust");
@@ -50,12 +48,12 @@ std::vector<TrustLine> parse_trust(const std::string& text, const std::string& f
                       "; update carpus");
   }
   (void)fields.text_or("made_by", "");
-  const std::vector<std::string> of_scan = fields.texts_or_none("of_scan");
-  if (of_scan.size() > kMostOfScan) fields.refuse("of_scan has too many texts");
-  for (const std::string& words : of_scan) {
+  Trust trust;
+  trust.of_scan = fields.texts_or_none("of_scan");
+  if (trust.of_scan.size() > kMostOfScan) fields.refuse("of_scan has too many texts");
+  for (const std::string& words : trust.of_scan) {
     if (words.empty() || words.size() > kLongestWhy) fields.refuse("of_scan is empty or too long");
   }
-  std::vector<TrustLine> lines;
   for (JsonFields& bone : fields.objects("bones")) {
     TrustLine line;
     line.name = bone.text("name");
@@ -65,13 +63,13 @@ std::vector<TrustLine> parse_trust(const std::string& text, const std::string& f
     line.why = bone.text_or("why", "");
     if (line.why.size() > kLongestWhy) bone.refuse("why is too long");
     bone.refuse_unknown_fields();
-    lines.push_back(std::move(line));
+    trust.bones.push_back(std::move(line));
   }
   fields.refuse_unknown_fields();
-  return lines;
+  return trust;
 }
 
-std::optional<std::vector<TrustLine>> read_trust(const std::filesystem::path& folder) {
+std::optional<Trust> read_trust(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kTrustFile;
   if (!std::filesystem::exists(file)) return std::nullopt;
   return parse_trust(read_whole_file(file, kLargestFile), file.string());

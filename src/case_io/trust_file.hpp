@@ -24,18 +24,22 @@ struct TrustLine {
   bool operator==(const TrustLine&) const = default;
 };
 
+struct Trust {
+  std::vector<TrustLine> bones;
+  /// What is to be known of the scan as a whole before it is used, in words; at most 16.
+  std::vector<std::string> of_scan{};
+
+  bool operator==(const Trust&) const = default;
+};
+
 /// @param made_by  program and version
-/// @param of_scan  what is to be known of the scan as a whole before it is used, in words; at most
-/// 16
-[[nodiscard]] std::string trust_text(const std::vector<TrustLine>& lines,
-                                     const std::string& made_by,
-                                     const std::vector<std::string>& of_scan = {});
+[[nodiscard]] std::string trust_text(const Trust& trust, const std::string& made_by);
 
 /// @throws InvalidInput naming `file` and field; SchemaError where a newer program wrote it.
-[[nodiscard]] std::vector<TrustLine> parse_trust(const std::string& text, const std::string& file);
+[[nodiscard]] Trust parse_trust(const std::string& text, const std::string& file);
 
 /// Of a case folder; nothing where it has none.
 /// @throws as parse_trust; IoError where it cannot be read.
-[[nodiscard]] std::optional<std::vector<TrustLine>> read_trust(const std::filesystem::path& folder);
+[[nodiscard]] std::optional<Trust> read_trust(const std::filesystem::path& folder);
 
 }  // namespace carpus::case_io

@@ -14,23 +14,23 @@
 namespace carpus::case_io {
 namespace {
 
-const std::vector<TrustLine> kLines{{"radius", 0.97, false, ""},
-                                    {"pisiform", 0.2, true, "it is hollow: fill it"}};
+const Trust kTrust{{{"radius", 0.97, false, ""}, {"pisiform", 0.2, true, "it is hollow: fill it"}}};
 
 TEST(TrustFile, ReadsWhatItWrote) {
-  const auto lines = parse_trust(trust_text(kLines, "carpus 1.0"), "trust.json");
+  const auto lines = parse_trust(trust_text(kTrust, "carpus 1.0"), "trust.json").bones;
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[1].name, "pisiform");
   EXPECT_EQ(lines[1].confidence, 0.2);
   EXPECT_TRUE(lines[1].flagged);
   EXPECT_EQ(lines[1].why, "it is hollow: fill it");
   EXPECT_FALSE(lines[0].flagged);
-  EXPECT_EQ(parse_trust(trust_text(kLines, "carpus 1.0", {"a child's?"}), "trust.json"), lines);
+  const Trust doubted{kTrust.bones, {"a child's?"}};
+  EXPECT_EQ(parse_trust(trust_text(doubted, "carpus 1.0"), "trust.json"), doubted);
 }
 
 TEST(TrustFile, RefusesWhatItDoesNotKnow) {
   const auto changed = [](const std::string& from, const std::string& to) {
-    std::string text = trust_text(kLines, "carpus 1.0");
+    std::string text = trust_text(kTrust, "carpus 1.0");
     return text.replace(text.find(from), from.size(), to);
   };
   EXPECT_THROW((void)parse_trust(changed("pisiform", "femur"), "trust.json"), InvalidInput);
@@ -39,11 +39,13 @@ TEST(TrustFile, RefusesWhatItDoesNotKnow) {
   EXPECT_THROW((void)parse_trust(changed("\"schema_version\": 2", "\"schema_version\": 3"), "t"),
                SchemaError);
   // As programs before 2 wrote it.
-  EXPECT_EQ(parse_trust(changed("\"schema_version\": 2", "\"schema_version\": 1"), "t"), kLines);
+  EXPECT_EQ(parse_trust(changed("\"schema_version\": 2", "\"schema_version\": 1"), "t"), kTrust);
   EXPECT_THROW((void)parse_trust("{", "trust.json"), InvalidInput);
   const std::vector<std::string> many(17, "a");
-  EXPECT_THROW((void)parse_trust(trust_text(kLines, "c", many), "trust.json"), InvalidInput);
-  EXPECT_THROW((void)parse_trust(trust_text(kLines, "c", {""}), "trust.json"), InvalidInput);
+  EXPECT_THROW((void)parse_trust(trust_text({kTrust.bones, many}, "c"), "trust.json"),
+               InvalidInput);
+  EXPECT_THROW((void)parse_trust(trust_text({kTrust.bones, {""}}, "c"), "trust.json"),
+               InvalidInput);
 }
 
 TEST(TrustFile, OfACaseThatIsAPipeIsRefusedWithoutWaiting) {

@@ -39,11 +39,10 @@ std::string plain_id_of(const fs::path& folder) {
   return is_plain && id.size() <= kLongestId ? id : std::string();
 }
 
-std::optional<reconstruct::BoneTrust> trust_of(
-    const std::optional<std::vector<case_io::TrustLine>>& lines,
-    const std::string& bone) {
-  if (!lines) return std::nullopt;
-  for (const case_io::TrustLine& line : *lines) {
+std::optional<reconstruct::BoneTrust> trust_of(const std::optional<case_io::Trust>& trust,
+                                               const std::string& bone) {
+  if (!trust) return std::nullopt;
+  for (const case_io::TrustLine& line : trust->bones) {
     if (line.name == bone) return reconstruct::BoneTrust{line.confidence, line.flagged, line.why};
   }
   return std::nullopt;

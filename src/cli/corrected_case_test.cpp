@@ -68,7 +68,7 @@ TEST(CorrectedCase, KeepsWhereTheEarlierOneCameFrom) {
     case_io::write_ply(folder / "bones" / (std::string(bone) + ".ply"), mesh);
   }
   std::ofstream(folder / case_io::kTrustFile)
-      << case_io::trust_text({{"ulna", 0.25, true, "it is hollow"}}, "carpus");
+      << case_io::trust_text({{{"ulna", 0.25, true, "it is hollow"}}}, "carpus");
   const EarlierCase doubted = read_earlier_case(folder);
   ASSERT_EQ(doubted.version.bones.size(), 2U);
   EXPECT_FALSE(doubted.version.bones[0].trust);

@@ -44,18 +44,20 @@ std::string id_of(const fs::path& folder) {
 }
 
 /// A damaged file takes no case away; the scan's page tells what is wrong with it.
-std::vector<std::string> flagged_in(const fs::path& folder) {
-  std::vector<std::string> bones;
+case_io::Trust trust_in(const fs::path& folder) {
   try {
-    const auto lines = case_io::read_trust(folder);
-    if (!lines) return bones;
-    for (const case_io::TrustLine& line : *lines) {
-      if (!line.flagged) continue;
-      const std::string bone(name_of(bone_of(line.name)->bone));
-      if (std::find(bones.begin(), bones.end(), bone) == bones.end()) bones.push_back(bone);
-    }
+    return case_io::read_trust(folder).value_or(case_io::Trust{});
   } catch (const Error&) {
     return {};
+  }
+}
+
+std::vector<std::string> flagged_in(const case_io::Trust& trust) {
+  std::vector<std::string> bones;
+  for (const case_io::TrustLine& line : trust.bones) {
+    if (!line.flagged) continue;
+    const std::string bone(name_of(bone_of(line.name)->bone));
+    if (std::find(bones.begin(), bones.end(), bone) == bones.end()) bones.push_back(bone);
   }
   return bones;
 }
@@ -75,7 +77,9 @@ server::ShelvedCase shelved_case(const fs::path& folder) {
   result.folder = folder;
   result.name = case_io::read_pseudonym(folder).value_or(result.id);
   result.title = result.name;
-  result.flagged = flagged_in(folder);
+  case_io::Trust trust = trust_in(folder);
+  result.flagged = flagged_in(trust);
+  result.of_scan = std::move(trust.of_scan);
   if (std::optional<std::string> preview = case_io::read_preview(folder)) {
     result.preview = std::make_shared<const std::string>(std::move(*preview));
   }

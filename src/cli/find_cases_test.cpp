@@ -44,18 +44,22 @@ class FindCases : public ::testing::Test {
       fs::temp_directory_path() / ("carpus_find_cases_" + std::to_string(::getpid()));
 };
 
-TEST_F(FindCases, TellsBonesToBeCheckedAndNotThatOneIsInParts) {
+TEST_F(FindCases, TellsWhatIsToBeCheckedAndNotThatABoneIsInParts) {
   make("doubtful");
   make("damaged");
   std::ofstream(folder_ / "doubtful" / case_io::kTrustFile)
-      << case_io::trust_text({{"lunate", 0.9, false, ""},
-                              {"scaphoid_proximal", 0.2, true, "look"},
-                              {"scaphoid_distal", 0.1, true, "look"}},
+      << case_io::trust_text({{{"lunate", 0.9, false, ""},
+                               {"scaphoid_proximal", 0.2, true, "look"},
+                               {"scaphoid_distal", 0.1, true, "look"}},
+                              {"the wrist is small"}},
                              "carpus");
   std::ofstream(folder_ / "damaged" / case_io::kTrustFile) << "{";
   const FoundCases found = find_cases({path()});
   EXPECT_TRUE(found.shelf.find("damaged")->flagged.empty());
+  EXPECT_TRUE(found.shelf.find("damaged")->of_scan.empty());
   EXPECT_EQ(found.shelf.find("doubtful")->flagged, std::vector<std::string>{"scaphoid"});
+  EXPECT_EQ(found.shelf.find("doubtful")->of_scan, std::vector<std::string>{"the wrist is small"});
+  EXPECT_EQ(message_of(found.shelf).cases[1].of_scan, found.shelf.cases[1].of_scan);
 }
 
 TEST_F(FindCases, AFolderOfThemGivesAllEasiestFirst) {

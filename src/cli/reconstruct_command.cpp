@@ -143,15 +143,15 @@ std::string generate_soft_tissue(reconstruct::Reconstruction& result, const fs::
   return soft_tissue_line(tissue);
 }
 
-std::vector<case_io::TrustLine> trust_lines(const reconstruct::Reconstruction& result) {
-  std::vector<case_io::TrustLine> lines;
+case_io::Trust trust_of(const reconstruct::Reconstruction& result) {
+  case_io::Trust told{{}, result.of_scan};
   for (std::size_t i = 0; i < result.data.bones.size(); ++i) {
     const cases::Bone& bone = result.data.bones[i];
     const reconstruct::BoneTrust& trust = result.figures[i].trust;
-    lines.push_back(
+    told.bones.push_back(
         {std::string(name_of(bone.bone, bone.part)), trust.confidence, trust.flagged, trust.why});
   }
-  return lines;
+  return told;
 }
 
 reconstruct::Reconstruction make_case(const Arguments& a,
@@ -264,7 +264,7 @@ void run(const Arguments& a) {
                 [&] { picture = stock::case_picture(result.data); }});
   records::write_file_atomically(
       a.out / case_io::kTrustFile,
-      case_io::trust_text(trust_lines(result), result.data.provenance.made_by, result.of_scan));
+      case_io::trust_text(trust_of(result), result.data.provenance.made_by));
   // After what is flagged: a disk that fills up costs the picture first.
   records::write_file_atomically(a.out / case_io::kPreviewFile, picture);
   result.stages.insert(result.stages.begin(), {"read", reading_seconds});

@@ -216,7 +216,7 @@ std::string serialize(const CaseDescription& body, int indent) {
 }
 
 Result<CaseList> parse_case_list(std::string_view text) {
-  JsonText json(text, 3145728);
+  JsonText json(text, 6291456);
   FieldReader in(json);
   CaseList out;
   read(in, out);

@@ -216,6 +216,7 @@ void read(FieldReader& in, CaseCard& out) {
   out.goal = in.string("goal", 1024);
   if (in.has("difficulty")) out.difficulty = in.number("difficulty", 0.0, 100.0);
   in.list("flagged", 0, 16, 32, out.flagged);
+  in.list("of_scan", 0, 16, 256, out.of_scan);
   out.has_preview = in.boolean("has_preview");
 }
 
@@ -230,6 +231,7 @@ void write(FieldWriter& out, const CaseCard& in) {
     out.null("difficulty");
   }
   out.list("flagged", in.flagged, 32);
+  out.list("of_scan", in.of_scan, 256);
   out.value("has_preview", in.has_preview);
 }
 

@@ -445,6 +445,8 @@ struct CaseCard {
   /// bones whose segmentation is to be checked, whole ones: that one is in parts is for the trainee
   /// to find
   std::vector<std::string> flagged;
+  /// what is to be known of its scan as a whole before it is used, in words
+  std::vector<std::string> of_scan;
   bool has_preview = false;
   bool operator==(const CaseCard&) const = default;
 };

@@ -19,7 +19,7 @@ protocol::CaseList message_of(const CaseShelf& shelf) {
   list.open = shelf.open;
   for (const ShelvedCase& each : shelf.cases) {
     list.cases.push_back({each.id, each.title, each.history, each.goal, each.difficulty,
-                          each.flagged, each.preview != nullptr});
+                          each.flagged, each.of_scan, each.preview != nullptr});
   }
   return list;
 }

@@ -32,6 +32,7 @@ struct ShelvedCase {
   std::shared_ptr<const std::string> preview;  ///< PNG; null where it has none
   std::filesystem::path folder{};              ///< empty: its scan is not shown
   std::vector<std::string> flagged{};          ///< bones to be checked, whole ones
+  std::vector<std::string> of_scan{};          ///< what is to be known of all of its scan
 };
 
 struct CaseShelf {

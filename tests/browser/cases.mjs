@@ -33,12 +33,13 @@ const lesson = (title, overall, more) => ({
   ...more,
 });
 
-/** As a reconstruction says it that doubts one bone. */
-function doubt(caseFolder, bone, why) {
+/** As a reconstruction says it that doubts one bone, and the scan. */
+function doubt(caseFolder, bone, why, ofScan) {
   const file = join(caseFolder, "trust.json");
   const trust = JSON.parse(readFileSync(file, "utf8"));
   const line = trust.bones.find(({ name }) => name === bone);
   Object.assign(line, { confidence: 0.2, flagged: true, why });
+  trust.of_scan = [ofScan];
   writeFileSync(file, JSON.stringify(trust));
 }
 
@@ -58,7 +59,7 @@ function twoCases() {
     writeFileSync(join(folder, name, "lesson.json"), JSON.stringify(what));
   };
   put("easy", lesson("Easy one", 20, { right_answer: "fix" }));
-  doubt(join(folder, "easy"), "hamate", "a leak across a joint");
+  doubt(join(folder, "easy"), "hamate", "a leak across a joint", "the wrist is small");
   put(
     "humpback",
     lesson("Old humpback", 70, {
@@ -93,6 +94,9 @@ async function chooseAndDecline(page, station) {
   await check(page, "a bone in doubt is found from the card on its scan", async () => {
     const said = await card("easy").innerText();
     expect(/Check .*hamate/i.test(said), `the card says '${said}'`);
+    expect(said.includes("The wrist is small."), `the card says '${said}' of the scan`);
+    const above = await page.locator(".start-facts ~ p.case-card-doubt:visible").allInnerTexts();
+    expect(above.includes("The wrist is small."), `above Start it says '${above.join("; ")}'`);
     await page.getByRole("link", { name: "Scan", exact: true }).click();
     const flagged = page.locator("[data-bone=hamate]", { hasText: "look here" });
     await flagged.waitFor();

@@ -6,3 +6,4 @@ export * from "./case_client";
 export * from "./case_titles_model";
 export * from "./wanted_case_model";
 export { inOrder } from "./grade_order";
+export { sentence } from "./sentence";

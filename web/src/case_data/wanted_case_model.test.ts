@@ -26,7 +26,12 @@ describe("the case that an address wants", () => {
 
 describe("what comes of it", () => {
   const shelved = (id: string) => ({ id, title: id, history: "", goal: "", difficulty: null });
-  const cases = ["easy", "hard"].map((id) => ({ ...shelved(id), flagged: [], has_preview: false }));
+  const cases = ["easy", "hard"].map((id) => ({
+    ...shelved(id),
+    flagged: [],
+    of_scan: [],
+    has_preview: false,
+  }));
   const list = { open: "easy", cases };
   const wanted = (id: string) => ({ id, then: "#/replay/12" });
 

@@ -266,6 +266,8 @@ export interface CaseCard {
   readonly difficulty: number | null;
   /** bones whose segmentation is to be checked, whole ones: that one is in parts is for the trainee to find */
   readonly flagged: readonly string[];
+  /** what is to be known of its scan as a whole before it is used, in words */
+  readonly of_scan: readonly string[];
   readonly has_preview: boolean;
 }
 
@@ -1654,7 +1656,7 @@ export function parseCaseDescription(text: string): Parsed<CaseDescription> {
 
 /** Validates the body of an HTTP answer; never throws. */
 export function parseCaseList(text: string): Parsed<CaseList> {
-  return parseBody(text, rules.CASE_LIST, 3145728, rules.SCHEMA);
+  return parseBody(text, rules.CASE_LIST, 6291456, rules.SCHEMA);
 }
 
 /** Validates the body of an HTTP answer; never throws. */

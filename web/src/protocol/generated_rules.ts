@@ -128,6 +128,7 @@ export const SCHEMA: Schema = {
       goal: {"type": "string", "max_length": 1024},
       difficulty: {"type": "number", "min": 0, "max": 100, "optional": true},
       flagged: {"type": "array", "of": {"type": "string", "max_length": 32}, "max_items": 16},
+      of_scan: {"type": "array", "of": {"type": "string", "max_length": 256}, "max_items": 16},
       has_preview: {"type": "boolean"},
     } },
     procedure_summary: { fields: {

@@ -3,6 +3,7 @@
 //
 // What a case's case.json and trust.json say of its scan and bones (docs/case_format.md); nothing but what is
 // shown here.
+import { sentence } from "../case_data";
 import type { Vec3 } from "../protocol";
 
 export interface ScannedBone {
@@ -103,12 +104,6 @@ export function withTrust(scanned: ScannedCase, text: string): ScannedCase {
   const ofScan: unknown[] = Array.isArray(json["of_scan"]) ? (json["of_scan"] as unknown[]) : [];
   const warnings = ofScan.filter((text) => typeof text === "string").map(sentence);
   return { ...scanned, bones: trusted, warnings };
-}
-
-/** "the wrist is small": "The wrist is small." */
-function sentence(words: string): string {
-  const text = words.charAt(0).toUpperCase() + words.slice(1);
-  return /[.!?]$/.test(text) ? text : `${text}.`;
 }
 
 /** Labels and names as a case has them (src/anatomy/bone_id.hpp). */

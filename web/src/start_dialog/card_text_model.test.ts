@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { cardText, difficultyText, doubtText } from "./card_text_model";
+import { cardText, difficultyText, doubtText, scanDoubts } from "./card_text_model";
 
 describe("difficultyText", () => {
   it("puts the figure into words", () => {
@@ -24,6 +24,24 @@ describe("doubtText", () => {
   });
 });
 
+describe("scanDoubts", () => {
+  const ofScan = ["the wrist is 70 % of an adult's size", "one body may be a fragment: look"];
+
+  it("says in practice what is to be known of all of the scan, in sentences", () => {
+    expect(scanDoubts([], "practice")).toEqual([]);
+    expect(scanDoubts(ofScan, "practice")).toEqual([
+      "The wrist is 70 % of an adult's size.",
+      "One body may be a fragment: look.",
+    ]);
+  });
+
+  it("says to whoever is to be assessed only that there is something", () => {
+    expect(scanDoubts([], "assessed")).toEqual([]);
+    expect(scanDoubts(ofScan, "assessed").join(" ")).toMatch(/warnings/);
+    expect(scanDoubts(ofScan, "assessed").join(" ")).not.toMatch(/fragment/);
+  });
+});
+
 describe("cardText", () => {
   const one = {
     id: "humpback_right",
@@ -32,6 +50,7 @@ describe("cardText", () => {
     goal: "Know when not to.",
     difficulty: 43,
     flagged: [],
+    of_scan: [],
     has_preview: true,
   };
 
@@ -40,6 +59,14 @@ describe("cardText", () => {
       title: "Old humpback",
       what: "Know when not to.",
     });
+  });
+
+  it("has what is to be checked and what is to be known of the scan", () => {
+    const doubtful = { ...one, flagged: ["lunate"], of_scan: ["not found: pisiform"] };
+    expect(cardText(doubtful, 0, "practice").doubts).toEqual([
+      "Check the lunate on its scan",
+      "Not found: pisiform.",
+    ]);
   });
 
   it("gives no diagnosis away to whoever is to be assessed by it", () => {

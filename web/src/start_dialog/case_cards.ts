@@ -48,7 +48,7 @@ export class CaseCards {
         {},
         make("strong", {}, text.title),
         make("span.secondary", {}, text.difficulty),
-        ...(text.doubt === "" ? [] : [make("span.case-card-doubt", {}, text.doubt)]),
+        ...text.doubts.map((doubt) => make("span.case-card-doubt", {}, doubt)),
         make("span.case-card-goal", {}, text.what),
       ),
     );

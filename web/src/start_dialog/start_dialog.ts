@@ -5,7 +5,7 @@
 import { button, make, remember, remembered, setText } from "../dom";
 import type { CaseDescription, CaseList, Mode, ProcedureSummary } from "../protocol";
 import { nameField, rememberName } from "../trainee_name";
-import { doubtText } from "./card_text_model";
+import { doubtText, scanDoubts } from "./card_text_model";
 import { CaseCards } from "./case_cards";
 import "./start_dialog.css";
 import { withTimesSigns } from "./times_sign_model";
@@ -205,12 +205,19 @@ export class StartDialog {
 
   /** What can be chosen, before what is known of the open one; nothing where there is no choice. */
   showCases(list: CaseList, choose: (id: string) => void): void {
-    const doubt = doubtText(list.cases.find((one) => one.id === list.open)?.flagged ?? []);
-    if (doubt !== "") {
-      this.element
-        .querySelector(".start-facts")
-        ?.after(make("p.case-card-doubt", {}, `${doubt} before you operate.`));
-    }
+    const open = list.cases.find((one) => one.id === list.open);
+    const doubt = doubtText(open?.flagged ?? []);
+    const said = (mode: Mode): HTMLElement[] =>
+      scanDoubts(open?.of_scan ?? [], mode).map((text) =>
+        make(`p.case-card-doubt.start-${mode === "practice" ? "diagnosis" : "untold"}`, {}, text),
+      );
+    this.element
+      .querySelector(".start-facts")
+      ?.after(
+        ...(doubt === "" ? [] : [make("p.case-card-doubt", {}, `${doubt} before you operate.`)]),
+        ...said("practice"),
+        ...said("assessed"),
+      );
     const [only] = list.cases;
     // One case is no choice; what is to be learnt of it is told all the same.
     if (list.cases.length < 2 && (only?.goal ?? "") === "") return;
