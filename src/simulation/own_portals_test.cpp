@@ -6,10 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "core/state_hash.hpp"
 #include "simulation/portal_maker_test_support.hpp"
 
 namespace carpus::simulation {
@@ -233,6 +237,42 @@ TEST(OwnPortals, WhatWasSeenComesBackFromItsBytes) {
     ASSERT_EQ(world.now().state_hash, again.now().state_hash) << i;
   }
   EXPECT_EQ(seen_ticks(again), seen_ticks(world));
+}
+
+/// The same bytes with another number at a place, and the checksum that goes with it.
+std::vector<std::byte> forged(std::vector<std::byte> bytes, std::size_t at, std::uint32_t value) {
+  constexpr std::size_t kChecksum = 8;
+  for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i));
+  StateHash hash;
+  hash.add_bytes(std::span(bytes).first(bytes.size() - kChecksum));
+  bytes.resize(bytes.size() - kChecksum);
+  for (std::size_t i = 0; i < kChecksum; ++i) {
+    bytes.push_back(static_cast<std::byte>(hash.value() >> (8 * i)));
+  }
+  return bytes;
+}
+
+TEST(OwnPortals, NothingWasSeenForLongerThanThereWasTime) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  needle_in(maker, 700);
+  const std::uint32_t seen = seen_ticks(world);
+  ASSERT_GT(seen, 255U);
+  const std::vector<std::byte> good = world.write_state();
+  // The last that is written of it: what was seen by portal, then by hand.
+  std::array<std::byte, 4> written{static_cast<std::byte>(seen),
+                                   static_cast<std::byte>(seen >> 8U)};
+  const auto last = std::find_end(good.begin(), good.end(), written.begin(), written.end());
+  ASSERT_NE(last, good.end());
+  const auto by_hand = static_cast<std::size_t>(last - good.begin());
+  const std::size_t by_portal = by_hand - 2 * sizeof(std::uint32_t);
+  ASSERT_TRUE(std::equal(written.begin(), written.end(), good.begin() + by_portal));
+  const auto now = static_cast<std::uint32_t>(world.now().tick);
+  for (const std::size_t at : {by_hand, by_portal}) {
+    EXPECT_TRUE(world.read_state(forged(good, at, now)));
+    EXPECT_FALSE(world.read_state(forged(good, at, now + 1))) << at;
+  }
 }
 
 TEST(OwnPortals, WithoutToolsOfAJointNoWayIsKept) {

@@ -213,6 +213,11 @@ TEST(WorldState, ForgedBytesWithARightChecksumAreRefusedAndChangeNothing) {
       {"a pedal down without a look", [](Forged& f) { f.spent.live_ticks = 0xFFFFFFFF; }},
       {"a wrist beyond its limits", [](Forged& f) { f.spent.wrist.flexion_rad = 3; }},
       {"a C-arm that cannot stand so", [](Forged& f) { f.spent.c_arm.tilt_deg = 500; }},
+      {"more undone than ticks", [](Forged& f) { f.spent.undos = 0x7FFFFFFF; }},
+      {"more aids than ticks", [](Forged& f) { f.spent.aids_used = 0x7FFFFFFF; }},
+      {"more passes than hands", [](Forged& f) { f.spent.pass_count += 0x7FFFFFFF; }},
+      {"more wires broken than ticks", [](Forged& f) { f.spent.broken_wires = 0x7FFFFFFF; }},
+      {"more threads stripped than ticks", [](Forged& f) { f.spent.stripped_screws = 0x7FFFFFFF; }},
       {"a tick after four hours", [](Forged& f) { f.spent.tick = ~std::uint64_t{0}; }},
   };
   for (const auto& [what, change] : forgeries) {

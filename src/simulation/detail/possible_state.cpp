@@ -146,6 +146,13 @@ bool are_counts_possible(const Operated& now, const Spent& spent, std::size_t st
   for (const Tick tick : spent.first_done) {
     if (tick > spent.tick) return false;
   }
+  // One command in a tick, one line begun or hole opened by each hand.
+  if (spent.undos > spent.tick || spent.aids_used > spent.tick) return false;
+  const std::uint64_t hand_ticks = kHands * spent.tick;
+  if (spent.pass_count > hand_ticks || now.hole_count > hand_ticks ||
+      spent.broken_wires > kMaxItems * spent.tick || spent.stripped_screws > hand_ticks) {
+    return false;
+  }
   for (const std::uint16_t shots : now.shots_at_completion) {
     if (shots > spent.shot_count) return false;
   }

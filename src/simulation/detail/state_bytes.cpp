@@ -13,6 +13,7 @@
 
 #include "core/state_hash.hpp"
 #include "simulation/detail/bytes.hpp"
+#include "simulation/detail/possible_counts.hpp"
 #include "simulation/detail/possible_state.hpp"
 #include "simulation/detail/world_state.hpp"
 
@@ -127,6 +128,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
   detail::ScrewState screw;
   detail::MakingState making;
   std::vector<procedure::ScopeLook> looks;
+  const Tick passed = spent->tick;
   if (model_->map != nullptr) {
     visit(scope, fields);
     visit(conduct, fields);
@@ -135,31 +137,39 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
       yielding::NetState::visit(sheets[s], model_->sheets[s].net.size(), fields);
     }
     is_sound = is_sound && detail::is_possible(scope, model_->map->portals.size()) &&
-               detail::is_possible(conduct, model_->data.bones.size(), model_->catalogue.size());
+               detail::is_possible(conduct, model_->data.bones.size(), model_->catalogue.size()) &&
+               are_counts_possible(scope, passed, *model_->map,
+                                   model_->lesions ? model_->lesions->lesions.size() : 0) &&
+               are_counts_possible(conduct, passed);
     if (is_sound) looks.resize(scope.look_count);
     for (procedure::ScopeLook& look : looks) detail::visit_look(look, fields);
     if (const auto& declared = model_->procedure.drill) {
       visit(drill, fields);
-      is_sound = is_sound && detail::is_possible(drill, *declared);
+      is_sound =
+          is_sound && detail::is_possible(drill, *declared) && are_counts_possible(drill, passed);
     }
     if (model_->float_count > 0) {
       visit(loose, fields);
-      is_sound =
-          is_sound && detail::is_possible(loose, model_->float_count, model_->map->portals.size());
+      is_sound = is_sound &&
+                 detail::is_possible(loose, model_->float_count, model_->map->portals.size()) &&
+                 are_counts_possible(loose, passed);
     }
     if (!model_->pieces().empty()) {
       visit(shaving, fields);
-      is_sound = is_sound && detail::is_possible(shaving, model_->pieces());
+      is_sound = is_sound && detail::is_possible(shaving, model_->pieces()) &&
+                 are_counts_possible(shaving, passed);
     }
     if (model_->has_punch) {
       visit(punch, fields);
-      is_sound = is_sound && detail::is_possible(punch, model_->map->joints.size());
+      is_sound = is_sound && detail::is_possible(punch, model_->map->joints.size()) &&
+                 are_counts_possible(punch, passed);
     }
     if (model_->procedure.fluid) {
       visit(fluid, fields);
-      is_sound =
-          is_sound && detail::is_possible(fluid, detail::FluidTable::generic(),
-                                          model_->map->joints.size(), model_->map->portals.size());
+      is_sound = is_sound &&
+                 detail::is_possible(fluid, detail::FluidTable::generic(),
+                                     model_->map->joints.size(), model_->map->portals.size()) &&
+                 are_counts_possible(fluid, passed);
     }
     if (model_->procedure.controls_screw) {
       visit(screw, fields);
@@ -173,6 +183,7 @@ Result<bool> World::read_state(std::span<const std::byte> bytes) {
       visit_ways(making, fields);
       is_sound = is_sound && detail::are_possible_ways(making, model_->map->joints.size());
     }
+    is_sound = is_sound && are_counts_possible(making, passed);
   }
   const detail::StateBounds bounds{model_->data.bones.size(),
                                    model_->catalogue.size(),
