@@ -95,6 +95,31 @@ export async function preparesPathology(browser) {
         await picture("number");
       },
     );
+    await check(
+      page,
+      "what a full disk does not take is still there to be saved",
+      async () => {
+        const put = (route) =>
+          route.request().method() === "PUT"
+            ? route.fulfill({
+                status: 503,
+                body: "pathology.json: cannot write the file: No space left on device; free some space and try again. Nothing was changed.",
+              })
+            : route.continue();
+        await page.route("**/api/pathology?*", put);
+        await page.getByLabel("The number").fill("8");
+        await page.keyboard.press("Enter");
+        await said(page, "free some space and try again. Nothing was changed.");
+        await picture("full");
+        const kept = await page.getByLabel("The number").inputValue();
+        expect(kept === "8", `'${kept}' is left of what was entered`);
+        expect(held().seed === 7, "the case holds another number");
+        await page.unroute("**/api/pathology?*", put);
+        await save(page).click();
+        await said(page, "Drawn by number 8");
+        expect(held().seed === 8, "it is not saved once there is space");
+      },
+    );
     await check(page, "on a small screen all of it is reached", async () => {
       await page.setViewportSize({ width: 420, height: 720 });
       await page.getByRole("radio", { name: /Chosen/ }).check();
@@ -152,7 +177,7 @@ export async function preparesPathology(browser) {
           '403,403,{"may_prepare":false,"findings":[],"prepared":null}',
         `a trainee is answered ${asked.join()}`,
       );
-      expect(held().seed === 7, "a trainee changed it");
+      expect(held().seed === 8, "a trainee changed it");
       await trainee.context().close();
     });
     await check(page, "at random again, and the file is gone", async () => {
