@@ -116,6 +116,39 @@ async function leadBoth(page, operator) {
   await page.evaluate(() => window.plugPad(false));
 }
 
+/** How bright a canvas is on average, 0 to 255. */
+const brightness = (canvas) =>
+  canvas.evaluate((drawn) => {
+    const small = document.createElement("canvas").getContext("2d");
+    small.drawImage(drawn, 0, 0, 16, 16);
+    const { data } = small.getImageData(0, 0, 16, 16);
+    return data.filter((_, i) => i % 4 !== 3).reduce((a, b) => a + b) / 768;
+  });
+
+async function loseAndRestore(page, canvas, picture) {
+  const words = page.locator(".scope > .lost-picture");
+  const lit = await brightness(canvas);
+  expect(lit > 10, `the picture is ${lit} bright before`);
+  expect(!(await words.isVisible()), "it is said to be lost before it is");
+  const lost = await canvas.evaluateHandle((drawn) => {
+    const extension = drawn.getContext("webgl2").getExtension("WEBGL_lose_context");
+    extension.loseContext();
+    return extension;
+  });
+  await words.waitFor();
+  await page.waitForTimeout(600); // light is measured meanwhile
+  await picture("lost");
+  await lost.evaluate((extension) => extension.restoreContext());
+  await words.waitFor({ state: "hidden" });
+  await page.waitForTimeout(600);
+  await picture("back");
+  const back = await brightness(canvas);
+  expect(
+    back > lit / 2 && back < lit * 2,
+    `the picture is ${back} bright where it was ${lit}`,
+  );
+}
+
 export async function arthroscopy(browser, station) {
   const page = await newPage(browser);
   await page.addInitScript(PAD);
@@ -138,6 +171,13 @@ export async function arthroscopy(browser, station) {
     await bringInProbe(page, operator);
     await picture("probe");
   });
+  await check(
+    page,
+    "a picture that the graphics card lets go of is said, and comes back",
+    async () => {
+      await loseAndRestore(page, page.locator("canvas.scope-picture"), picture);
+    },
+  );
   await check(page, "turning it shows places of the tour", async () => {
     await page.keyboard.press("h");
     for (let turn = 0; turn < 8; ++turn) {

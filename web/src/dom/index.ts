@@ -3,5 +3,6 @@
 //
 // Building elements.
 export * from "./element";
+export { lostPicture } from "./lost_picture";
 export { remember, remembered } from "./remembered";
 export { whileHeld } from "./while_held";

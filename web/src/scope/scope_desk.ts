@@ -178,7 +178,7 @@ export class ScopeDesk {
     if (!this.isThere || this.plan === undefined) return;
     if (this.picture === undefined) {
       this.picture = new ScopePicture(this.walls);
-      this.element.prepend(this.picture.canvas);
+      this.element.prepend(this.picture.canvas, this.picture.lost);
     }
     this.picture.setField(this.plan.field_deg);
     this.picture.setInstruments(exercise.instruments);

@@ -3,6 +3,7 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
+import { lostPicture } from "../dom";
 import type {
   BodyPose,
   ControlledScrew,
@@ -55,6 +56,8 @@ const SKIN = new THREE.Vector3();
 
 export class ScopePicture {
   readonly canvas: HTMLCanvasElement;
+  /** What is said over it while there is none. */
+  readonly lost: HTMLElement;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
@@ -90,7 +93,11 @@ export class ScopePicture {
   /** When light was measured last: at the first picture it is right at once. */
   private exposedMs = -Infinity;
 
-  constructor(private readonly all: readonly JointWall[]) {
+  /** @param onBack  what was drawn is gone, and can be drawn again */
+  constructor(
+    private readonly all: readonly JointWall[],
+    onBack: () => void = () => undefined,
+  ) {
     const walls = this.all;
     this.renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(1);
@@ -99,6 +106,10 @@ export class ScopePicture {
     this.canvas = this.renderer.domElement;
     this.canvas.className = "scope-picture";
     this.canvas.setAttribute("aria-label", "The arthroscope's picture");
+    this.lost = lostPicture(this.canvas, () => {
+      this.exposedMs = -Infinity;
+      onBack();
+    });
     this.walls = new Map(
       walls.map((wall) => [
         wall.joint,
@@ -209,6 +220,7 @@ export class ScopePicture {
     sizePx: number,
     skin: { readonly skinMm: Vec3; readonly inwards: Vec3 } | undefined,
   ): void {
+    if (!this.lost.hidden) return; // in the dark no light is measured
     const size = Math.max(64, Math.min(LARGEST_PX, Math.round(sizePx)));
     if (this.canvas.height !== size) this.renderer.setSize(size, size, false); // not so at first, which is no square
     const { eye, axis, up, right, lamp } = this.lens;

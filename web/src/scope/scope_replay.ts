@@ -46,7 +46,9 @@ export class ScopeReplay {
     walls: readonly JointWall[],
   ) {
     this.walls = walls;
-    this.picture = new ScopePicture(walls);
+    this.picture = new ScopePicture(walls, () => {
+      this.changed = true;
+    });
     this.picture.setField(plan.field_deg);
     this.picture.setInstruments(exercise.instruments);
     this.tools.begin(exercise);
@@ -56,7 +58,13 @@ export class ScopeReplay {
     for (const wall of walls) wall.setSheets(plan.sheets, bodies);
     const scope = exercise.instruments.find((one) => one.id === plan.scope);
     this.radiusMm = scope?.parts.find((part) => part.end_radius_mm > 0)?.end_radius_mm ?? 1;
-    this.element = make("div.scope-replay", {}, this.picture.canvas, this.outside);
+    this.element = make(
+      "div.scope-replay",
+      {},
+      this.picture.canvas,
+      this.picture.lost,
+      this.outside,
+    );
   }
 
   /** undefined where no scope is used, or the case has no joints to be seen. */

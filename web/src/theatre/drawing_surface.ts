@@ -4,6 +4,7 @@
 // The canvas that WebGL draws on: how large, how fine, and on a machine that cannot keep up how much
 // simpler.
 import * as THREE from "three";
+import { lostPicture } from "../dom";
 import { DrawingPace, SOFTWARE_LEVEL, type Drawing } from "./drawing_pace_model";
 
 /** Whether WebGL runs on the processor: then a simple drawing from the start. */
@@ -27,6 +28,7 @@ export interface SurfaceHandlers {
 export class DrawingSurface {
   readonly canvas: HTMLCanvasElement;
   readonly renderer: THREE.WebGLRenderer;
+  private readonly lost: HTMLElement;
   /** CSS pixels. */
   width = 1;
   height = 1;
@@ -56,7 +58,7 @@ export class DrawingSurface {
     this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 0.9;
     // A lost context comes back empty.
-    this.canvas.addEventListener("webglcontextrestored", () => {
+    this.lost = lostPicture(this.canvas, () => {
       this.handlers?.onLost();
     });
     this.observer = new ResizeObserver(() => {
@@ -68,7 +70,7 @@ export class DrawingSurface {
   start(handlers: SurfaceHandlers): void {
     this.handlers = handlers;
     handlers.onShadowPixels(this.drawing.shadowPixels);
-    this.host.append(this.canvas);
+    this.host.append(this.canvas, this.lost);
     this.observer.observe(this.host);
     this.resize();
   }
@@ -91,6 +93,7 @@ export class DrawingSurface {
     this.observer.disconnect();
     this.renderer.dispose();
     this.canvas.remove();
+    this.lost.remove();
   }
 
   /** On a machine that cannot keep up: coarser shadows, none, fewer pixels. */
