@@ -23,27 +23,21 @@ import {
   approachedBy,
   cross,
   dot,
-  keySteps,
   length,
   MAX_APPROACH_MM,
   movedBy,
   normalized,
   scaled,
-  stepsAfter,
   subtract,
   tipTarget,
   turnedBy,
-  type KeyStep,
   type ToolPose,
 } from "../tool_placement";
+import { HeldDown, type SteppedAction } from "./held_down";
 
-const ORBIT_STEP_RAD = (2 * Math.PI) / 180;
-const ORBIT_STEPS_PER_S = 45;
 const TURN_RAD_PER_PX = (0.25 * Math.PI) / 180;
 /** A fine step never jumps to another bone that happens to lie on the line of sight. */
 const FOLLOW_SURFACE_MM = 3;
-const WRIST_STEP = 1;
-const WRIST_STEPS_PER_S = 60;
 /** An empty hand begins so far beside the middle, to the right of the screen. */
 const BESIDE_MM = 30;
 /** A still hand is sent again after this long: the host pauses when it hears nothing [ms]. */
@@ -64,12 +58,6 @@ const START_THRUST_N = 40;
 const SMALLEST_TURN = 0.2;
 
 const NOWHERE: ToolPose = { anchorMm: [0, 0, 0], approachMm: MAX_APPROACH_MM, shaft: [0, 0, 1] };
-
-interface Held {
-  readonly action: HeldAction;
-  readonly sinceMs: number;
-  done: number;
-}
 
 export interface HandHandlers {
   send(hand: Omit<HandMessage, "type" | "sequence">): void;
@@ -97,7 +85,7 @@ export class Hand {
   private isPlaced = false;
   private last: SnapshotMessage | undefined;
   private thrustN = START_THRUST_N;
-  private readonly held = new Map<string, Held>();
+  private readonly held = new HeldDown();
   private changed = true;
   /** Push of a trigger that is pressed by degrees; else the hand's own. */
   private squeezedN: number | undefined;
@@ -199,7 +187,7 @@ export class Hand {
   }
 
   private stopDriving(): void {
-    for (const [code, { action }] of this.held) if (action.kind === "drive") this.held.delete(code);
+    this.held.letGoOfDrivers();
     this.changed = true;
   }
 
@@ -241,10 +229,7 @@ export class Hand {
   }
 
   get driver(): HandMessage["driver"] {
-    for (const { action } of this.held.values()) {
-      if (action.kind === "drive") return action.driver;
-    }
-    return "off";
+    return this.held.driver;
   }
 
   changeThrust(byN: number): void {
@@ -287,18 +272,14 @@ export class Hand {
       this.handlers.say(hint);
       return false;
     }
-    this.held.set(holder, { action, sinceMs: nowMs, done: 0 });
+    this.held.begin(holder, action, nowMs);
     if (action.kind === "drive") this.driveNow(nowMs);
     return true;
   }
 
   letGo(holder: string, nowMs: number): void {
-    const key = this.held.get(holder);
-    if (key === undefined) return;
-    // A tap between two frames still counts.
-    this.walk(key, nowMs);
-    this.held.delete(holder);
-    if (key.action.kind === "drive") this.driveNow(nowMs);
+    const action = this.held.letGo(holder, nowMs, this.isCoarse, this.go);
+    if (action?.kind === "drive") this.driveNow(nowMs);
   }
 
   /** The driver starts and stops at once, not with the next picture. */
@@ -317,7 +298,7 @@ export class Hand {
   /** Once per frame: what is held goes on, and the newest state is sent if it is new. */
   frame(nowMs: number): void {
     if (!this.enabled || !this.isPlaced) return;
-    for (const key of this.held.values()) this.walk(key, nowMs);
+    this.held.walk(nowMs, this.isCoarse, this.go);
     this.follow();
     const driver = this.driver;
     const repeatMs = driver === "off" ? REPEAT_MS : DRIVE_REPEAT_MS;
@@ -358,14 +339,8 @@ export class Hand {
     return item !== undefined && item.body !== "" && this.handlers.isJoystick(item.instrument);
   }
 
-  private walk(key: Held, nowMs: number): void {
-    const { action } = key;
-    if (action.kind === "drive") return;
-    const { size, fastest } = this.stepOf(action.kind);
-    const due = stepsAfter((nowMs - key.sinceMs) / 1000, fastest);
-    const by = (due - key.done) * size;
-    if (by <= 0) return;
-    key.done = due;
+  /** On by so much. */
+  private readonly go = (action: SteppedAction, by: number): void => {
     switch (action.kind) {
       case "move_tip":
         this.slide(scaled(this.onScreen(action.to), by));
@@ -391,21 +366,7 @@ export class Hand {
       }
     }
     this.changed = true;
-  }
-
-  private stepOf(kind: Exclude<HeldAction["kind"], "drive">): KeyStep {
-    const { move, turn } = keySteps(this.isCoarse);
-    switch (kind) {
-      case "turn_shaft":
-        return turn;
-      case "move_wrist":
-        return { size: WRIST_STEP, fastest: WRIST_STEPS_PER_S };
-      case "orbit":
-        return { size: ORBIT_STEP_RAD, fastest: ORBIT_STEPS_PER_S };
-      default:
-        return move;
-    }
-  }
+  };
 
   private onScreen(to: Direction): Vec3 {
     const { right, up } = this.theatre.screenAxes();

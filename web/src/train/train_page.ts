@@ -21,6 +21,7 @@ import { SkinDesk } from "../skin_work";
 import { Sound } from "../sound";
 import { Theatre, type CaseScene } from "../theatre";
 import { Actions } from "./actions";
+import { askedByPanels, type PanelsRoom } from "./asked_by_panels";
 import { CaseChoice } from "./case_choice";
 import { Connection } from "./connection";
 import { DeviceHands } from "./device_hands";
@@ -160,133 +161,24 @@ export class TrainPage {
     description: CaseDescription,
     procedures: readonly ProcedureSummary[],
   ): Panels {
-    return makePanels(description, procedures, {
-      act: (action) => {
-        this.actions.act(action);
-      },
-      look: (view) => {
-        this.actions.look(view);
-      },
-      skin: (opacity) => {
-        this.theatre.setSkin(opacity);
-      },
-      cArm: {
-        takeShot: (rotationDeg, tiltDeg) => {
-          const refused = this.seen.offered.whyNot({ id: "take_shot" });
-          if (refused === undefined) this.moveCArm("take_shot", rotationDeg, tiltDeg);
-          else this.panels.notice.say(refused);
-        },
-        stand: (rotationDeg, tiltDeg) => {
-          if (this.part.operates) this.moveCArm("c_arm", rotationDeg, tiltDeg);
-        },
-        tube: (kv, level) => {
-          if (this.part.operates)
-            this.connection.tell({ type: "tube", tube_kv: kv, dose_level: level });
-        },
-        holdWrist: (wish) => {
-          this.panels.wrist.hold(wish);
-        },
-        enlarge: (on) => {
-          app.firstElementChild?.classList.toggle("enlarged", on);
-        },
-        beam: (on) => {
-          this.theatre.wishBeam(on);
-        },
-        whyNot: () => this.seen.offered.whyNot({ id: "take_shot" }),
-        send: (down) => {
-          if (this.part.operates) this.connection.tell({ type: "pedal", down });
-        },
-        say: (text) => {
-          this.panels.notice.say(text);
-        },
-      },
-      drive: {
-        hold: (holder, action) => {
-          this.hand.hold(holder, action, performance.now());
-        },
-        letGo: (holder) => {
-          this.hand.letGo(holder, performance.now());
-        },
-        push: (n) => {
-          this.hand.setThrust(n);
-        },
-        drags: (mode) => {
-          this.pointer.setMode(mode);
-        },
-        aimAlongSight: () => {
-          this.hand.aimAlongSight();
-        },
-        coarse: () => {
-          this.hand.toggleCoarse();
-        },
-      },
-      devices: {
-        find: () => {
-          this.connection.tell({ type: "find_devices" });
-        },
-        use: (hand, id) => {
-          this.deviceHands.use(hand, id);
-        },
-        aim: (hand, id, aim) => {
-          this.deviceHands.use(hand, id, aim);
-        },
-        wall: (hand, on) => {
-          this.connection.tell({ type: "test_wall", hand, on });
-        },
-        calibrate: (hand, step) => {
-          this.connection.tell({ type: "calibrate", hand, step });
-        },
-      },
-      headset: () => {
-        void this.headset.toggle();
-      },
-      showDevices: () => {
-        this.panels.devices.open();
-      },
-      showAppearance: () => {
-        this.appearance.open(!this.appearance.isOpen);
-      },
-      useHand: (hand) => {
-        this.actions.useHand(hand);
-      },
-      take: (instrument, hand) => {
-        this.actions.ask({ id: "take", hand, instrument: instrument.id });
-        this.seen.sayTaken(instrument);
-      },
-      moveWrist: (wish) => {
-        if (this.part.operates) this.connection.tell({ type: "wrist", ...wish });
-      },
-      start: (choice) => {
-        this.part.start(choice);
-      },
-      resume: (choice) => {
-        this.part.resume(choice);
-      },
-      returnToStep: (step) => {
-        this.actions.askToReturn(step);
-      },
-      judge: (displaced) => {
-        this.actions.act({ kind: "judge", displaced });
-      },
-      goBack: () => {
-        this.actions.goBack();
-      },
-      restart: () => {
-        this.part.restart();
-      },
-      startAnew: () => {
-        this.part.startAnew();
-      },
-      endOther: () => {
-        this.connection.endOther();
-      },
-      finish: () => {
-        this.actions.ask({ id: "finish" });
-      },
-      decline: (reasons) => {
-        this.actions.ask({ id: "decline", reasons });
+    const room = (): PanelsRoom => ({
+      app,
+      panels: this.panels,
+      theatre: this.theatre,
+      appearance: this.appearance,
+      seen: this.seen,
+      hand: this.hand,
+      pointer: this.pointer,
+      headset: this.headset,
+      deviceHands: this.deviceHands,
+      part: this.part,
+      actions: this.actions,
+      connection: this.connection,
+      moveCArm: (type, rotationDeg, tiltDeg) => {
+        this.moveCArm(type, rotationDeg, tiltDeg);
       },
     });
+    return makePanels(description, procedures, askedByPanels(room));
   }
 
   private makeScope(stage: HTMLElement, scene: CaseScene): ScopeDesk {
