@@ -148,14 +148,17 @@ class LesionMaker {
     lay(lesion, place, place.at + radial_ * patch.radially_mm, {}, 0);
   }
 
-  /// Both joints show a ligament's line; only what has a step shows from distal.
+  /// Both joints show a ligament's line; from distal only what has a step, as a line that gapes.
   void add_line(const TornLine& line, const Grade& how, Lesion lesion) {
     const cases::TourPoint* proximal = point(line.in_radiocarpal);
     const cases::TourPoint* distal = point(line.in_midcarpal);
     if (proximal == nullptr || distal == nullptr) return;
     part(line, how);
     lay(lesion, *proximal, proximal->at, volar_, how.length_mm);
-    if (lesion.look == LesionLook::Tear) lay(lesion, *distal, distal->at, volar_, how.length_mm);
+    if (!(how.distal_radius_mm > 0)) return;
+    lesion.look = LesionLook::Tear;
+    lesion.radius_mm = how.distal_radius_mm;
+    lay(lesion, *distal, distal->at, volar_, how.length_mm);
   }
 
   /// The bones on both sides move apart by half the gap each, so that the line between them stays;

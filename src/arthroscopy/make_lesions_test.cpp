@@ -114,7 +114,7 @@ TEST(MakeLesions, WhatGoesThroughATornLigamentTellsItsGrade) {
   }
 }
 
-TEST(MakeLesions, ATornLigamentShowsInBothJointsABruisedOneInTheRadiocarpalAlone) {
+TEST(MakeLesions, WhatHasAStepShowsInBothJointsABruisedLigamentInTheRadiocarpalAlone) {
   const auto joints = [](const JointLesions& made) {
     std::vector<std::string> ids;
     for (const Lesion& lesion : made.lesions) {
@@ -123,8 +123,12 @@ TEST(MakeLesions, ATornLigamentShowsInBothJointsABruisedOneInTheRadiocarpalAlone
     return ids;
   };
   EXPECT_EQ(joints(with("scapholunate", 1)), std::vector<std::string>{"radiocarpal"});
-  EXPECT_EQ(joints(with("scapholunate", 3)),
-            (std::vector<std::string>{"radiocarpal", "midcarpal"}));
+  for (std::uint8_t grade = 2; grade <= 4; ++grade) {
+    const JointLesions made = with("scapholunate", grade);
+    ASSERT_EQ(joints(made), (std::vector<std::string>{"radiocarpal", "midcarpal"}));
+    EXPECT_EQ(made.lesions[1].look, cases::LesionLook::Tear);
+    EXPECT_EQ(made.lesions[0].look == cases::LesionLook::Stain, grade == 2);
+  }
 }
 
 /// Level and closed at I; from II on bones stand apart, and only while they are pulled.

@@ -47,6 +47,7 @@ Grade grade_from(const Json& json, const std::string& where) {
   g.label = json.at("label");
   g.length_mm = json.value("length_mm", 0.0);
   g.radius_mm = json.value("radius_mm", 0.0);
+  g.distal_radius_mm = json.value("distal_radius_mm", 0.0);
   g.gap_mm = json.value("gap_mm", 0.0);
   g.step_mm = json.value("step_mm", 0.0);
   g.passes_mm = json.value("passes_mm", 0.0);

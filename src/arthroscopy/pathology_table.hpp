@@ -35,6 +35,7 @@ struct Grade {
   std::optional<cases::LesionLook> shows;
   double length_mm = 0;
   double radius_mm = 0;
+  double distal_radius_mm = 0;  ///< of a ligament's line in the midcarpal joint; 0: closed there
   double gap_mm = 0;
   double step_mm = 0;
   double passes_mm = 0;

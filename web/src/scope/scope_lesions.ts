@@ -174,11 +174,15 @@ void paintLesions(inout vec3 albedo, inout float rough, inout float wet) {
     // Tissue is torn ragged; cartilage ends smoothly where it did.
     float frays = 1.0 - 0.75 * parted * vLining.x;
     float ragged = frays * (noise(grain * 3.1 + 5.0) - 0.5);
-    float fine = frays * (noise(grain * 9.0) - 0.5);
+    float fleck = noise(grain * 9.0);
+    float fine = frays * (fleck - 0.5);
     float s = off / radius + 0.45 * ragged + 0.2 * fine + 3.0 * (1.0 - here) + 3.0 * parted;
-    if (look < 0.5) {  // bleeding into a ligament
-      float t = 1.0 - smoothstep(0.35, 1.25, s);
-      albedo = mix(albedo, mix(vec3(0.62, 0.13, 0.09), vec3(0.34, 0.03, 0.04), noise(vRest * 2.2)), 0.85 * t);
+    if (look < 0.5) {  // bleeding into a ligament: dark in its middle, patches and specks about, swollen and so more glossy
+      float t = (1.0 - smoothstep(0.30, 1.20, s)) * (1.0 - 0.85 * vLining.x);
+      float clot = noise(vRest * 2.1 + 9.0);
+      float blood = smoothstep(0.0, 0.2, t) * smoothstep(0.66 - 0.58 * t, 0.92 - 0.52 * t, 0.7 * clot + 0.3 * fleck);
+      albedo = mix(albedo, mix(vec3(0.54, 0.07, 0.05), vec3(0.19, 0.01, 0.02), smoothstep(0.30, 0.70, clot) * t), 0.86 * blood);
+      rough = mix(rough, 0.24, t);
     } else if (look < 2.5) {  // a hole: torn, or worn through
       float torn = look < 1.5 ? 1.0 : 0.0;
       float hole = max(1.0 - smoothstep(0.80, 1.0, s), smoothstep(0.28, 0.40, gap + 0.25 * ragged + 0.12 * fine));
