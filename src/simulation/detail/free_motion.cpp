@@ -133,7 +133,23 @@ void World::State::chase(const Model& model, std::uint8_t hand, const Vec3& targ
     if (resolved.is_wedged && scope_state.portal[hand] != detail::kNoPortal) {
       // Held fast between two bones, it still goes back along its shaft, the way that it came.
       const double back = dot(next - item.tip, item.shaft);
-      if (back > 0) resolved = push_out(model, hand, item.tip + item.shaft * back, item.shaft);
+      const Vec3 out = item.tip + item.shaft * back;
+      if (back > 0) resolved = push_out(model, hand, out, item.shaft);
+      // Where pushing settles nothing it slides out as it lies, as long as that goes no deeper into
+      // anything: else it would stay for ever, however far the hand is drawn back.
+      const auto depth_at = [&](const Vec3& tip) {
+        look(hand, tip, item.shaft);
+        double deepest_mm = std::max(wall_at(model, hand, tip).depth_mm,
+                                     metal_at(model, hand, tip, item.shaft).depth_mm);
+        for (const contact::InstrumentBonePair& pair : scene.alerts(hand)) {
+          const contact::SurfaceContact& contact = scene.contact(hand, pair.bone);
+          if (contact.has_contact()) deepest_mm = std::max(deepest_mm, -contact.gap_mm);
+        }
+        return deepest_mm;
+      };
+      if (back > 0 && resolved.is_wedged && depth_at(out) <= depth_at(item.tip) + kToleranceMm) {
+        resolved = {out, false, false};
+      }
     }
     if (resolved.is_wedged) {
       ++faults.unresolved_contacts;
