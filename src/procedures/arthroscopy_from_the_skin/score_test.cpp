@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "procedure/situation.hpp"
+#include "procedures/arthroscopic_portal_making/declared.hpp"
 #include "procedures/arthroscopy_from_the_skin/declared.hpp"
 
 namespace carpus::procedures::arthroscopy_from_the_skin {
@@ -57,6 +59,20 @@ TEST(FromTheSkinScore, TheStepIsDoneByASecondInSightAndNotByANeedleInTheJoint) {
   EXPECT_FALSE(step->is_done(now));
   now.making.portal[1].needle_seen_ticks = procedure::kNeedleSeenTicks;
   EXPECT_TRUE(step->is_done(now));
+}
+
+TEST(FromTheSkinScore, WhatWasLeftOutBeforeACutOrAPortalThatIsMadeIsAskedForNoMore) {
+  const auto passes = [](const procedure::Procedure& procedure) {
+    std::vector<std::string> ids;
+    for (const auto& step : procedure.steps) {
+      if (step.passes_over_earlier) ids.push_back(step.id);
+    }
+    return ids;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(passes(arthroscopic_portal_making::declared()), (Ids{"sheath", "sheath_2"}));
+  // After the cut no needle is seen before it.
+  EXPECT_EQ(passes(declared()), (Ids{"sheath", "incise_2", "sheath_2"}));
 }
 
 TEST(FromTheSkinScore, TheScopeGoesInBeforeTheSecondPortalIsFeltFor) {
