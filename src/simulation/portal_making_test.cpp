@@ -141,6 +141,21 @@ TEST(PortalMaking, ANeedleLosesResistanceInTheJointAndFluidComesBack) {
   EXPECT_NEAR(world.now().items[world.now().hands[0].item].tip_in_patient.y, kMiddle.y, 0.05);
 }
 
+TEST(PortalMaking, ANeedleGoesInAsFarAsItsHubAndIsDryBeyondTheJoint) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.take("needle_22g");
+  maker.hand.go(at(-9), 500);
+  ASSERT_TRUE(world.now().skin.is_wet[0]);
+  maker.hand.go(at(-45), 500);
+  const ItemView& needle = world.now().items[world.now().hands[0].item];
+  EXPECT_NEAR(world.now().skin.under_mm[0], needle.length_mm, 0.05);
+  EXPECT_GT(world.now().hands[0].force_in_patient.x, 5.0) << "the hand is told so";
+  EXPECT_FALSE(world.now().skin.is_wet[0]) << "out at the other side";
+  maker.hand.go(at(-9), 500);
+  EXPECT_TRUE(world.now().skin.is_wet[0]);
+}
+
 TEST(PortalMaking, AnotherPassCountsAndAPlaceFarOffIsTold) {
   World world(wrist_with_skin(), making(), 1);
   Maker maker(world);

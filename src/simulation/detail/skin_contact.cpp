@@ -162,7 +162,10 @@ void World::State::publish_skin(const Model& model) noexcept {
       view.on_skin[h] = view.out_of_skin[h] = {};
     }
     view.is_spreading[h] = under.is_spreading;
-    view.is_wet[h] = works && under.is_told && kind_of(model, *item).skin->work == SkinWork::Needle;
+    // Not where it was led on through the joint and out at its other side.
+    view.is_wet[h] = works && under.is_told &&
+                     kind_of(model, *item).skin->work == SkinWork::Needle &&
+                     joint_at(model, item->tip).has_value();
   }
   view.ink_count = making.worked.ink_count;
   for (std::size_t i = 0; i < view.ink_count; ++i) {

@@ -90,7 +90,8 @@ void World::State::advance_under_skin(const Model& model,
   const instruments::Instrument& kind = kind_of(model, item);
   detail::HandState& held = spent.hands[hand];
   UnderSkin& under = making.worked.hands[hand];
-  const double most = under.travel_mm + kFastestMm;
+  // Its hub, or handle, comes to lie on the skin.
+  const double most = std::min(under.travel_mm + kFastestMm, item.length_mm);
   const double wished = dot(held.plan.tip - under.entry, under.towards);
   while (under.travel_mm < std::min(to_mm, most)) {
     const double next = std::min({under.travel_mm + kStepMm, to_mm, most});
