@@ -12,12 +12,12 @@ import type {
   SkinMessage,
   SnapshotMessage,
 } from "../protocol";
-import { add, dot, length, scaled, subtract } from "../tool_placement";
+import { add, dot, scaled, subtract } from "../tool_placement";
 import { FindingsDialog } from "./findings_dialog";
 import { FocusControls } from "./focus_controls";
 import { FluidControls } from "./fluid_controls";
 import { settingOf, type FluidAct, type FluidSetting } from "./fluid_model";
-import { gradeOf, type ForceGrade } from "./force_limits";
+import { forcesInJoint, gradeOf, type ForceGrade } from "./force_limits";
 import { ScopeDrillOverlay } from "./scope_drill";
 import { beadsOf } from "./scope_drill_model";
 import { makeScopeControls, offerScopeAids, WHY_NO_AID } from "./scope_controls";
@@ -156,10 +156,7 @@ export class ScopeDesk {
   get pressGrade(): ForceGrade {
     const { scope, snapshot } = this;
     if (!this.isShown || scope === undefined || snapshot === undefined) return "good";
-    const inJoint = snapshot.hands.map(({ force_n: force }, hand) =>
-      scope.in_joint[hand] === 1 ? length(force) : 0,
-    );
-    return gradeOf(Math.max(...inJoint));
+    return gradeOf(Math.max(...forcesInJoint(scope, snapshot)));
   }
 
   begin(exercise: ExerciseMessage): void {

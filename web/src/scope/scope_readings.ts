@@ -7,6 +7,7 @@ import { make, setText } from "../dom";
 import { keyCap } from "../key_caps";
 import type { ScopeMessage, SnapshotMessage } from "../protocol";
 import { ForceGauge } from "./force_gauge";
+import { forcesInJoint } from "./force_limits";
 import { KEYS_IN_WORDS } from "./scope_keys";
 import type { Plan } from "./scope_plan";
 import type { ToolKind } from "./scope_tools";
@@ -63,8 +64,7 @@ export class ScopeReadings {
   }
 
   show({ plan, scope, snapshot, moved, hasGamepad, wanted, tool, onSkin }: ScopeSituation): void {
-    const forces = snapshot?.hands.map((hand) => Math.hypot(...hand.force_n)) ?? [];
-    this.gauge.show(forces, performance.now());
+    this.gauge.show(forcesInJoint(scope, snapshot), performance.now());
     const words = scopeWords(
       {
         portal: scope?.portals[0] ?? "",

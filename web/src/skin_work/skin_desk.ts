@@ -43,8 +43,11 @@ export class SkinDesk {
     this.word.hidden = true;
   }
 
-  take(message: SkinMessage): void {
+  /** @returns  whether fluid came back to this hand just now */
+  take(message: SkinMessage, hand: HandIndex): boolean {
+    const before = this.last?.hands[hand]?.is_wet;
     this.last = message;
+    return before === false && message.hands[hand]?.is_wet === true;
   }
 
   private workOf(s: SnapshotMessage | undefined, hand: HandIndex): Instrument["skin_work"] {

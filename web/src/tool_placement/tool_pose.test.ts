@@ -12,6 +12,7 @@ import {
   tipTarget,
   turnedBy,
   type ToolPose,
+  heldBackTo,
 } from "./tool_pose";
 import { cross, dot, length, normalized, rotated } from "./vectors";
 
@@ -66,6 +67,21 @@ describe("vectors", () => {
   it("give a fallback for what has no direction", () => {
     expect(normalized([0, 0, 0], [0, 1, 0])).toEqual([0, 1, 0]);
     expect(normalized([NaN, 0, 0], [0, 1, 0])).toEqual([0, 1, 0]);
+  });
+});
+
+describe("heldBackTo", () => {
+  const pose = { anchorMm: [0, 0, 0], approachMm: -20, shaft: [0, 0, 1] } as const;
+
+  it("gives way to a tip that came no farther, along the shaft alone", () => {
+    const held = heldBackTo(pose, [3, 0, -8], 6);
+    expect(held.approachMm).toBeCloseTo(-14, 9);
+    expect(held.anchorMm).toEqual(pose.anchorMm);
+  });
+
+  it("leaves a hand alone that is not so far ahead, or is drawn back", () => {
+    expect(heldBackTo(pose, [0, 0, -15], 6)).toBe(pose);
+    expect(heldBackTo({ ...pose, approachMm: 5 }, [0, 0, -8], 6).approachMm).toBe(5);
   });
 });
 

@@ -5,7 +5,7 @@
 // the tip from it along the shaft, and the shaft. Frame Patient, mm. Pure: every change is a new
 // value, so that a step that the host refuses leaves nothing behind.
 import type { Vec3 } from "../protocol";
-import { add, normalized, rotated, scaled } from "./vectors";
+import { add, dot, normalized, rotated, scaled, subtract } from "./vectors";
 
 export interface ToolPose {
   readonly anchorMm: Vec3;
@@ -40,6 +40,12 @@ export function approachedBy(pose: ToolPose, deltaMm: number, deepestMm = 0): To
   // A tenth of a micrometre: what is left of tenths of a millimetre that do not sum to zero.
   const wanted = Math.round((pose.approachMm + deltaMm) * 1e4) / 1e4;
   return { ...pose, approachMm: Math.min(MAX_APPROACH_MM, Math.max(0 - deepestMm, wanted)) };
+}
+
+/** The tip came no farther: the hand gives way and is not farther ahead of it along the shaft. */
+export function heldBackTo(pose: ToolPose, tipMm: Vec3, mostAheadMm: number): ToolPose {
+  const least = dot(subtract(tipMm, pose.anchorMm), pose.shaft) - mostAheadMm;
+  return pose.approachMm >= least ? pose : { ...pose, approachMm: least };
 }
 
 /** Turns the shaft about the tip. @param axis unit vector. */

@@ -24,6 +24,7 @@ import {
   cross,
   dot,
   length,
+  heldBackTo,
   MAX_APPROACH_MM,
   movedBy,
   normalized,
@@ -47,6 +48,9 @@ const SETTLED_TICKS = 150;
 /** Pressed on closed skin or led through it, so far beyond where the tip was laid [mm]. */
 const DEEPEST_MM = 45;
 const BEFORE_SKIN_MM = 12;
+/** Nobody feels here what holds a needle, a clamp or a sheath: at 2 N a mm it is pressed by no more than 12 N, over
+ * the 9 that a clamp needs to go through the capsule. A key that draws it back draws it back at once. */
+const MOST_AHEAD_MM = 6;
 /** While the driver is held: the host stops it 150 ms after it last heard of it. */
 const DRIVE_REPEAT_MS = 40;
 /**
@@ -158,6 +162,7 @@ export class Hand {
     if (before !== undefined && s.hands[this.moved].item !== before.hands[this.moved].item)
       this.stopDriving();
     this.drawBackFromSkin(s, before);
+    this.giveWay(s);
     for (const hand of [0, 1] as const) {
       const item = heldItem(s, hand);
       const had = before === undefined ? undefined : heldItem(before, hand);
@@ -184,6 +189,28 @@ export class Hand {
       this.poses[hand] = { ...pose, approachMm: BEFORE_SKIN_MM };
       this.changed = true;
     }
+  }
+
+  /** What is held by what it went through comes no farther than that lets it. */
+  private giveWay(s: SnapshotMessage): void {
+    for (const hand of [0, 1] as const) {
+      const item = heldItem(s, hand);
+      if (item === undefined || this.handlers.whyHeldBySkin(hand) === undefined) continue;
+      const pose = heldBackTo(this.poses[hand], item.tip_mm, MOST_AHEAD_MM);
+      if (pose !== this.poses[hand]) this.changed = true;
+      this.poses[hand] = pose;
+    }
+  }
+
+  /** Something gave before it, which a mouse does not let one feel: a key that is held leads it no farther. */
+  feelGive(): void {
+    const item = this.last === undefined ? undefined : heldItem(this.last, this.moved);
+    for (const [holder, { action }] of this.held) {
+      if (action.kind === "approach" && action.closer) this.held.delete(holder);
+    }
+    if (item === undefined) return;
+    this.pose = heldBackTo(this.pose, item.tip_mm, 0);
+    this.changed = true;
   }
 
   private stopDriving(): void {

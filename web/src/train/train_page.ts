@@ -405,7 +405,7 @@ export class TrainPage {
         this.scope.seeScope(message);
         break;
       case "skin":
-        this.skin.take(message);
+        if (this.skin.take(message, this.hand.active)) this.hand.feelGive();
         this.scope.seeSkin(message);
         this.theatre.showSkinWork(message);
         break;
