@@ -1,0 +1,153 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Works on closed skin by mouse and keys as a practised hand does: pricks, cuts, spreads, goes in; and looks with the
+// scope for what came into the joint. Where things are the page says.
+import { expect } from "./checks.mjs";
+import { cross, dot, Operator } from "./operator.mjs";
+import { ScopeGuide } from "./scope_guide.mjs";
+
+const PATIENCE_MS = 20_000;
+/** The needle of a second portal goes in by about so much. */
+const NEEDLE_DEEP_MM = 13;
+/** The scope is brought so near to what it is to show, and turned once it is; seen counts up to 15 mm. */
+const LOOK_FROM_MM = 10;
+const NEAR_MM = 12;
+const SEEN_WAIT_MS = 2500;
+const DEG = 180 / Math.PI;
+
+export const minus = (a, b) => a.map((v, i) => v - b[i]);
+export const plus = (a, b, f = 1) => a.map((v, i) => v + f * b[i]);
+export const size = (a) => Math.hypot(...a);
+
+export class SkinHands {
+  constructor(page, operator) {
+    this.page = page;
+    this.operator = operator;
+  }
+
+  told() {
+    return this.page.evaluate(() => window.carpus?.skin());
+  }
+
+  scope() {
+    return this.page.evaluate(() => window.carpus?.scope());
+  }
+
+  /** Of the hand that mouse and keys lead. */
+  own(told) {
+    return told.hands[this.operator.hand];
+  }
+
+  async hand() {
+    return this.own(await this.told());
+  }
+
+  /** Holds a key until what is told of the skin satisfies `holds`. */
+  async until(key, holds, what) {
+    const { keyboard } = this.page;
+    await keyboard.down(key);
+    const end = Date.now() + PATIENCE_MS;
+    try {
+      for (;;) {
+        const now = await this.told();
+        if (now !== undefined && holds(now)) return now;
+        if (Date.now() > end) throw new Error(`in vain: ${what}; ${JSON.stringify(now)}`);
+        await new Promise((done) => setTimeout(done, 20));
+      }
+    } finally {
+      await keyboard.up(key);
+      await this.operator.settle(1);
+    }
+  }
+
+  /** Out of the skin, and off it. */
+  async drawOut() {
+    await this.until("d", (s) => this.own(s).under_mm === 0, "drawn out");
+    await this.operator.push("d", 400);
+  }
+
+  async prick(at) {
+    await this.operator.take("needle_22g");
+    expect((await this.hand()).under_mm === 0, "it pricks before it is placed");
+    await this.operator.dragTipTo(at);
+    await this.until("a", (s) => this.own(s).is_wet, "fluid");
+  }
+
+  /** The skin alone, along the limb, as long as the sheath is wide. */
+  async cut(at) {
+    const { page, operator } = this;
+    await operator.take("blade_15");
+    const { up } = await page.evaluate(() => window.carpus.screenAxes());
+    await operator.dragTipTo(plus(at, up, -2.2));
+    await this.until("a", (s) => this.own(s).under_mm > 1, "a cut");
+    const start = (await this.hand()).on_skin_mm;
+    const isLong = (s) => Math.abs(dot(minus(this.own(s).on_skin_mm, start), up)) > 4.2;
+    await this.until("ArrowUp", isLong, "a cut as long as the sheath is wide");
+    await this.drawOut();
+  }
+
+  async spread(at) {
+    const { page, operator } = this;
+    await operator.take("mosquito_clamp");
+    await operator.dragTipTo(at);
+    const lines = page.locator(".log li", { hasText: "Spread, down to the capsule" });
+    const before = await lines.count();
+    await this.until("a", (s) => this.own(s).under_mm > 12, "the clamp in the cut");
+    for (let tries = 0; tries < 8 && (await lines.count()) === before; ++tries) {
+      if (tries > 0) await operator.push("a", 400);
+      await operator.push("Space", 700);
+    }
+    expect((await lines.count()) > before, "the way is not spread down to the capsule");
+    await this.drawOut();
+  }
+
+  /** @param made  how many portals there are then */
+  async enter(at, made) {
+    await this.operator.take("scope_sheath_1_9");
+    await this.operator.dragTipTo(at);
+    await this.until("a", (s) => s.made === made, "the sheath in the joint");
+  }
+
+  /** The way in from a place on the skin to where a scope in a portal lies, leant towards it by so much of the way. @return towards the hand */
+  static wayFrom(at, portal, lean) {
+    const to = minus(at, portal.skin_mm);
+    const aside = plus(to, portal.inwards, -dot(to, portal.inwards));
+    const way = plus(portal.inwards.map((v) => -NEEDLE_DEEP_MM * v), aside, lean);
+    return way.map((v) => v / size(way));
+  }
+
+  /** Leads the scope until it shows the point of what the other hand holds: to before it, and its view there. */
+  async lookForPoint(isSeen) {
+    const { page, operator } = this;
+    const guide = new ScopeGuide(page, operator);
+    const [way] = (await this.told()).ways;
+    const { distal } = (await operator.exercise()).arthroscopy;
+    const portal = { skin: way.skin_mm, inwards: way.inwards, up: distal };
+    for (let round = 0; round < 8 && !(await isSeen()); ++round) {
+      const [now, scope] = [await operator.snapshot(), await this.scope()];
+      const eye = Operator.held(now, operator.hand);
+      const point = Operator.held(now, 1 - operator.hand).tip_mm;
+      const to = minus(point, eye.tip_mm);
+      const far = size(to);
+      const about = (v) => plus(v, eye.shaft, -dot(v, eye.shaft));
+      const [sight, wanted] = [about(scope.axis), about(to)];
+      const off = DEG * Math.atan2(dot(cross(sight, wanted), eye.shaft), dot(sight, wanted));
+      const tip = far > NEAR_MM ? plus(point, to, -LOOK_FROM_MM / far) : eye.tip_mm;
+      await guide.leadTo({ hand: operator.hand, tip, turn: scope.shaft_deg + off }, portal, 1, 2);
+      for (let waited = 0; waited < SEEN_WAIT_MS && !(await isSeen()); waited += 100)
+        await page.waitForTimeout(100);
+    }
+  }
+
+  /** By the portal that it is held before. */
+  async goIn() {
+    const { page, operator } = this;
+    const isIn = async () => (await this.scope())?.in_joint[operator.hand] === 1;
+    const end = Date.now() + 3 * PATIENCE_MS; // two pictures are drawn meanwhile, on a slow machine slowly
+    await page.keyboard.down("a");
+    while (!(await isIn()) && Date.now() < end) await page.waitForTimeout(20);
+    await page.keyboard.up("a");
+    expect(await isIn(), `hand ${operator.hand} is not in: ${JSON.stringify(await this.scope())}`);
+  }
+}
