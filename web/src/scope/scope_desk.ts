@@ -246,7 +246,8 @@ export class ScopeDesk {
     const held = this.snapshot?.items.find(
       (item) => item.hand >= 0 && makesPortal(item.instrument, instruments),
     );
-    return instruments.find((one) => one.id === held?.instrument)?.name.toLowerCase() ?? "";
+    const name = instruments.find((one) => one.id === held?.instrument)?.name;
+    return name === undefined ? "" : name.charAt(0).toLowerCase() + name.slice(1);
   }
 
   /** The controls that it has. */
