@@ -185,8 +185,12 @@ export class Hand {
       const isAnother =
         item !== before.hands[hand].item ||
         heldItem(s, hand)?.instrument !== heldItem(before, hand)?.instrument;
-      if (item < 0 || !isAnother || pose.approachMm >= BEFORE_SKIN_MM) continue;
-      this.poses[hand] = { ...pose, approachMm: BEFORE_SKIN_MM };
+      // After a reload the page may know of a scope's place in the joint alone: nor deeper than that was drawn out to.
+      const had = heldItem(before, hand);
+      const out = had === undefined ? 0 : dot(subtract(had.tip_mm, pose.anchorMm), pose.shaft);
+      const least = Math.min(MAX_APPROACH_MM, Math.max(BEFORE_SKIN_MM, out));
+      if (item < 0 || !isAnother || pose.approachMm >= least) continue;
+      this.poses[hand] = { ...pose, approachMm: least };
       this.changed = true;
     }
   }
