@@ -14,9 +14,12 @@ import { minus, size, SkinHands } from "./skin_hands.mjs";
 const TRAINEE = "Browser test, portals";
 /** Of the exercise: it draws 6R, which asks more of the scope than 4-5, as the second portal. */
 const SEED = 1;
+const SMALL = { width: 640, height: 360 };
 /** A key that is held so long after fluid came back would lead a needle 10 mm on, and leads it no farther than this. */
 const HELD_ON_MS = 1300;
 const LED_ON_MM = 4;
+/** On the demo's 6R the capsule lies 16 mm under the skin, the disc 19. */
+const BEFORE_DISC_MM = 17.2;
 /** So much of the way to it a needle of the second portal leans towards the scope's. */
 const NEEDLE_LEANS = 0.35;
 
@@ -41,8 +44,10 @@ export async function makesPortals(browser, station) {
     await operator.start(station.url, TRAINEE, "arthroscopy_from_the_skin", "practice");
     await picture("start");
     await atRest(operator);
-    for (let i = 0; i < 45; ++i) await page.keyboard.press("w");
-    await operator.until((s) => s.wrist.traction_n >= 34, "traction");
+    const pull = page.locator("#wrist-traction_n");
+    await pull.fill("45");
+    await pull.blur(); // as a mouse leaves it: the keys are the hand's again
+    await operator.until((s) => s.wrist.traction_n >= 44, "traction");
     expect((await skin()).spot_mm === null, "the portal's place is told unasked");
     await page.keyboard.press("F2");
     await operator.until(() => true, "a moment");
@@ -121,10 +126,25 @@ export async function makesPortals(browser, station) {
     await operator.dragTipTo(spot);
     await picture("needle_before");
     await until("a", (s) => hands.own(s).is_wet, "fluid");
+    // Between the capsule and the disc: deeper it is in that, and what lines the joint stands before it. By coarse steps.
+    await page.keyboard.press("y");
+    for (let off; Math.abs((off = (await hands.hand()).under_mm - BEFORE_DISC_MM)) > 0.6; ) {
+      await page.keyboard.press(off > 0 ? "d" : "a");
+      await page.waitForTimeout(400);
+    }
+    await page.keyboard.press("y");
+    expect((await hands.hand()).is_wet, "it is not in the joint");
+    const { width, height } = page.viewportSize();
+    await page.setViewportSize(SMALL);
+    const [steps, small] = [await page.locator(".steps").boundingBox(), await inset.boundingBox()];
+    expect(small.x >= steps.x + steps.width, "the scope's picture lies over the steps");
     await page.keyboard.press("7");
     await large.waitFor({ state: "visible" });
+    const shown = await page.locator(".scope-picture").boundingBox();
+    expect(shown.width > SMALL.height / 2, `large it is ${shown.width} px wide`);
     await page.getByRole("button", { name: "Change places" }).click();
     await inset.waitFor({ state: "visible" });
+    await page.setViewportSize({ width, height });
     await operator.otherHand();
     await large.waitFor({ state: "visible" });
     await hands.lookForPoint(async () => (await seen.count()) > 0);

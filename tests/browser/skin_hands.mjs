@@ -10,10 +10,11 @@ import { ScopeGuide } from "./scope_guide.mjs";
 const PATIENCE_MS = 20_000;
 /** The needle of a second portal goes in by about so much. */
 const NEEDLE_DEEP_MM = 13;
-/** The scope is brought so near to what it is to show, and turned once it is; seen counts up to 15 mm. */
-const LOOK_FROM_MM = 10;
-const NEAR_MM = 12;
+/** The scope is brought so near to what it is to show; seen counts up to 15 mm. */
+const LOOK_FROM_MM = [10, 8, 12, 6];
 const SEEN_WAIT_MS = 2500;
+/** The last of the way out goes by fine steps. */
+const LAST_MM = 3;
 const DEG = 180 / Math.PI;
 
 export const minus = (a, b) => a.map((v, i) => v - b[i]);
@@ -61,10 +62,16 @@ export class SkinHands {
     }
   }
 
-  /** Out of the skin, and off it. */
+  /** Out of the skin, and off it: by coarse steps for most of the way. */
   async drawOut() {
-    await this.until("d", (s) => this.own(s).under_mm === 0, "drawn out");
-    await this.operator.push("d", 400);
+    const isOut = (mm) => (s) => this.own(s).under_mm <= mm;
+    if (!isOut(2 * LAST_MM)(await this.told())) {
+      await this.page.keyboard.press("y");
+      await this.until("d", isOut(LAST_MM), "drawn back");
+      await this.page.keyboard.press("y");
+    }
+    await this.until("d", isOut(0), "drawn out");
+    await this.operator.push("d", 300);
   }
 
   async prick(at) {
@@ -93,10 +100,10 @@ export class SkinHands {
     await operator.dragTipTo(at);
     const lines = page.locator(".log li", { hasText: "Spread, down to the capsule" });
     const before = await lines.count();
-    await this.until("a", (s) => this.own(s).under_mm > 12, "the clamp in the cut");
+    await this.until("a", (s) => this.own(s).under_mm > 13, "the clamp in the cut");
     for (let tries = 0; tries < 8 && (await lines.count()) === before; ++tries) {
-      if (tries > 0) await operator.push("a", 400);
-      await operator.push("Space", 700);
+      if (tries > 0) await operator.push("a", 900);
+      await operator.push("Space", 600);
     }
     expect((await lines.count()) > before, "the way is not spread down to the capsule");
     await this.drawOut();
@@ -117,27 +124,36 @@ export class SkinHands {
     return way.map((v) => v / size(way));
   }
 
-  /** Leads the scope until it shows the point of what the other hand holds: to before it, and its view there. */
+  /** Leads the scope until it shows the point of what the other hand holds: from where its own portal comes in, where nothing
+   * stands between, to before that point, and its view there; nearer or farther where that does not do. */
   async lookForPoint(isSeen) {
     const { page, operator } = this;
     const guide = new ScopeGuide(page, operator);
     const [way] = (await this.told()).ways;
     const { distal } = (await operator.exercise()).arthroscopy;
     const portal = { skin: way.skin_mm, inwards: way.inwards, up: distal };
-    for (let round = 0; round < 8 && !(await isSeen()); ++round) {
-      const [now, scope] = [await operator.snapshot(), await this.scope()];
-      const eye = Operator.held(now, operator.hand);
-      const point = Operator.held(now, 1 - operator.hand).tip_mm;
-      const to = minus(point, eye.tip_mm);
-      const far = size(to);
-      const about = (v) => plus(v, eye.shaft, -dot(v, eye.shaft));
-      const [sight, wanted] = [about(scope.axis), about(to)];
-      const off = DEG * Math.atan2(dot(cross(sight, wanted), eye.shaft), dot(sight, wanted));
-      const tip = far > NEAR_MM ? plus(point, to, -LOOK_FROM_MM / far) : eye.tip_mm;
-      await guide.leadTo({ hand: operator.hand, tip, turn: scope.shaft_deg + off }, portal, 1, 2);
-      for (let waited = 0; waited < SEEN_WAIT_MS && !(await isSeen()); waited += 100)
+    const hole = plus(way.skin_mm, way.inwards, way.capsule_mm);
+    for (const far of LOOK_FROM_MM) {
+      const point = Operator.held(await operator.snapshot(), 1 - operator.hand).tip_mm;
+      const back = minus(hole, point);
+      const tip = plus(point, back, far / size(back));
+      for (let round = 0; round < 2; ++round)
+        await guide.leadTo({ hand: operator.hand, tip, turn: await this.turnTo(point) }, portal, 1, 2);
+      for (let waited = 0; waited < SEEN_WAIT_MS; waited += 100) {
+        if (await isSeen()) return;
         await page.waitForTimeout(100);
+      }
     }
+  }
+
+  /** That the scope's shaft is to be turned to, for its view to lean to a place [deg]. */
+  async turnTo(place) {
+    const { operator } = this;
+    const { tip_mm: eye, shaft } = Operator.held(await operator.snapshot(), operator.hand);
+    const { axis, shaft_deg: deg } = await this.scope();
+    const about = (v) => plus(v, shaft, -dot(v, shaft));
+    const [sight, wanted] = [about(axis), about(minus(place, eye))];
+    return deg + DEG * Math.atan2(dot(cross(sight, wanted), shaft), dot(sight, wanted));
   }
 
   /** By the portal that it is held before. */
