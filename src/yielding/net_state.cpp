@@ -139,17 +139,19 @@ void NetState::push_by_tip(const Net& net, const Tip& tip, double per_n, Vec3& f
     return;
   }
   const double r2 = tip.radius_mm * tip.radius_mm;
+  const double side = tip.is_behind ? -1.0 : 1.0;
   for (std::size_t i = 0; i < net.size(); ++i) {
     if (net.is_held(i) || is_cut_[i]) continue;
     const Vec3 off = at_[i] - tip.at;
-    const double high = dot(off, net.normals()[i]);
+    const Vec3 normal = net.normals()[i] * side;
+    const double high = dot(off, normal);
     const double aside2 = squared_length(off) - high * high;
     if (aside2 >= r2) continue;
     const double most = -std::sqrt(r2 - aside2);  // below the ball
     if (high <= most) continue;
     const double by = high - most;
-    at_[i] -= net.normals()[i] * by;
-    force += net.normals()[i] * (by * per_n);
+    at_[i] -= normal * by;
+    force += normal * (by * per_n);
   }
 }
 

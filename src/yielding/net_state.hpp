@@ -20,6 +20,7 @@ namespace carpus::yielding {
 /// A round tip on the sheet.
 struct Tip {
   bool is_there = false;
+  bool is_behind = false;  ///< on the side that its normals do not point to
   Vec3 at;
   double radius_mm = 0;
   /// The hook holds this particle; kMaxParticles: none.

@@ -169,6 +169,28 @@ TEST(YieldingNet, WhatIsCutOutBearsNothing) {
   EXPECT_EQ(state->force_on(0), (Vec3{})) << "a hook finds nothing to hold";
 }
 
+TEST(YieldingNet, ATipOnItsOtherSideIsBorneAlike) {
+  const Net net = sheet();
+  const auto pressed = [&](double side) {
+    const auto state = std::make_unique<NetState>();
+    state->reset(net);
+    double depth = 0;
+    for (int tick = 0; tick < 2000; ++tick) {
+      Tip tip;
+      tip.is_there = true;
+      tip.is_behind = side < 0;
+      tip.radius_mm = 1;
+      tip.at = {0, 0, side * (1.0 - depth)};
+      state->step(net, std::span<const Tip>(&tip, 1));
+      depth += 0.01 * (0.5 - side * state->force_on(0).z);
+    }
+    EXPECT_NEAR(state->force_on(0).z, side * 0.5, 0.01);
+    EXPECT_LT(side * state->at(nearest_of(net, {0, 0, 0})).z, -0.1);
+    return depth;
+  };
+  EXPECT_NEAR(pressed(-1), pressed(1), 1e-9);
+}
+
 TEST(YieldingNet, WhatIsLeftBesideACutIsSlacker) {
   const Net net = sheet();
   const auto [middle, next] = neighbours_of_the_middle(net);
