@@ -45,6 +45,9 @@ TEST(BandNet, AProbePressesEachGradeInAsFarAsItIsFittedTo) {
     ASSERT_TRUE(f.wanted_mm);
     EXPECT_NEAR(f.press_mm, *f.wanted_mm, 0.25 * *f.wanted_mm + 0.03) << f.band << " " << f.grade;
     EXPECT_NEAR(f.along_n_per_mm, f.fibres_n_per_mm, 0.25 * f.fibres_n_per_mm) << f.band;
+    EXPECT_GT(f.press_behind_mm, 0.1) << f.band << " " << f.grade;
+    EXPECT_LT(f.press_behind_mm, 1.15 * f.press_mm) << f.band;
+    EXPECT_TRUE(f.bulge_mm == 0 || f.press_behind_mm < f.press_mm) << "it is hollow from there";
     EXPECT_LT(f.fibres_n_per_mm, f.whole_n_per_mm) << "the scope does not see all of it";
   }
 }
@@ -78,9 +81,10 @@ TEST(BandNet, AWristsGradesMakeItTautSlackOrTorn) {
 /// The built-in table with one text in place of another.
 void expect_refused(const std::string& from, const std::string& to) {
   static const std::string kGood = R"({"doc": "d", "schema_version": 1, "fit_mark": "[E]",
-    "bands": [{"id": "sl", "name": "sl", "joint": "radiocarpal", "ligaments": ["SL_proximal"],
+    "bands": [{"id": "sl", "name": "sl", "joint": "radiocarpal", "behind": "midcarpal", "ligaments": ["SL_proximal"],
       "spacing_mm": {"value": 1, "mark": "[E]"}, "whole_n_per_mm": {"value": 230, "mark": "[K]"}}],
-    "on_wall_mm": {"value": 2, "mark": "[E]"}, "aside_share": {"value": 0.3, "mark": "[E]"},
+    "on_wall_mm": {"value": 2, "mark": "[E]"}, "cartilage_mm": {"value": 1.6, "mark": "[K]"},
+    "aside_share": {"value": 0.3, "mark": "[E]"},
     "mass_g_per_mm2": {"value": 2, "mark": "[E]"}, "damping_per_s": {"value": 80, "mark": "[E]"},
     "grades": [{"id": "0", "tension_n_per_mm": 1, "foundation_n_per_mm2": 0.2, "along_share": 1,
       "bulge_mm": 0}]})";
@@ -96,6 +100,8 @@ TEST(BandTable, WhatIsWrongInItIsRefused) {
   expect_refused(R"("value": 230, "mark": "[K]")", R"("value": 230)");
   expect_refused(R"("value": 230)", R"("value": -1)");
   expect_refused(R"(["SL_proximal"])", "[]");
+  expect_refused(R"("behind": "midcarpal", )", "");
+  expect_refused(R"("value": 1.6)", R"("value": 0)");
   expect_refused(R"("id": "0")", R"("id": "I")");
   expect_refused(R"("along_share": 1)", R"("along_share": 2)");
   expect_refused(R"("foundation_n_per_mm2": 0.2)", R"("foundation_n_per_mm2": 0)");

@@ -23,6 +23,7 @@ TabledBand band_from(JsonFields& json) {
   band.id = json.text("id");
   band.name = json.text("name");
   band.joint = json.text("joint");
+  band.behind = json.text("behind");
   band.ligaments = json.texts_or_none("ligaments");
   if (band.ligaments.empty()) json.refuse("is made of no ligament");
   band.spacing_mm = json.marked_number("spacing_mm", kLeast, kGreatestMm);
@@ -54,6 +55,13 @@ const BandGrade* BandTable::grade(std::string_view id) const noexcept {
   return nullptr;
 }
 
+const TabledBand* BandTable::band(std::string_view id) const noexcept {
+  for (const TabledBand& each : bands) {
+    if (each.id == id) return &each;
+  }
+  return nullptr;
+}
+
 BandTable BandTable::parse(std::string_view json_text) {
   constexpr const char* kFile = "yielding_ligaments.json";
   const nlohmann::json root = parse_json_text(json_text, kFile);
@@ -64,6 +72,7 @@ BandTable BandTable::parse(std::string_view json_text) {
   (void)json.text("fit_mark");
   for (JsonFields& each : json.objects("bands")) table.bands.push_back(band_from(each));
   table.on_wall_mm = json.marked_number("on_wall_mm", kLeast, kGreatestMm);
+  table.cartilage_mm = json.marked_number("cartilage_mm", kLeast, kGreatestMm);
   table.aside_share = json.marked_number("aside_share", kLeast, 1);
   table.mass_g_per_mm2 = json.marked_number("mass_g_per_mm2", kLeast, kGreatest);
   table.damping_per_s = json.marked_number("damping_per_s", kLeast, kGreatest);

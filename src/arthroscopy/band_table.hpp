@@ -16,6 +16,7 @@ struct TabledBand {
   std::string id;  ///< of the finding that it is told as
   std::string name;
   std::string joint;                   ///< that it is seen from
+  std::string behind;                  ///< that its bones' interval opens into
   std::vector<std::string> ligaments;  ///< of data/soft_tissue.json, side by side
   double spacing_mm = 0;               ///< of particles
   double whole_n_per_mm = 0;           ///< of all of them, published
@@ -34,6 +35,7 @@ struct BandGrade {
 struct BandTable {
   std::vector<TabledBand> bands;
   double on_wall_mm = 0;
+  double cartilage_mm = 0;  ///< of both bones where they meet
   double aside_share = 0;
   double mass_g_per_mm2 = 0;
   double damping_per_s = 0;
@@ -41,6 +43,7 @@ struct BandTable {
 
   /// nullptr: there is none with this id
   [[nodiscard]] const BandGrade* grade(std::string_view id) const noexcept;
+  [[nodiscard]] const TabledBand* band(std::string_view id) const noexcept;
 
   /// @throws InvalidInput naming the entry where the text is no such table.
   [[nodiscard]] static BandTable parse(std::string_view json_text);

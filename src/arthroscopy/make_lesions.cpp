@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <string>
 
+#include "arthroscopy/band_table.hpp"
+#include "arthroscopy/bone_interval.hpp"
 #include "core/rng.hpp"
 #include "fields/distance_field.hpp"
 
@@ -21,6 +23,7 @@ constexpr std::uint64_t kGradesStream = 0x9A7;  // apart from the operator's err
 constexpr std::uint64_t kPlacesStream = 0x51D;
 constexpr double kAsideMm = 1.5;  // so far from the tour's point a patch's middle may lie [E]
 constexpr int kStepsAside = 4;
+constexpr int kStepsAcross = 16;  // from one joint's place of a ligament to the other's
 // Parts of the disc, from its middle, for the generic wrist's size [E].
 constexpr double kRadialOfMiddleMm = 2.0;
 constexpr double kToRimMm = 4.2;
@@ -153,7 +156,7 @@ class LesionMaker {
     const cases::TourPoint* proximal = point(line.in_radiocarpal);
     const cases::TourPoint* distal = point(line.in_midcarpal);
     if (proximal == nullptr || distal == nullptr) return;
-    part(line, how);
+    part(line, across(line, proximal->at, distal->at), how);
     lay(lesion, *proximal, proximal->at, volar_, how.length_mm);
     if (!(how.distal_radius_mm > 0)) return;
     lesion.look = LesionLook::Tear;
@@ -161,14 +164,42 @@ class LesionMaker {
     lay(lesion, *distal, distal->at, volar_, how.length_mm);
   }
 
-  /// The bones on both sides move apart by half the gap each, so that the line between them stays;
-  /// the one that tears loose goes distally by the step, after the pull.
-  void part(const TornLine& line, const Grade& how) {
-    const Vec3 others = middle_of({line.away_from.front()});
-    Vec3 way = middle_of({line.moves}) - others;
+  /// Across the interval, towards the bone that tears loose: of its face in the mean, from place to
+  /// place. Where the bones are not so near each other, from middle to middle across the pull.
+  [[nodiscard]] Vec3 across(const TornLine& line, const Vec3& from, const Vec3& to) const {
+    const std::string& other = line.away_from.front();
+    Vec3 way = middle_of({line.moves}) - middle_of({other});
     way = normalized_or(way - map_.distal * dot(way, map_.distal), radial_);
-    shift({line.moves}, way * (how.gap_mm / 2) + map_.distal * how.step_mm);
-    shift(line.away_from, way * (-how.gap_mm / 2));
+    const Grid<float>* moves = field_of(line.moves);
+    const Grid<float>* stays = field_of(other);
+    if (moves == nullptr || stays == nullptr) return way;
+    const double cartilage_mm = BandTable::generic().cartilage_mm;
+    Vec3 sum;
+    for (int i = 0; i <= kStepsAcross; ++i) {
+      const Vec3 at = from + (to - from) * (static_cast<double>(i) / kStepsAcross);
+      const BesideBone place = beside_bone(*stays, *moves, cartilage_mm, {}, at);
+      if (place.is_near) sum += place.across;
+    }
+    return normalized_or(sum, way);
+  }
+
+  [[nodiscard]] const Grid<float>* field_of(const std::string& bone) const {
+    for (const cases::Bone& each : data_.bones) {
+      if (name_of(each.bone) == bone && !each.distance_field.values().empty()) {
+        return &each.distance_field;
+      }
+    }
+    return nullptr;
+  }
+
+  /// Across the interval by the gap, and the bone that tears loose distally along the other's face
+  /// by the step. Both sides move by half of it across the pull, so that the line between them
+  /// stays; along the pull that bone alone, which follows it: the others would go into the radius.
+  void part(const TornLine& line, const Vec3& way, const Grade& how) {
+    const Vec3 along = normalized_or(map_.distal - way * dot(way, map_.distal), map_.distal);
+    const Vec3 others = (way - map_.distal * dot(way, map_.distal)) * (-how.gap_mm / 2);
+    shift({line.moves}, others + way * how.gap_mm + along * how.step_mm);
+    shift(line.away_from, others);
   }
 
   [[nodiscard]] Vec3 middle_of(const std::vector<std::string>& bones) const {

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "arthroscopy/band_table.hpp"
 #include "arthroscopy/detail/scanned_bones.hpp"
 #include "arthroscopy/generic_wrist_test_support.hpp"
 #include "cases/joint_under_block.hpp"
@@ -131,6 +133,25 @@ TEST(MakeLesions, WhatHasAStepShowsInBothJointsABruisedLigamentInTheRadiocarpalA
   }
 }
 
+/// Of the interval's face between two places of the tour, by the fields alone.
+Vec3 across_interval(BoneId moves, BoneId stays, const char* from, const char* to) {
+  const test::GenericWrist& wrist = test::generic_wrist();
+  const auto place = [&](const std::string& id) {
+    return std::find_if(wrist.map.points.begin(), wrist.map.points.end(),
+                        [&](const auto& point) { return point.id == id; })
+        ->at;
+  };
+  Vec3 sum;
+  for (int i = 0; i <= 16; ++i) {
+    const Vec3 at = place(from) + (place(to) - place(from)) * (i / 16.0);
+    const auto a = fields::sample_distance(wrist.data.bones[body_of(stays)].distance_field, at);
+    const auto b = fields::sample_distance(wrist.data.bones[body_of(moves)].distance_field, at);
+    const bool is_near = a.distance_mm + b.distance_mm < BandTable::generic().cartilage_mm;
+    if (is_near) sum += normalized_or(a.gradient - b.gradient, {});
+  }
+  return normalized_or(sum, {});
+}
+
 /// Level and closed at I; from II on bones stand apart, and only while they are pulled.
 TEST(MakeLesions, BonesPartByGapAndStepUnderTraction) {
   const std::size_t scaphoid = body_of(BoneId::Scaphoid);
@@ -142,9 +163,12 @@ TEST(MakeLesions, BonesPartByGapAndStepUnderTraction) {
       return made.shift_of(scaphoid, pull) - made.shift_of(lunate, pull);
     };
     const Vec3 full = apart(69);
+    const Vec3 across = across_interval(BoneId::Scaphoid, BoneId::Lunate, "sl_gap", "sl_ligament");
     const Vec3& distal = test::generic_wrist().map.distal;
-    EXPECT_NEAR(dot(full, distal), how.step_mm, 1e-9);
-    EXPECT_NEAR(length(full - distal * dot(full, distal)), how.gap_mm, 1e-9);
+    const Vec3 along = normalized_or(distal - across * dot(distal, across), {});
+    EXPECT_NEAR(dot(full, across), how.gap_mm, 1e-9);
+    EXPECT_NEAR(dot(full, along), how.step_mm, 1e-9);
+    EXPECT_NEAR(length(full), std::hypot(how.gap_mm, how.step_mm), 1e-9);
     EXPECT_EQ(apart(0), (Vec3{0, 0, 0}));
     EXPECT_NEAR(length(apart(17)), length(full) / 2, 1e-9);
   }

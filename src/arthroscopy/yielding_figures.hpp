@@ -17,10 +17,12 @@ namespace carpus::arthroscopy {
 
 /// How deep a probe of 1 mm presses the net in, at the place nearest to `at`, until the tissue
 /// bears so much [mm]. @param half_thick_mm  the net lies so deep under what is touched
+/// @param is_behind  from its other side
 [[nodiscard]] double pressed_in_mm(const yielding::Net& net,
                                    const Vec3& at,
                                    double half_thick_mm,
-                                   double newtons);
+                                   double newtons,
+                                   bool is_behind = false);
 
 /// How far a hook with that force lifts the net's particle nearest to `at` along its normal,
 /// beyond where it rests [mm].
@@ -45,6 +47,7 @@ struct BandFigures {
   std::string band;
   std::string grade;
   double press_mm = 0;              ///< in its middle
+  double press_behind_mm = 0;       ///< ... and from its other side
   std::optional<double> wanted_mm;  ///< what it is fitted to
   double bulge_mm = 0;              ///< as it rests
   double fibres_n_per_mm = 0;       ///< of its fibres in data, at this grade
@@ -56,5 +59,20 @@ struct BandFigures {
 
 /// Of every ligament that yields, whole and attenuated.
 [[nodiscard]] std::vector<BandFigures> band_figures(const cases::ArthroscopicMap& map);
+
+/// The interval behind one ligament, from the joint that it opens into, at one grade: the bones as
+/// far apart as under full traction.
+struct IntervalFigures {
+  std::string band;
+  std::string grade;
+  double gap_mm = 0;    ///< between the cartilage of both bones, in the mean
+  double deep_mm = 0;   ///< from its mouth to the ligament
+  double probe_mm = 0;  ///< so far in a probe of 1 mm goes
+  double scope_mm = 0;  ///< ... and a scope of 2.7 mm
+};
+
+/// Of every ligament that yields, at every grade; without those that the case has no place for.
+[[nodiscard]] std::vector<IntervalFigures> interval_figures(const cases::CaseData& data,
+                                                            const cases::ArthroscopicMap& map);
 
 }  // namespace carpus::arthroscopy
