@@ -23,11 +23,11 @@ inline constexpr double kHalfHigh = 3;
 inline constexpr double kDiscHalf = 6;
 inline const Vec3 kEdge = kMiddle + Vec3{0, 4.5, -kHalfHigh};
 
-inline Grid<float> box() {
+inline Grid<float> box(const Vec3& middle = kMiddle) {
   GridGeometry geometry;
   geometry.size = {81, 81, 45};
   geometry.spacing = {0.4, 0.4, 0.4};
-  geometry.origin = kMiddle - Vec3{16, 16, 8.8};
+  geometry.origin = middle - Vec3{16, 16, 8.8};
   std::vector<float> values;
   for (int z = 0; z < 45; ++z) {
     for (int y = 0; y < 81; ++y) {
@@ -187,6 +187,7 @@ class Hand {
   }
   [[nodiscard]] const Snapshot& now() const { return world_.now(); }
   [[nodiscard]] Vec3 tip() const { return now().items[0].tip_in_patient; }
+  void pull(double newtons) { input_.wrist.traction_n = newtons; }
   void drive(Driver driver) {
     input_.hands[led].driver = driver;
     step();

@@ -58,6 +58,7 @@ struct ChangingData {
     Vec3 at;
     Vec3 out;  ///< unit, towards the tip
     double most_gives_mm = 0.0;
+    bool is_behind = false;  ///< the tip
   };
   std::array<UnderTip, kHands> under_tips{};  ///< found anew in every tick, by hand
   std::array<procedure::ScopeLook, kMaxLooks> looks{};

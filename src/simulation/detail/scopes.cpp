@@ -132,11 +132,21 @@ World::State::Wall World::State::wall_at(const Model& model,
   }
   const arthroscopy::OpenedSpace space = joint_space_at(model, joint_of(model, portal), tip);
   const auto sheet = sheet_at(model, hand, tip, space.outwards);
+  const arthroscopy::InInterval interval = interval_at(model, hand, tip);
+  if (interval.depth_mm > 0.0) return {interval.depth_mm, interval.out};
   const bool is_clear =
-      sheet ? sheet->depth_mm <= 0.0 : space.is_near && space.distance_mm <= kWallMm;
+      sheet ? sheet->depth_mm <= 0.0
+            : interval.is_between || (space.is_near && space.distance_mm <= kWallMm);
   if (is_clear) return {};
   const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
   if (is_in_hole(model, joint_of(model, portal), tip, thick_mm)) return {};
+  // Through an interval and the tear at its far end.
+  for (const detail::YieldingSheet& behind : model.sheets) {
+    if (behind.interval && behind.interval->joint == joint_of(model, portal) &&
+        is_in_hole(model, behind.joint, tip, thick_mm)) {
+      return {};
+    }
+  }
   if (is_in_cut_disc(model, joint_of(model, portal), tip, thick_mm)) return {};
   if (sheet) return *sheet;
   const WayIn way = way_in(model, portal);
@@ -147,9 +157,12 @@ World::State::Wall World::State::wall_at(const Model& model,
   if (deep <= way.capsule_mm && off <= kTunnelMm) return {};
   const bool is_in = scope_state.is_in_joint[hand];
   if (!is_in && deep <= way.capsule_mm) return {off - kTunnelMm, aside * (-1.0 / off)};
-  if (squared_length(space.outwards) > 0.5) {
-    return {space.distance_mm - kWallMm, -space.outwards};
+  const double off_mm = space.distance_mm - kWallMm;
+  // Beside an interval that lets it in, the way back to that may be the shorter one.
+  if (interval.off_mm > 0.0 && (interval.off_mm < off_mm || !space.is_near)) {
+    return {interval.off_mm, interval.back};
   }
+  if (squared_length(space.outwards) > 0.5) return {off_mm, -space.outwards};
   return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }
 

@@ -88,7 +88,7 @@ World::Model::Model(const cases::CaseData& case_data,
     }
   }
   if (map != nullptr) {
-    sheets = detail::yielding_sheets(*map, lesions ? &*lesions : nullptr);
+    sheets = detail::yielding_sheets(case_data, *map, lesions ? &*lesions : nullptr);
     yielding::NetState disc;
     disc.reset(sheets[detail::kDiscSheet].net);
     for (const cases::TourPoint& point : map->points) {

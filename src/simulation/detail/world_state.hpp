@@ -447,6 +447,9 @@ struct World::State : detail::ChangingData {
                                              std::uint8_t hand,
                                              const Vec3& tip_in_patient,
                                              const Vec3& wall_outwards) const noexcept;
+  [[nodiscard]] arthroscopy::InInterval interval_at(const Model& model,
+                                                    std::uint8_t hand,
+                                                    const Vec3& tip) const noexcept;
   void yield_sheets(const Model& model) noexcept;
   void sink_in(const Model& model, std::uint8_t hand, const yielding::Tip& tip) noexcept;
   void publish_sheets(const Model& model) noexcept;

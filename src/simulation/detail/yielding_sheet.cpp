@@ -26,7 +26,8 @@ void bound(YieldingSheet& sheet) {
 
 }  // namespace
 
-std::vector<YieldingSheet> yielding_sheets(const cases::ArthroscopicMap& map,
+std::vector<YieldingSheet> yielding_sheets(const cases::CaseData& data,
+                                           const cases::ArthroscopicMap& map,
                                            const cases::JointLesions* lesions) {
   std::vector<YieldingSheet> sheets;
   YieldingSheet disc;
@@ -42,6 +43,7 @@ std::vector<YieldingSheet> yielding_sheets(const cases::ArthroscopicMap& map,
     sheet.first = band.first;
     sheet.second = band.second;
     sheet.joint = band.joint;
+    sheet.interval = arthroscopy::interval_of(data, map, band);
     sheet.half_thick_mm = band.thickness_mm / 2;
     sheet.most_gives_mm = kBandGivesMm;
     sheets.push_back(std::move(sheet));

@@ -70,9 +70,13 @@ World::State::UnderTip World::State::under_tip(const Model& model,
   if (near >= sheet.net.size()) return {};
   const double least = squared_length(tip.at - state.rest(near));
   const Vec3 off = tip.at - state.rest(near);
-  const double high = dot(off, sheet.net.normals()[near]);
+  const double side = tip.is_behind ? -1.0 : 1.0;
+  const double high = dot(off, sheet.net.normals()[near]) * side;
   if (least - high * high >= kOverMm * kOverMm || high <= -kDeepMm) return {};
+  // From behind it is met at the far end of an interval, whose sides are something else.
+  if (tip.is_behind && high > tip.radius_mm + kAboveMm) return {};
   UnderTip under;
+  under.is_behind = tip.is_behind;
   double sum = 0.0;
   double held = 0.0;
   for (std::size_t i = 0; i < sheet.net.size(); ++i) {
@@ -80,14 +84,14 @@ World::State::UnderTip World::State::under_tip(const Model& model,
     if (more >= kSmoothMm * kSmoothMm || state.is_cut(i)) continue;
     const double weight = 1.0 - more / (kSmoothMm * kSmoothMm);
     under.at += state.rest(i) * weight;
-    under.out += sheet.net.normals()[i] * weight;
+    under.out += sheet.net.normals()[i] * (side * weight);
     if (sheet.net.is_held(i)) held += weight;
     sum += weight;
   }
   if (!(sum > 0.0)) return {};
   under.sheet = s;
   under.at = under.at / sum;
-  under.out = normalized_or(under.out, sheet.net.normals()[near]);
+  under.out = normalized_or(under.out, sheet.net.normals()[near] * side);
   under.most_gives_mm = sheet.most_gives_mm * (1.0 - held / sum);
   return under;
 }
@@ -102,11 +106,14 @@ void World::State::find_sheets(const Model& model) noexcept {
         !scope_state.is_in_joint[h]) {
       continue;
     }
+    const std::uint8_t joint = joint_of(model, portal);
     double least = 0.0;
     for (std::uint8_t s = 0; s < model.sheets.size(); ++s) {
       const YieldingSheet& sheet = model.sheets[s];
-      if (sheet.joint != joint_of(model, portal) || sheet.net.size() == 0) continue;
-      const yielding::Tip tip = tip_on(model, sheet, *item, item->tip);
+      const bool is_behind = sheet.interval && sheet.interval->joint == joint;
+      if ((sheet.joint != joint && !is_behind) || sheet.net.size() == 0) continue;
+      yielding::Tip tip = tip_on(model, sheet, *item, item->tip);
+      tip.is_behind = is_behind;
       if (distance(tip.at, sheet.middle) > sheet.reach_mm + tip.radius_mm + kDeepMm) continue;
       const UnderTip under = under_tip(model, s, tip);
       if (under.sheet == kNoSheet) continue;
@@ -146,6 +153,33 @@ std::optional<World::State::Wall> World::State::sheet_at(const Model& model,
   return Wall{tip.radius_mm - gives - high, out};
 }
 
+/// Where a tip lies in an interval that its joint opens into; in none it is clear of everything.
+arthroscopy::InInterval World::State::interval_at(const Model& model,
+                                                  std::uint8_t hand,
+                                                  const Vec3& tip) const noexcept {
+  arthroscopy::InInterval deepest;
+  const Item& item = now.items[now.held[hand]];
+  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
+  const auto& shape = kind_of(model, item).shape;
+  const Vec3 middle = tip + item.shaft * shape.front_z_mm();
+  for (const YieldingSheet& sheet : model.sheets) {
+    if (!sheet.interval || sheet.interval->joint != joint) continue;
+    const arthroscopy::InInterval made =
+        arthroscopy::in_interval(*sheet.interval, inverses[sheet.first], inverses[sheet.second],
+                                 middle, shape.greatest_radius_mm());
+    if (made.depth_mm > deepest.depth_mm) {
+      deepest.depth_mm = made.depth_mm;
+      deepest.out = made.out;
+    }
+    deepest.is_between = deepest.is_between || made.is_between;
+    if (made.off_mm > 0.0) {
+      deepest.off_mm = made.off_mm;
+      deepest.back = made.back;
+    }
+  }
+  return deepest;
+}
+
 /// How far the tissue has given where a tip is.
 void World::State::sink_in(const Model& model,
                            std::uint8_t hand,
@@ -180,6 +214,7 @@ void World::State::yield_sheets(const Model& model) noexcept {
     const Item* item = in_hand(h);
     if (item == nullptr) continue;
     tip = tip_on(model, model.sheets[under.sheet], *item, item->tip);
+    tip.is_behind = under.is_behind;
     const double high = dot(tip.at - under.at, under.out);
     const std::uint8_t joint = model.sheets[under.sheet].joint;
     const double thick_mm = kind_of(model, *item).shape.greatest_radius_mm();
