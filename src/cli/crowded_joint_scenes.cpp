@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "cli/crowded_joint.hpp"
@@ -129,27 +130,51 @@ std::vector<SceneTimes> time_shaving(const cases::CaseData& data,
   return {std::move(shaving), {"bite", bites.at()}, {"about_a_bite", bites.about()}};
 }
 
-/// Under traction scope and probe go in, by 4-5 and 6R, from where both are reached. Then the scope
-/// leans on the scapholunate ligament; the probe is led to the disc, to that ligament, to the disc
-/// again, to the other one, each time back through the middle of its portal. From the snapshots
-/// alone.
+/// A place of the tour, and which way a hand is led on there.
+struct Pressed {
+  const char* point;
+  double up = 0.0;  ///< distally
+};
+
+/// By which portals, what the scope leans on, what is probed in turn.
+struct Probing {
+  std::array<const char*, simulation::kHands> portals;
+  Pressed leant_on;
+  std::vector<Pressed> probed;
+};
+
+/// From where disc and ligaments are reached.
+Probing in_radiocarpal() {
+  return {{"4-5", "6R"},
+          {"sl_ligament", 1.0},
+          {{"disc", -1.0}, {"sl_ligament", 1.0}, {"disc", -1.0}, {"lt_ligament", 1.0}}};
+}
+
+/// Through the interval of a torn ligament to what is left of it, and to the interval's mouth.
+Probing in_midcarpal() {
+  return {{"MCR", "MCU"}, {"sl_gap", -1.0}, {{"lt_ligament", -0.5}, {"lt_gap", -1.0}}};
+}
+
+/// Under traction scope and probe go in. Then the scope leans on one place; the probe is led from
+/// place to place, each time back through the middle of its portal. From the snapshots alone.
 class ProbingToAndFro {
  public:
-  ProbingToAndFro(const cases::CaseData& data, const procedure::Procedure& procedure)
+  ProbingToAndFro(const cases::CaseData& data,
+                  const procedure::Procedure& procedure,
+                  const Probing& plan)
       : map_(*data.arthroscopy), opening_(procedure.opening(data)), probe_(procedure.tray.back()) {
-    const cases::TourPoint* disc = point("disc");
-    const cases::TourPoint* scapholunate = point("sl_ligament");
-    const cases::TourPoint* lunotriquetral = point("lt_ligament");
-    ways_ = {cases::find_portal(map_, "4-5"), cases::find_portal(map_, "6R")};
-    if (disc == nullptr || scapholunate == nullptr || ways_[kScope] == nullptr ||
-        ways_[kTool] == nullptr) {
-      throw_not_reached("disc and ligament at once");
+    ways_ = {cases::find_portal(map_, plan.portals[kScope]),
+             cases::find_portal(map_, plan.portals[kTool])};
+    const auto leant_on = stop_at(plan.leant_on);
+    for (const Pressed& each : plan.probed) {
+      if (const auto stop = stop_at(each)) stops_.push_back(*stop);
     }
-    leant_on_ = {scapholunate->at, scapholunate->body, 1.0};
-    stops_ = {{disc->at, disc->body, -1.0}, leant_on_};
-    if (lunotriquetral == nullptr) return;
-    stops_.push_back(stops_.front());
-    stops_.push_back({lunotriquetral->at, lunotriquetral->body, 1.0});
+    if (!leant_on || stops_.size() < plan.probed.size() || ways_[kScope] == nullptr ||
+        ways_[kTool] == nullptr) {
+      throw_not_reached(std::string(plan.probed.front().point) + " and " + plan.leant_on.point +
+                        " at once");
+    }
+    leant_on_ = *leant_on;
   }
   [[nodiscard]] Input next(const Snapshot& now) {
     const std::size_t tick = ticks_++;
@@ -178,11 +203,11 @@ class ProbingToAndFro {
     std::uint8_t body = 0;
     double up = 0.0;  ///< which way is out of the joint there
   };
-  [[nodiscard]] const cases::TourPoint* point(const std::string& id) const {
+  [[nodiscard]] std::optional<Stop> stop_at(const Pressed& pressed) const {
     for (const cases::TourPoint& each : map_.points) {
-      if (each.id == id) return &each;
+      if (each.id == pressed.point) return Stop{each.at, each.body, pressed.up};
     }
-    return nullptr;
+    return std::nullopt;
   }
   static Vec3 place(const Stop& stop, const Snapshot& now, const Vec3& distal) {
     return (now.patient_from_bone[stop.body] * Point<frame::Bone>{stop.at}).v +
@@ -238,12 +263,37 @@ cases::PreparedPathology much_wrong() {
   return wrong;
 }
 
+/// The same, and the lunotriquetral ligament torn so that a probe passes (Geissler III).
+cases::PreparedPathology torn() {
+  cases::PreparedPathology wrong = much_wrong();
+  wrong.grades[1] = 3;
+  return wrong;
+}
+
+/// In the midcarpal joint, in and out of an interval, at whose end the ligament yields.
+SceneTimes time_interval(const cases::CaseData& data,
+                         const procedure::Procedure& procedure,
+                         std::size_t ticks) {
+  World world(data, procedure, 1, procedure::Mode::Practice, torn());
+  SceneTimes probing{"interval_probed", {}};
+  ProbingToAndFro probe(data, procedure, in_midcarpal());
+  for (std::size_t i = 0; i < kSettlingTicks; ++i) world.step(probe.next(world.now()));
+  std::size_t yielding = 0;
+  for (std::size_t i = 0; i < 4 * ticks && probing.microseconds.size() < ticks; ++i) {
+    const float us = timed_step(world, probe.next(world.now()));
+    yielding += moving_ligaments(world.now());
+    if (is_in_contact(world.now(), kTool)) probing.microseconds.push_back(us);
+  }
+  if (yielding == 0) throw_not_reached("press a ligament from its midcarpal side");
+  return probing;
+}
+
 std::vector<SceneTimes> time_probing(const cases::CaseData& data,
                                      const procedure::Procedure& procedure,
                                      std::size_t ticks) {
   World world(data, procedure, 1, procedure::Mode::Practice, much_wrong());
   SceneTimes probing{"all_probing", {}};
-  ProbingToAndFro probe(data, procedure);
+  ProbingToAndFro probe(data, procedure, in_radiocarpal());
   for (std::size_t i = 0; i < kSettlingTicks; ++i) world.step(probe.next(world.now()));
   for (std::size_t i = 0; i < 4 * ticks && probing.microseconds.size() < ticks; ++i) {
     const float us = timed_step(world, probe.next(world.now()));
@@ -254,7 +304,7 @@ std::vector<SceneTimes> time_probing(const cases::CaseData& data,
     }
   }
   if (2 * probing.microseconds.size() < ticks) throw_not_reached("press disc and ligament at once");
-  return {std::move(probing)};
+  return {std::move(probing), time_interval(data, procedure, ticks)};
 }
 
 }  // namespace

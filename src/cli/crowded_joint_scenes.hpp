@@ -17,7 +17,9 @@ namespace carpus::cli {
 /// a torn disc is trimmed `all_shaving` (a shaver runs in the disc and takes it away, disc and a
 /// ligament yield, the scope is in contact), `bite` (ticks in which a punch takes something off)
 /// and `about_a_bite` (from 20 ticks before to 100 after); in an examination with much wrong
-/// `all_probing` (disc and a ligament yield, scope and probe are in contact); none elsewhere.
+/// `all_probing` (disc and a ligament yield, scope and probe are in contact) and `interval_probed`
+/// (the probe in contact in and about a torn ligament's interval, from the midcarpal joint); none
+/// elsewhere.
 /// @param ticks  measured a scene, at most.
 /// @throws InvalidInput  where the case has no soft tissue, or hands do not come to it there.
 [[nodiscard]] std::vector<SceneTimes> time_crowded_joints(const cases::CaseData& data,

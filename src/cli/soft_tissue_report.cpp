@@ -106,12 +106,19 @@ std::string yielding_table(const cases::CaseData& data, const cases::Arthroscopi
           f.has_come_off ? published.rests_off_mm : 0.0, f.lifted_mm, f.particles);
   }
   print(out, "\nligaments under a probe's 1 N in their middle; mm, and N/mm along the fibres\n");
-  print(out, "%-16s %6s %8s %9s %7s %8s %9s %11s %10s\n", "sheet", "grade", "pressed", "fitted to",
-        "bulge", "along", "of fibres", "whole, B10", "particles");
+  print(out, "%-16s %6s %8s %9s %11s %7s %8s %9s %11s %10s\n", "sheet", "grade", "pressed",
+        "fitted to", "from behind", "bulge", "along", "of fibres", "whole, B10", "particles");
   for (const arthroscopy::BandFigures& f : arthroscopy::band_figures(map)) {
-    print(out, "%-16s %6s %8.2f %9.2f %7.2f %8.0f %9.0f %11.0f %10zu\n", f.band.c_str(),
-          f.grade.c_str(), f.press_mm, f.wanted_mm.value_or(0), f.bulge_mm, f.along_n_per_mm,
-          f.fibres_n_per_mm, f.whole_n_per_mm, f.particles);
+    print(out, "%-16s %6s %8.2f %9.2f %11.2f %7.2f %8.0f %9.0f %11.0f %10zu\n", f.band.c_str(),
+          f.grade.c_str(), f.press_mm, f.wanted_mm.value_or(0), f.press_behind_mm, f.bulge_mm,
+          f.along_n_per_mm, f.fibres_n_per_mm, f.whole_n_per_mm, f.particles);
+  }
+  print(out, "\nthe intervals behind them, from the midcarpal joint, under full traction; mm\n");
+  print(out, "%-16s %6s %8s %14s %14s %18s\n", "ligament", "grade", "gap", "1.0 mm probe",
+        "2.7 mm scope", "deep, to ligament");
+  for (const arthroscopy::IntervalFigures& f : arthroscopy::interval_figures(data, map)) {
+    print(out, "%-16s %6s %8.2f %14.1f %14.1f %18.1f\n", f.band.c_str(), f.grade.c_str(), f.gap_mm,
+          f.probe_mm, f.scope_mm, f.deep_mm);
   }
   return out;
 }
