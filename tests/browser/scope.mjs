@@ -11,16 +11,13 @@ import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
 
 const TRAINEE = "Browser test, scope";
-/** The wall's depth goes before the wall itself: what is hidden is not shaded. */
-const CALLS_OF_DEPTH = 1;
 /** What is in the fluid is drawn at once. */
 const CALLS_OF_FLUID = 1;
 /** Its focus goes over the whole picture so often, a triangle each. */
 export const CALLS_OF_FOCUS = 5;
 /** At most so much is drawn for the scope's picture. */
-const MOST_CALLS = 3 + CALLS_OF_DEPTH + CALLS_OF_FLUID + CALLS_OF_FOCUS;
-const MOST_OF_A_WALL = 13_500;
-const MOST_TRIANGLES = MOST_OF_A_WALL + 15_000;
+const MOST_CALLS = 3 + CALLS_OF_FLUID + CALLS_OF_FOCUS;
+const MOST_TRIANGLES = 15_000;
 
 /** Of what the scope's picture shows now. */
 async function expectDrawnInTime(page, joint) {
@@ -597,7 +594,7 @@ export async function removal(browser, station) {
       await page.waitForFunction(
         (calls) =>
           Number(document.querySelector(".scope").dataset.calls) === calls,
-        2 + lesions.length + CALLS_OF_DEPTH + CALLS_OF_FLUID + CALLS_OF_FOCUS, // the wall, what lies about it, a ball each
+        2 + lesions.length + CALLS_OF_FLUID + CALLS_OF_FOCUS, // the wall, what lies about it, a ball each
       );
       await page.keyboard.press("h");
       await operator.until(
@@ -653,11 +650,11 @@ export async function shaving(browser, station) {
       expect(!(await button("Jaws").isVisible()), "jaws, and nothing has any");
       await bringInScope(page, operator);
       await page.waitForFunction(
-        (others) =>
+        (focus) =>
           [3, 4].includes(
-            Number(document.querySelector(".scope").dataset.calls) - others,
+            Number(document.querySelector(".scope").dataset.calls) - focus,
           ),
-        CALLS_OF_DEPTH + CALLS_OF_FOCUS,
+        CALLS_OF_FOCUS,
       ); // the wall, what lies about it, all tufts at once, what drifts in the fluid where it shows
       const { shaft_deg: scopeDeg } = await told();
       await page.keyboard.press("h");

@@ -3,7 +3,7 @@
 //
 // Draws the scope's round picture: the wall of the joint that it is in, and what the other hand holds in it.
 import * as THREE from "three";
-import { lostPicture } from "../dom";
+import { drawsInSoftware, lostPicture } from "../dom";
 import type {
   BodyPose,
   ControlledScrew,
@@ -72,7 +72,7 @@ export class ScopePicture {
   >;
   /** Of the wall that is seen. */
   private readonly depth: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
-  private hasScrew = false;
+  private isDepthLaid = false;
   private readonly lesions = lesionUniforms();
   private wrong: readonly Painted[] = [];
   private scuffs: readonly Painted[] = [];
@@ -116,13 +116,13 @@ export class ScopePicture {
         new THREE.Mesh(wall.geometry, wetMaterial(this.lens, false, this.lesions, this.hole)),
       ]),
     );
-    for (const { material } of this.walls.values()) setWall(material, this.hasScrew);
     this.depth = new THREE.Mesh(new THREE.BufferGeometry(), depthMaterial(this.lens));
     this.depth.renderOrder = -1;
     this.rod = new THREE.Mesh(this.rods.probe, wetMaterial(this.lens, true));
     this.loose = new LooseBodies(wetMaterial(this.lens, false));
     this.beads = new ScopeBeads(this.lens);
     this.pieces = new TissuePieces(wetMaterial(this.lens, false));
+    this.setWalls(false);
     this.scene.add(
       this.backdrop.mesh,
       this.loose.group,
@@ -178,9 +178,17 @@ export class ScopePicture {
   /** What lies in a bone from the beginning; null: nothing. */
   setScrew(screw: ControlledScrew | null, bodies: readonly string[]): void {
     setHole(this.hole, screw);
-    this.hasScrew = screw !== null;
-    for (const { material } of this.walls.values()) setWall(material, this.hasScrew);
+    this.setWalls(screw !== null);
     this.screw.set(screw, bodies, this.all);
+  }
+
+  /**
+   * A processor shades first and asks for depth later: for it, depth laid before is only more to draw. A screw's hole is cut
+   * as the wall is shaded, so that no depth may be laid before it.
+   */
+  private setWalls(hasScrew: boolean): void {
+    this.isDepthLaid = !hasScrew && !drawsInSoftware();
+    for (const { material } of this.walls.values()) setWall(material, hasScrew, this.isDepthLaid);
   }
 
   /** Marks of an exercise. */
@@ -235,7 +243,7 @@ export class ScopePicture {
     for (const [id, wall] of this.walls) wall.visible = skin === undefined && id === joint;
     const shown = skin === undefined ? this.walls.get(joint) : undefined;
     if (shown !== undefined) this.depth.geometry = shown.geometry;
-    this.depth.visible = shown !== undefined && !this.hasScrew;
+    this.depth.visible = shown !== undefined && this.isDepthLaid;
     this.backdrop.setOutside(skin?.skinMm, skin?.inwards ?? sight.axis);
     this.loose.group.visible = this.beads.group.visible = skin === undefined;
     this.pieces.group.visible = skin === undefined;

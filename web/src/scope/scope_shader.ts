@@ -294,12 +294,19 @@ export function depthMaterial(lens: LensUniforms): THREE.ShaderMaterial {
 }
 
 /**
- * How a wall is shaded. @param hasScrew  one may have gone through it: what has none saves its cost. Its hole is cut as it is shaded, so
- * that no depth may be laid before.
+ * How a wall is shaded. @param hasScrew  one may have gone through it: what has none saves its cost
+ * @param isDepthLaid  by depthMaterial, before
  */
-export function setWall(material: THREE.ShaderMaterial, hasScrew: boolean): void {
-  material.defines = hasScrew ? { HAS_SCREW: "" } : { DEPTH_IS_LAID: "" };
-  material.depthFunc = hasScrew ? THREE.LessEqualDepth : THREE.EqualDepth;
-  material.depthWrite = hasScrew;
+export function setWall(
+  material: THREE.ShaderMaterial,
+  hasScrew: boolean,
+  isDepthLaid: boolean,
+): void {
+  material.defines = {
+    ...(hasScrew ? { HAS_SCREW: "" } : {}),
+    ...(isDepthLaid ? { DEPTH_IS_LAID: "" } : {}),
+  };
+  material.depthFunc = isDepthLaid ? THREE.EqualDepth : THREE.LessEqualDepth;
+  material.depthWrite = !isDepthLaid;
   material.needsUpdate = true;
 }

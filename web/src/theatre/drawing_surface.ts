@@ -4,18 +4,8 @@
 // The canvas that WebGL draws on: how large, how fine, and on a machine that cannot keep up how much
 // simpler.
 import * as THREE from "three";
-import { lostPicture } from "../dom";
+import { drawsInSoftware, lostPicture } from "../dom";
 import { DrawingPace, SOFTWARE_LEVEL, type Drawing } from "./drawing_pace_model";
-
-/** Whether WebGL runs on the processor: then a simple drawing from the start. */
-function drawsInSoftware(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const names = gl?.getExtension("WEBGL_debug_renderer_info");
-  if (gl === null || names === null || names === undefined) return false;
-  const name = String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
-  gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
-}
 
 export interface SurfaceHandlers {
   /** CSS pixels, and device pixels per CSS pixel. What was drawn is gone. */

@@ -209,16 +209,14 @@ export class Hand {
   /** Something gave before it, which a mouse does not let one feel: a key that is held leads it no farther. */
   feelGive(): void {
     const item = this.last === undefined ? undefined : heldItem(this.last, this.moved);
-    for (const [holder, { action }] of this.held) {
-      if (action.kind === "approach" && action.closer) this.held.delete(holder);
-    }
+    this.held.letGoOf((action) => action.kind === "approach" && action.closer);
     if (item === undefined) return;
     this.pose = heldBackTo(this.pose, item.tip_mm, 0);
     this.changed = true;
   }
 
   private stopDriving(): void {
-    this.held.letGoOfDrivers();
+    this.held.letGoOf((action) => action.kind === "drive");
     this.changed = true;
   }
 

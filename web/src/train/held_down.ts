@@ -71,8 +71,8 @@ export class HeldDown {
     return held.action;
   }
 
-  letGoOfDrivers(): void {
-    for (const [code, { action }] of this.held) if (action.kind === "drive") this.held.delete(code);
+  letGoOf(isMeant: (action: HeldAction) => boolean): void {
+    for (const [code, { action }] of this.held) if (isMeant(action)) this.held.delete(code);
   }
 
   clear(): void {
