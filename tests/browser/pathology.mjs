@@ -182,7 +182,7 @@ export async function preparesPathology(browser) {
     });
     await check(page, "at random again, and the file is gone", async () => {
       await way(page).click();
-      await said(page, "Drawn by number 7");
+      await said(page, "Drawn by number 8");
       await page.getByRole("radio", { name: /At random/ }).check();
       await save(page).click();
       await said(page, "draws anew");
