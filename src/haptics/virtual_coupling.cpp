@@ -22,6 +22,10 @@ void VirtualCoupling::let_go() noexcept {
   if (stored_n_mm_ < kUsedUpNMm) stored_n_mm_ = kFirstStoredNMm;
 }
 
+void VirtualCoupling::hold_fast(const Vec3& proxy, const Vec3& hand) noexcept {
+  if (has_hand_ && dot(hand - hand_, hand - proxy) > 0.0) let_go();
+}
+
 Vec3 VirtualCoupling::force_n(const Vec3& proxy, const Vec3& hand, double limit_n) noexcept {
   if (!is_finite(proxy) || !is_finite(hand)) {
     ++faults_;

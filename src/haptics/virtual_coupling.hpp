@@ -5,7 +5,7 @@
 // instrument may be (the proxy [zilles1995godobject]), a spring and a damper, never stronger than
 // the limit, and passive by an energy account [hannaford2002passivity]: whatever the proxy does,
 // the hand never gets back more work than it put in and the account's first kFirstStoredNMm, and as
-// much again each time that it is let go with an account that is used up.
+// much again each time that an account that is used up is let go, or drawn away from what is fast.
 //
 // The account E holds that first store and what the hand put in less what it got. In the next tick
 // the force f does at most |f| w of work on the hand, w = max(0, d.f/|f| + kMostSurpriseMm), where
@@ -51,6 +51,11 @@ class VirtualCoupling {
   /// Nothing holds the hand: an account that the proxy's own moves have used up begins anew with
   /// its first store. Else no force could ever begin again, as none is felt against which to work.
   void let_go() noexcept;
+
+  /// What the hand holds is stuck: as let_go() for a hand that draws away from there. It would feel
+  /// nothing for as long a way as it was given back before, and is never let go as it is held.
+  /// @param proxy, hand  as force_n() is to get them.
+  void hold_fast(const Vec3& proxy, const Vec3& hand) noexcept;
 
   /// What the hand has put in and not got back [N mm]; not negative.
   [[nodiscard]] double stored_n_mm() const noexcept { return stored_n_mm_; }

@@ -12,8 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/rng.hpp"
 #include "fields/distance_field.hpp"
+#include "haptics/virtual_coupling.hpp"
 #include "simulation/box_joint_test_support.hpp"
+#include "simulation/muscle_hand_test_support.hpp"
 #include "simulation/operation_test_support.hpp"
 #include "simulation/world.hpp"
 
@@ -136,6 +139,59 @@ TEST(WedgedInJoint, StaysWhereItIsPushedOnOrAside) {
     held.hand().go(kMiddle + to, 20);
     EXPECT_LT(length(held.tip()), 1e-3) << to.x << ' ' << to.y << ' ' << to.z;
   }
+}
+
+/// A jump leaves the first store alone, and the long way back takes all of it.
+void spend(Wedged& held, const Vec3& way) {
+  held.hand().lead(kMiddle + way * 10);
+  held.hand().go(kMiddle + way);
+  ASSERT_LT(length(held.force()), 1e-3);
+}
+
+TEST(WedgedInJoint, HoldsTheHandThatDrawsAwayWhateverWasSpentBefore) {
+  for (const Vec3& way : {Vec3{-1, 0, 0}, Vec3{0, 0, 1}}) {
+    Wedged held;
+    spend(held, way);
+    for (const double far_mm : {2.0, 5.0, 10.0}) {
+      held.hand().go(kMiddle + way * far_mm, 20);
+      EXPECT_NEAR(dot(held.force(), -way), far_mm * haptics::kContactStiffnessNPerMm, 0.01);
+    }
+    EXPECT_LT(length(held.tip()), 1e-3);
+  }
+}
+
+TEST(WedgedInJoint, GivesBackNoMoreThanWasPutInAndAFirstStoreForEachTimeItIsDrawnAway) {
+  Wedged held;
+  spend(held, {0, 0, 1});
+  Rng rng(1);
+  test::MuscleHand muscle{kMiddle + Vec3{0, 0, 1}, {}};
+  Vec3 wanted = muscle.place;
+  Vec3 last = test::as_given(muscle.place);
+  Vec3 force = held.force();
+  double work = 0;  // on the hand [N mm]
+  double most_put_in = 0;
+  double may = haptics::kFirstStoredNMm;
+  bool drew_away = false;
+  int times = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    if (tick % 150 == 0) wanted = kMiddle + Vec3{0, rng.uniform(-7, 7), rng.uniform(-7, 7)};
+    muscle.step(wanted, force);
+    const Vec3 at = test::as_given(muscle.place);
+    const bool draws_away = dot(at - last, at - held.hand().tip()) > 0;
+    if (draws_away && !drew_away) {
+      may += haptics::kFirstStoredNMm;
+      ++times;
+    }
+    drew_away = draws_away;
+    work += dot(force, at - last);
+    held.hand().lead(muscle.place);
+    last = at;
+    most_put_in = std::min(most_put_in, work);
+    ASSERT_LE(work, may + 1e-9) << "tick " << tick;
+    force = held.force();
+  }
+  EXPECT_LT(times, 200) << "the bound says something";
+  EXPECT_LT(most_put_in, -1.0) << "the hand did work against it";
 }
 
 }  // namespace

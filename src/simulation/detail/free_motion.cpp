@@ -153,6 +153,8 @@ void World::State::chase(const Model& model, std::uint8_t hand, const Vec3& targ
     }
     if (resolved.is_wedged) {
       ++faults.unresolved_contacts;
+      const bool is_stuck = i == 0 && scope_state.portal[hand] != detail::kNoPortal;
+      if (is_stuck) spent.hands[hand].coupling.hold_fast(item.tip, target);
       return;
     }
     // A tip that the spinning driver does not turn bites: it stays while the pull along the surface
