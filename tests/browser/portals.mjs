@@ -14,6 +14,7 @@ import { minus, size, SkinHands } from "./skin_hands.mjs";
 const TRAINEE = "Browser test, portals";
 /** Of the exercise: it draws 6R, which asks more of the scope than 4-5, as the second portal. */
 const SEED = 1;
+const LOW = { width: 1120, height: 680 };
 const SMALL = { width: 640, height: 360 };
 /** A key that is held so long after fluid came back would lead a needle 10 mm on, and leads it no farther than this. */
 const HELD_ON_MS = 1300;
@@ -111,7 +112,17 @@ export async function makesPortals(browser, station) {
     await hands.goIn();
     const item = Operator.held(await operator.snapshot());
     expect(size(minus(item.tip_mm, ways[0].skin_mm)) < 30, "it went in elsewhere");
-    await page.locator(".step-list .current", { hasText: "Now the 6R portal" }).waitFor();
+    const current = page.locator(".step-list .current", { hasText: "Now the 6R portal" });
+    await current.waitFor();
+    const { width, height } = page.viewportSize();
+    await page.setViewportSize(LOW);
+    await picture("low");
+    const [list, words] = [page.locator(".step-list"), current.locator(".step-sentence")];
+    await page.waitForTimeout(300);
+    const [around, said] = [await list.boundingBox(), await words.boundingBox()];
+    const isShown = said.y >= around.y && said.y + said.height <= around.y + around.height;
+    expect(isShown, `the step's words are cut off: ${JSON.stringify({ around, said })}`);
+    await page.setViewportSize({ width, height });
     await picture("scope");
   });
   await check(page, "the needle of the second portal is seen to come in", async () => {

@@ -65,6 +65,16 @@ export class StepPanel {
       this.showAll(!this.element.classList.contains("unfolded"));
     });
     this.showAll(false);
+    new ResizeObserver(() => {
+      this.showCurrent();
+    }).observe(this.list);
+  }
+
+  /** The current step in full, as far as the panel is high: the log gives way. */
+  private showCurrent(): void {
+    const current = this.items.find(({ item }) => item.classList.contains("current"))?.item;
+    this.list.style.setProperty("--current-step", `${current?.offsetHeight ?? 0}px`);
+    current?.scrollIntoView({ block: "nearest" });
   }
 
   private showAll(on: boolean): void {
@@ -135,11 +145,11 @@ export class StepPanel {
       if (current) {
         item.setAttribute("aria-current", "step");
         setText(this.announcer, `${step.title}: ${step.instruction}`);
-        item.scrollIntoView({ block: "nearest" });
       } else {
         item.removeAttribute("aria-current");
       }
     });
+    this.showCurrent();
   }
 
   /** Those that the host would go back to can be done again. */
