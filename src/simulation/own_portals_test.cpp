@@ -275,6 +275,83 @@ TEST(OwnPortals, NothingWasSeenForLongerThanThereWasTime) {
   }
 }
 
+void undo(Maker& maker) {
+  Command back;
+  back.kind = CommandKind::Undo;
+  maker.hand.command(back);
+}
+
+/// Each undo goes back to before something was taken, as far as there is anything to go back to.
+TEST(OwnPortals, APortalThatWasMadeStaysThroughUndoWithItsCut) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  make_portal(maker, 0.0);
+  const OwnWayView way = world.now().skin.ways[0];
+  maker.take(kScope);
+  maker.hand.go(at(15));
+  maker.hand.go(at(-7.5), 300);
+  ASSERT_TRUE(world.now().scope.facts.is_in_joint[0]);
+  int undone = 0;
+  for (; world.now().can_undo; ++undone) {
+    undo(maker);
+    EXPECT_FALSE(world.now().scope.facts.is_in_joint[0]) << "the scope is on the tray again";
+    ASSERT_EQ(world.now().skin.way_count, 1);
+    EXPECT_EQ(world.now().skin.ways[0], way);
+    ASSERT_EQ(world.now().skin.cut_count, 1) << "it was made by that";
+    EXPECT_TRUE(world.now().skin.cuts[0].is_spread);
+  }
+  EXPECT_EQ(undone, 5) << "needle, blade, clamp, sheath, scope";
+  maker.take(kScope);
+  maker.hand.go(at(15));
+  maker.hand.go(at(-7.5), 300);
+  EXPECT_TRUE(world.now().scope.facts.is_in_joint[0]);
+  maker.hand.led = 1;
+  make_portal(maker, kSecondY);
+  EXPECT_EQ(world.now().skin.facts.made, 2);
+  EXPECT_TRUE(world.now().skin.facts.portal[1].is_spread);
+}
+
+TEST(OwnPortals, ACutOfThePortalThatIsNotMadeYetIsUndone) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  maker.prick(kSecondY, 0.0, 13.0);
+  maker.cut(kSecondY);
+  maker.take("mosquito_clamp");
+  ASSERT_EQ(world.now().skin.cut_count, 2);
+  undo(maker);
+  EXPECT_EQ(world.now().skin.cut_count, 2) << "to the clamp's taking";
+  undo(maker);
+  EXPECT_EQ(world.now().skin.cut_count, 1) << "to the blade's";
+  EXPECT_FALSE(world.now().skin.facts.portal[1].is_cut);
+  EXPECT_TRUE(world.now().scope.facts.is_in_joint[0]) << "it stays in";
+  maker.cut(kSecondY);
+  maker.spread(kSecondY);
+  maker.enter(kSecondY);
+  EXPECT_EQ(world.now().skin.facts.made, 2);
+}
+
+/// The scope had been in as the needle was taken and was put away since: back in the hand it is in
+/// the joint, by its portal.
+TEST(OwnPortals, AScopeThatComesBackIntoTheJointIsInItsPortal) {
+  World world(wrist_with_skin(), from_the_skin(), 1);
+  Maker maker(world);
+  look_in(maker, true);
+  maker.take("needle_22g");
+  maker.hand.led = 0;
+  maker.hand.go(at(15));
+  ASSERT_FALSE(world.now().scope.facts.is_in_joint[0]);
+  undo(maker);
+  EXPECT_TRUE(world.now().scope.facts.is_in_joint[0]);
+  EXPECT_EQ(world.now().scope.pull_outs, 0U) << "it did not fall out";
+  maker.hand.go(at(-7.5), 300);
+  EXPECT_TRUE(world.now().scope.facts.is_in_joint[0]);
+  EXPECT_LT(length(world.now().hands[0].force_in_patient), 3.0) << "nothing holds it there";
+  maker.hand.go(at(15), 300);
+  EXPECT_FALSE(world.now().scope.facts.is_in_joint[0]) << "it comes out";
+  EXPECT_GT(tip_out_mm(world), 14.0);
+}
+
 TEST(OwnPortals, WithoutToolsOfAJointNoWayIsKept) {
   World world(wrist_with_skin(), making(), 1);
   Maker maker(world);

@@ -6,6 +6,20 @@
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
+namespace {
+
+/// Ink and cuts; of procedures that make no portals nothing. A portal that is made stays, and so do
+/// the cuts for it, which are the first ones.
+void bring_worked_back(detail::MakingState& making, const detail::Worked& before) noexcept {
+  const detail::Worked later = making.worked;
+  making.worked = before;
+  for (std::uint8_t c = 0; c < later.cut_count && later.cuts[c].portal < making.facts.made; ++c) {
+    making.worked.cuts[c] = later.cuts[c];
+    if (c >= making.worked.cut_count) making.worked.cut_count = static_cast<std::uint8_t>(c + 1);
+  }
+}
+
+}  // namespace
 
 void World::State::save_checkpoint() noexcept {
   if (checkpoint_count == checkpoints.size()) {  // the oldest is forgotten
@@ -60,7 +74,7 @@ void World::State::go_back_to(const Model& model, std::size_t kept) noexcept {
     if (loose_state.bodies[i].hand != kNoHand) let_go_of_loose(model, i);
   }
   now = checkpoints[kept];
-  making.worked = worked_at_checkpoint[kept];  // ink and cuts; of other procedures nothing
+  bring_worked_back(making, worked_at_checkpoint[kept]);
   for (std::size_t i = passes_at_checkpoint[kept]; i < spent.pass_count && i < detail::kMaxPasses;
        ++i) {
     spent.passes[i].was_undone = true;
@@ -70,6 +84,7 @@ void World::State::go_back_to(const Model& model, std::size_t kept) noexcept {
   scene.forget();
   pose_bodies(model);  // fragments are back, and the wrist may have moved since
   carry_fixed_items();
+  find_portals(model);
 }
 
 }  // namespace carpus::simulation

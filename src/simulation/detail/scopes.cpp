@@ -166,6 +166,31 @@ World::State::Wall World::State::wall_at(const Model& model,
   return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }
 
+/// What an undo put back into the hands may lie in a portal that it has left since, or in another:
+/// its shaft runs through the hole of its own.
+void World::State::find_portals(const Model& model) noexcept {
+  if (model.map == nullptr) return;
+  for (std::uint8_t h = 0; h < kHands; ++h) {
+    scope_state.portal[h] = kNoPortal;
+    scope_state.is_in_joint[h] = false;
+    const Item* item = in_hand(h);
+    if (item == nullptr || !enters_joints(model, *item)) continue;
+    double nearest = kHoleMm;
+    for (std::uint8_t p = 0; p < model.map->portals.size(); ++p) {
+      if (!is_open(model, p)) continue;
+      const WayIn way = way_in(model, p);
+      const Vec3 to_hole = way.skin - item->tip;
+      const double deep = -dot(to_hole, way.inwards);
+      const double off = length(to_hole - item->shaft * dot(to_hole, item->shaft));
+      if (!(deep >= 0.0) || !(off <= nearest)) continue;
+      nearest = off;
+      scope_state.portal[h] = p;
+      scope_state.is_in_joint[h] = deep > way.capsule_mm;
+    }
+    scope_state.last_tip[h] = item->tip;
+  }
+}
+
 /// Through which portal it goes, and whether it is in the joint.
 void World::State::follow_portal(const Model& model, std::uint8_t hand, const Item& item) noexcept {
   detail::ScopeState& state = scope_state;

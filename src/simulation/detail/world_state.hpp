@@ -230,6 +230,7 @@ struct World::State : detail::ChangingData {
                                                         std::uint8_t joint,
                                                         const Vec3& point) const noexcept;
   [[nodiscard]] Wall wall_at(const Model& model, std::uint8_t hand, const Vec3& tip) const noexcept;
+  void find_portals(const Model& model) noexcept;
   void follow_portal(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
   [[nodiscard]] bool is_in_sight(const Model& model,
                                  std::uint8_t joint,
