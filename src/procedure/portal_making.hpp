@@ -45,8 +45,10 @@ struct PortalLeftOut {
 };
 
 struct PortalMaking {
-  std::string first;                      ///< id of the portal that is made first: "3-4"
-  std::vector<std::string> second;        ///< of these the seed draws one that the case has
+  std::string first;                ///< id of the portal that is made first: "3-4"
+  std::vector<std::string> second;  ///< of these the seed draws one that the case has
+  /// What is asked for, in a sentence with {second} for that one's name: it names no landmark.
+  std::string task;
   std::vector<PortalLandmark> landmarks;  ///< one of each
   std::vector<PortalLeftOut> left_out;
   /// A second portal is asked for only where the case has all that it endangers.

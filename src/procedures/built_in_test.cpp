@@ -139,6 +139,9 @@ TEST(BuiltIn, NoPortalIsPassedOverInSilence) {
       EXPECT_FALSE(each.endangers.empty()) << each.portal;
     }
     EXPECT_EQ(making.first, "3-4");
+    EXPECT_NE(making.task.find("{second}"), std::string::npos) << "of an assessed one nothing else";
+    EXPECT_EQ(making.task.find("{second_landmarks}"), std::string::npos)
+        << "but not how it is found";
   }
   known.emplace_back("3-4");
   std::sort(known.begin(), known.end());

@@ -327,6 +327,7 @@ void write(FieldWriter& out, const Welcome& in) {
 void read(FieldReader& in, Exercise& out) {
   in.record("procedure", out.procedure);
   out.mode = static_cast<Mode>(in.choice("mode", kModeNames));
+  if (in.has("task")) out.task = in.string("task", 512);
   in.records("steps", 0, 32, out.steps);
   in.records("views", 0, 32, out.views);
   in.list("tray", 0, 128, 64, out.tray);
@@ -342,6 +343,11 @@ void write(FieldWriter& out, const Exercise& in) {
   out.name("type", "exercise");
   out.record("procedure", in.procedure);
   out.name("mode", name_of(in.mode));
+  if (in.task) {
+    out.text("task", *in.task, 512);
+  } else {
+    out.null("task");
+  }
   out.records("steps", in.steps);
   out.records("views", in.views);
   out.list("tray", in.tray, 64);

@@ -296,6 +296,8 @@ struct Welcome {
 struct Exercise {
   ProcedureSummary procedure;
   Mode mode = Mode::Practice;
+  /// what this exercise asks for in words, where its seed draws it
+  std::optional<std::string> task;
   std::vector<Step> steps;
   std::vector<NamedView> views;
   /// ids of what may be taken, in order

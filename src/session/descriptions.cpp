@@ -174,6 +174,9 @@ protocol::Exercise exercise_message(const cases::CaseData& data,
   protocol::Exercise message;
   message.mode = static_cast<protocol::Mode>(opening.mode);
   message.procedure = summary_of(procedure);
+  if (procedure.making) {
+    message.task = with_second_portal(procedure.making->task, data, procedure, opening.seed);
+  }
   for (const procedure::Step& step : procedure.steps) {
     message.steps.push_back(message_of(step));
     std::string& said = message.steps.back().instruction;

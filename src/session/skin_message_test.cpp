@@ -8,6 +8,7 @@
 #include <string>
 
 #include "instruments/instrument.hpp"
+#include "session/descriptions.hpp"
 #include "session/scope_message.hpp"
 
 namespace carpus::session {
@@ -62,6 +63,22 @@ TEST(SkinMessage, TellsPortalsWhereTheyWereMadeAndIntoWhichJoint) {
   EXPECT_EQ(message->ways[0].joint, "midcarpal") << "missed, and come into the other one";
   EXPECT_EQ(message->ways[0].skin_mm, (Vec3{5, 6, 7}));
   EXPECT_DOUBLE_EQ(message->ways[0].capsule_mm, 9.5);
+}
+
+/// An assessed page tells no step, and this alone.
+TEST(SkinMessage, TheTaskNamesTheSecondPortalAndNoLandmark) {
+  cases::CaseData data = with_portals();
+  cases::ArthroscopicMap map = *data.arthroscopy;
+  map.portals[1].name = "4-5 portal";
+  map.portals[1].landmarks = "between the tendons";
+  data.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  procedure::Procedure made = looking_by_own();
+  made.making->task = "Make the {second}.";
+  simulation::Snapshot opening;
+  opening.mode = procedure::Mode::Assessed;
+  EXPECT_EQ(exercise_message(data, made, {}, opening).task, "Make the 4-5 portal.");
+  made.making.reset();
+  EXPECT_FALSE(exercise_message(data, made, {}, opening).task);
 }
 
 TEST(SkinMessage, WherePortalsThatAreToBeMadeLieIsNotTold) {

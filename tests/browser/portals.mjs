@@ -206,5 +206,16 @@ export async function makesPortals(browser, station) {
     expect((await hands.hand()).under_mm === 0, "it pricked on its way");
     await picture("volar");
   });
+  await check(page, "an assessed page says which portal is asked for, and no step of the way", async () => {
+    await operator.start(station.url, TRAINEE, "arthroscopy_from_the_skin", "assessed");
+    const { width, height } = page.viewportSize();
+    for (const size of [{ width, height }, LOW, SMALL]) {
+      await page.setViewportSize(size);
+      await page.locator(".steps .task", { hasText: "make the 6R portal" }).waitFor();
+      expect(!(await page.locator(".step-sentence").first().isVisible()), "a step's words are shown");
+      await picture(`assessed_${size.width}`);
+    }
+    await page.setViewportSize({ width, height });
+  });
   await page.context().close();
 }

@@ -87,6 +87,10 @@ PortalMaking read_portal_making(JsonFields& fields) {
   making.first = fields.text("first");
   making.second = fields.texts_or_none("second");
   if (making.second.empty()) fields.refuse("second: name at least one portal");
+  making.task = fields.text("task");
+  if (making.task.find("{second}") == std::string::npos) {
+    fields.refuse("task: say which is the second portal, {second}");
+  }
   for (JsonFields& each : fields.objects("landmarks")) {
     making.landmarks.push_back(read_landmark(each));
   }

@@ -1284,6 +1284,8 @@ export interface ExerciseMessage {
   readonly type: "exercise";
   readonly procedure: ProcedureSummary;
   readonly mode: Mode;
+  /** what this exercise asks for in words, where its seed draws it */
+  readonly task: string | null;
   readonly steps: readonly Step[];
   readonly views: readonly NamedView[];
   /** ids of what may be taken, in order */

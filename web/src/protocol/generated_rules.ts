@@ -679,6 +679,7 @@ export const HOST_TO_PAGE: Readonly<Record<string, Rules>> = {
   exercise: {
     procedure: {"type": "procedure_summary"},
     mode: {"type": "mode"},
+    task: {"type": "string", "max_length": 512, "optional": true},
     steps: {"type": "array", "of": {"type": "step"}, "max_items": 32},
     views: {"type": "array", "of": {"type": "named_view"}, "max_items": 32},
     tray: {"type": "array", "of": {"type": "string", "max_length": 64}, "max_items": 128},

@@ -78,7 +78,7 @@ export function headsetRoom(around: HeadsetSurroundings): HeadsetHandlers {
   };
 }
 
-/** Of an assessed operation no step is told, as on the page. */
+/** Of an assessed operation no step is told, as on the page, but what is asked for. */
 function wordsOf(
   { hand, panels, seen, part }: HeadsetSurroundings,
   chosen: Instrument | undefined,
@@ -98,7 +98,7 @@ function wordsOf(
   const force = Math.hypot(...latest.hands[hand.active].force_n);
   return {
     title: step?.title ?? doing.procedure.title,
-    instruction: step?.instruction ?? "",
+    instruction: step?.instruction ?? doing.task ?? "",
     readings: [
       ["In the hand", name],
       ["Chosen", chosen?.name ?? "nothing"],

@@ -32,6 +32,8 @@ export class StepPanel {
     type: "button",
     "aria-expanded": "false",
   });
+  /** What is asked for, where no step may be told. */
+  private readonly task = make("p.task", { hidden: "" });
   private items: readonly ShownStep[] = [];
   private readonly announcer = make("p.visually-hidden", { "aria-live": "polite" });
   private readonly log = make("ol.log", { "aria-label": "What happened", tabindex: "0" });
@@ -55,6 +57,7 @@ export class StepPanel {
       firstTouch,
       make("header.panel-title", {}, make("h2", {}, "Steps")),
       this.unfold,
+      this.task,
       this.list,
       this.announcer,
       wrist,
@@ -84,8 +87,10 @@ export class StepPanel {
   }
 
   /** The steps of the procedure that is done, with the name of what each is done with. */
-  setSteps({ mode, steps, instruments, arthroscopy }: ExerciseMessage): void {
+  setSteps({ mode, task, steps, instruments, arthroscopy }: ExerciseMessage): void {
     this.isAssessed = mode === "assessed";
+    this.task.hidden = !this.isAssessed || task === null;
+    setText(this.task, task ?? "");
     this.shown = "";
     this.items = steps.map((step, index) => {
       const mark = make("span.step-mark", { "aria-hidden": "true" }, String(index + 1));
