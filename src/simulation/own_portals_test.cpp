@@ -243,11 +243,12 @@ TEST(OwnPortals, WhatWasSeenComesBackFromItsBytes) {
 std::vector<std::byte> forged(std::vector<std::byte> bytes, std::size_t at, std::uint32_t value) {
   constexpr std::size_t kChecksum = 8;
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i));
+  const std::span all(bytes);
   StateHash hash;
-  hash.add_bytes(std::span(bytes).first(bytes.size() - kChecksum));
-  bytes.resize(bytes.size() - kChecksum);
+  hash.add_bytes(all.first(all.size() - kChecksum));
+  const std::span checksum = all.last(kChecksum);
   for (std::size_t i = 0; i < kChecksum; ++i) {
-    bytes.push_back(static_cast<std::byte>(hash.value() >> (8 * i)));
+    checksum[i] = static_cast<std::byte>(hash.value() >> (8 * i));
   }
   return bytes;
 }
