@@ -193,10 +193,10 @@ int main(int argc, char** argv) {
         bytes_of(case_io::hand_motion_text(case_io::test::small_table())));
   write(corpus / "structures" / "whole",
         bytes_of(case_io::structures_text(case_io::test::small_structures())));
-  write(
-      corpus / "trust" / "whole",
-      bytes_of(case_io::trust_text(
-          {{"lunate", 0.98, false, ""}, {"scaphoid_distal", 0.31, true, "it is hollow"}}, "seed")));
+  const case_io::Trust trust{
+      {{"lunate", 0.98, false, ""}, {"scaphoid_distal", 0.31, true, "it is hollow"}},
+      {"the hamate is cut off by the edge of the scan"}};
+  write(corpus / "trust" / "whole", bytes_of(case_io::trust_text(trust, "seed")));
   write(corpus / "lesson" / "whole", bytes_of(case_io::lesson_text(small_lesson())));
   write(corpus / "pathology" / "whole",
         bytes_of(case_io::pathology_text(

@@ -13,13 +13,13 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace carpus;
   fuzz::reads_or_refuses("trust.json", [&] {
-    const auto lines =
+    const case_io::Trust trust =
         case_io::parse_trust({reinterpret_cast<const char*>(data), size}, "trust.json");
-    for (const case_io::TrustLine& line : lines) {
+    for (const case_io::TrustLine& line : trust.bones) {
       fuzz::require(line.confidence >= 0 && line.confidence <= 1);
     }
-    const auto back = case_io::parse_trust(case_io::trust_text(lines, "fuzz"), "trust.json");
-    fuzz::require(back == lines);
+    const auto back = case_io::parse_trust(case_io::trust_text(trust, "fuzz"), "trust.json");
+    fuzz::require(back == trust);
   });
   return 0;
 }
