@@ -65,3 +65,7 @@ export function startBrowser() {
     ],
   });
 }
+
+/** Until the page has drawn what it was asked for. */
+export const drawn = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));

@@ -3,15 +3,11 @@
 //
 // What a newcomer meets: the first touch, ticked by what really happens, sound, and a gamepad.
 import { expectAccessible } from "./accessibility.mjs";
-import { newcomersPage } from "./browser.mjs";
+import { drawn, newcomersPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { PAD } from "./fake_pad.mjs";
 import { atRest } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
-
-/** Two frames have been drawn. */
-const frames = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 export async function firstMinutes(browser, station) {
   const page = await newcomersPage(browser);
@@ -25,9 +21,9 @@ export async function firstMinutes(browser, station) {
   /** Down for as long as a slow page needs to see it. */
   const tap = async (button) => {
     await press(button, 1);
-    await frames(page);
+    await drawn(page);
     await press(button, 0);
-    await frames(page);
+    await drawn(page);
   };
   const tilt = (...axes) => page.evaluate((a) => window.tiltPad(...a), axes);
 
@@ -97,7 +93,7 @@ export async function firstMinutes(browser, station) {
     await tilt(0, 1, 0, 0);
     await operator.until((s) => s.wrist.flexion_deg > 10, "the wrist flexed");
     await tilt(0, 0, 0, 0);
-    await frames(page);
+    await drawn(page);
     await tap(2);
     await page.locator("dialog.tray[open]").waitFor();
     await press(8, 0);

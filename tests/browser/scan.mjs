@@ -7,7 +7,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { expectAccessible } from "./accessibility.mjs";
-import { newPage } from "./browser.mjs";
+import { drawn, newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { mendsScan } from "./scan_mend.mjs";
 
@@ -79,6 +79,27 @@ export async function lookAtScan(browser, station) {
       await expectAccessible(page);
       await page.keyboard.press("Escape");
     });
+    await check(
+      page,
+      "what is read stays with the pointer, and goes with the keys",
+      async () => {
+        await page.locator("[data-bone=capitate]").click();
+        await page.locator(".scan-reading", { hasText: "Capitate" }).waitFor();
+        const canvas = page.locator(".scan-panel.axial canvas");
+        const atCross = await reading(page);
+        await canvas.hover({ position: { x: 8, y: 60 } });
+        const atPointer = await reading(page);
+        expect(atPointer !== atCross, `both read '${atCross}'`);
+        await page.keyboard.press("o");
+        await drawn(page);
+        expect((await reading(page)) === atPointer, "a picture drawn anew took it away");
+        await page.keyboard.press("o");
+        await canvas.focus();
+        await page.keyboard.press("ArrowRight");
+        await page.locator(".scan-reading", { hasText: "Capitate" }).waitFor();
+        await page.locator(".scan-heading h1").hover();
+      },
+    );
     await check(page, "a bone is painted, taken back, and saved", async () => {
       await page.locator("[data-bone=capitate]").click();
       await page.keyboard.press("Escape");
@@ -125,7 +146,7 @@ export async function lookAtScan(browser, station) {
         await page.mouse.down();
         await page.mouse.move(x + 90, y, { steps: 4 });
         await page.mouse.up();
-        await page.mouse.move(box.x + box.width + 300, box.y + 5);
+        await page.locator(".scan-heading h1").hover();
         await reads("Capitate");
         await page.keyboard.press("z");
         await reads("no bone");

@@ -49,7 +49,9 @@ export class ScanDesk {
     this.mend?.keptAsVersion();
     this.data.added(id);
   });
-  private readonly reading = make("output.scan-reading", { "aria-label": "Under the pointer" });
+  private readonly reading = make("output.scan-reading", {
+    "aria-label": "At the pointer or the crosshair",
+  });
   private readonly said = make("p.scan-said", { role: "status" });
   private readonly bar: ScanBar;
   private readonly step: number;
@@ -57,6 +59,8 @@ export class ScanDesk {
   private alignment: Alignment = "wrist";
   private grey: GreyWindow = WINDOWS[0] ?? { centre: 500, width: 2000 };
   private cross: Vec3;
+  /** Where the pointer is in a picture; none once the crosshair has moved after it. */
+  private pointed: Vec3 | undefined;
   private crossShown = true;
   private labelsShown = true;
   private mmPerPixel = 0.2;
@@ -254,12 +258,14 @@ export class ScanDesk {
   }
 
   private hover(mm: Vec3 | undefined): void {
-    setText(this.reading, mm === undefined ? this.readingAt(this.cross) : this.readingAt(mm));
+    this.pointed = mm;
+    this.read();
   }
 
-  private readingAt(mm: Vec3): string {
+  /** What is at the pointer or at the crosshair, whichever moved last. */
+  private read(): void {
     const { ct, labels } = this.data;
-    return readingAt(ct, labels, mm, this.count);
+    setText(this.reading, readingAt(ct, labels, this.pointed ?? this.cross, this.count));
   }
 
   private labelAt(mm: Vec3): number {
@@ -281,6 +287,7 @@ export class ScanDesk {
       } else panel.keepStill(this.cross, clamped, this.mmPerPixel);
     }
     this.cross = clamped;
+    this.pointed = undefined;
     this.ask();
   }
 
@@ -488,7 +495,7 @@ export class ScanDesk {
     });
     this.bones?.setCross(this.cross, this.crossShown);
     this.list.mark(this.labelAt(this.cross), this.mend?.chosen);
-    setText(this.reading, this.readingAt(this.cross));
+    this.read();
     this.bar.show({
       grey: this.grey,
       labelsShown: this.labelsShown,
