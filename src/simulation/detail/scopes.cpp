@@ -11,6 +11,7 @@
 #include "arthroscopy/optics.hpp"
 #include "arthroscopy/pathology_table.hpp"
 #include "arthroscopy/seen_share.hpp"
+#include "simulation/detail/intervals.hpp"
 #include "simulation/detail/world_state.hpp"
 #include "simulation/questions.hpp"
 
@@ -139,14 +140,7 @@ World::State::Wall World::State::wall_at(const Model& model,
             : interval.is_between || (space.is_near && space.distance_mm <= kWallMm);
   if (is_clear) return {};
   const double thick_mm = kind_of(model, item).shape.greatest_radius_mm();
-  if (is_in_hole(model, joint_of(model, portal), tip, thick_mm)) return {};
-  // Through an interval and the tear at its far end.
-  for (const detail::YieldingSheet& behind : model.sheets) {
-    if (behind.interval && behind.interval->joint == joint_of(model, portal) &&
-        is_in_hole(model, behind.joint, tip, thick_mm)) {
-      return {};
-    }
-  }
+  if (is_in_tear(model, joint_of(model, portal), tip, thick_mm)) return {};
   if (is_in_cut_disc(model, joint_of(model, portal), tip, thick_mm)) return {};
   if (sheet) return *sheet;
   const WayIn way = way_in(model, portal);
@@ -158,10 +152,7 @@ World::State::Wall World::State::wall_at(const Model& model,
   const bool is_in = scope_state.is_in_joint[hand];
   if (!is_in && deep <= way.capsule_mm) return {off - kTunnelMm, aside * (-1.0 / off)};
   const double off_mm = space.distance_mm - kWallMm;
-  // Beside an interval that lets it in, the way back to that may be the shorter one.
-  if (interval.off_mm > 0.0 && (interval.off_mm < off_mm || !space.is_near)) {
-    return {interval.off_mm, interval.back};
-  }
+  if (detail::leads_back(interval, off_mm, space.is_near)) return {interval.off_mm, interval.back};
   if (squared_length(space.outwards) > 0.5) return {off_mm, -space.outwards};
   return {deep > way.capsule_mm ? deep - way.capsule_mm : 0.0, -way.inwards};
 }
@@ -278,25 +269,6 @@ void World::State::look_at_points(const Model& model,
     state.points_seen |= bit;
     emit(EventKind::PointSeen, kNoItem, point.number, 0.0);
   }
-}
-
-/// Where it is in the body's own frame, as if nothing had torn loose.
-Vec3 World::State::unshifted(const Model& model, std::uint8_t body, const Vec3& at) const noexcept {
-  return (inverses[body] * Point<frame::Patient>{at}).v +
-         model.lesions->shift_of(body, spent.wrist.traction_n);
-}
-
-/// Through a torn ligament or disc what is thin enough goes on, out of the joint.
-bool World::State::is_in_hole(const Model& model,
-                              std::uint8_t joint,
-                              const Vec3& at,
-                              double radius_mm) const noexcept {
-  if (!model.lesions) return false;
-  for (const cases::Lesion& lesion : model.lesions->lesions) {
-    if (lesion.joint != joint || !(lesion.passes_mm > radius_mm)) continue;
-    if (cases::passes(lesion, unshifted(model, lesion.body, at), radius_mm)) return true;
-  }
-  return false;
 }
 
 /// As look_at_points.

@@ -242,13 +242,6 @@ struct World::State : detail::ChangingData {
   void look_at_lesions(const Model& model,
                        std::uint8_t joint,
                        const arthroscopy::Sight& sight) noexcept;
-  [[nodiscard]] bool is_in_hole(const Model& model,
-                                std::uint8_t joint,
-                                const Vec3& at,
-                                double radius_mm) const noexcept;
-  [[nodiscard]] Vec3 unshifted(const Model& model,
-                               std::uint8_t body,
-                               const Vec3& at) const noexcept;
   [[nodiscard]] std::uint8_t unanswered(const Model& model) const noexcept;
   void note_scope_look(std::uint8_t joint, const arthroscopy::Sight& sight) noexcept;
   [[nodiscard]] bool is_level(const Model& model, const arthroscopy::Sight& sight) const noexcept;
@@ -257,6 +250,22 @@ struct World::State : detail::ChangingData {
   [[nodiscard]] std::optional<arthroscopy::Sight> sight_of(const Model& model,
                                                            const detail::Item& item) const noexcept;
   void watch_scopes(const Model& model) noexcept;
+
+  // tears.cpp
+  [[nodiscard]] Vec3 unshifted(const Model& model,
+                               std::uint8_t body,
+                               const Vec3& at) const noexcept;
+  [[nodiscard]] bool is_in_hole(const Model& model,
+                                std::uint8_t joint,
+                                const Vec3& at,
+                                double radius_mm) const noexcept;
+  [[nodiscard]] bool is_in_tear(const Model& model,
+                                std::uint8_t joint,
+                                const Vec3& at,
+                                double radius_mm) const noexcept;
+  [[nodiscard]] arthroscopy::InInterval interval_at(const Model& model,
+                                                    std::uint8_t hand,
+                                                    const Vec3& tip) const noexcept;
 
   // scope_conduct.cpp
   void watch_conduct(const Model& model, std::uint8_t hand, const detail::Item& item) noexcept;
@@ -448,9 +457,6 @@ struct World::State : detail::ChangingData {
                                              std::uint8_t hand,
                                              const Vec3& tip_in_patient,
                                              const Vec3& wall_outwards) const noexcept;
-  [[nodiscard]] arthroscopy::InInterval interval_at(const Model& model,
-                                                    std::uint8_t hand,
-                                                    const Vec3& tip) const noexcept;
   void yield_sheets(const Model& model) noexcept;
   void sink_in(const Model& model, std::uint8_t hand, const yielding::Tip& tip) noexcept;
   void publish_sheets(const Model& model) noexcept;

@@ -6,6 +6,7 @@
 // over -> (tips move, stopped there) -> the sheets' step -> how far the tips have sunk in.
 #include <algorithm>
 
+#include "simulation/detail/intervals.hpp"
 #include "simulation/detail/world_state.hpp"
 
 namespace carpus::simulation {
@@ -110,7 +111,7 @@ void World::State::find_sheets(const Model& model) noexcept {
     double least = 0.0;
     for (std::uint8_t s = 0; s < model.sheets.size(); ++s) {
       const YieldingSheet& sheet = model.sheets[s];
-      const bool is_behind = sheet.interval && sheet.interval->joint == joint;
+      const bool is_behind = detail::lies_behind(sheet, joint);
       if ((sheet.joint != joint && !is_behind) || sheet.net.size() == 0) continue;
       yielding::Tip tip = tip_on(model, sheet, *item, item->tip);
       tip.is_behind = is_behind;
@@ -151,33 +152,6 @@ std::optional<World::State::Wall> World::State::sheet_at(const Model& model,
     return std::nullopt;
   }
   return Wall{tip.radius_mm - gives - high, out};
-}
-
-/// Where a tip lies in an interval that its joint opens into; in none it is clear of everything.
-arthroscopy::InInterval World::State::interval_at(const Model& model,
-                                                  std::uint8_t hand,
-                                                  const Vec3& tip) const noexcept {
-  arthroscopy::InInterval deepest;
-  const Item& item = now.items[now.held[hand]];
-  const std::uint8_t joint = joint_of(model, scope_state.portal[hand]);
-  const auto& shape = kind_of(model, item).shape;
-  const Vec3 middle = tip + item.shaft * shape.front_z_mm();
-  for (const YieldingSheet& sheet : model.sheets) {
-    if (!sheet.interval || sheet.interval->joint != joint) continue;
-    const arthroscopy::InInterval made =
-        arthroscopy::in_interval(*sheet.interval, inverses[sheet.first], inverses[sheet.second],
-                                 middle, shape.greatest_radius_mm());
-    if (made.depth_mm > deepest.depth_mm) {
-      deepest.depth_mm = made.depth_mm;
-      deepest.out = made.out;
-    }
-    deepest.is_between = deepest.is_between || made.is_between;
-    if (made.off_mm > 0.0) {
-      deepest.off_mm = made.off_mm;
-      deepest.back = made.back;
-    }
-  }
-  return deepest;
 }
 
 /// How far the tissue has given where a tip is.
