@@ -170,12 +170,22 @@ class ScriptedArthroscopist {
   void plan_shaving();
   void seek_to_cut(const simulation::Snapshot& now);
   void come_to_piece(const Vec3& at, int turn, bool is_new);
-  void plan_cut(std::size_t piece);
+  void plan_cut(const simulation::Snapshot& now, std::size_t piece);
+  bool plan_press(const simulation::Snapshot& now);
   bool waits_until_clear(const simulation::Snapshot& now);
   [[nodiscard]] std::size_t next_to_cut(const simulation::Snapshot& now) const;
   [[nodiscard]] Vec3 piece_at(std::size_t piece) const;
   [[nodiscard]] Vec3 out_of_joint(std::size_t piece) const;
+
+  // shaver_approach.cpp
+  struct Approach {
+    HandPose held;
+    double mouth_deg = 0.0;
+  };
+  [[nodiscard]] Approach approach(std::uint8_t portal, std::size_t piece, double left) const;
   [[nodiscard]] double mouth_turn_deg(const HandPose& held, const Vec3& towards) const;
+  [[nodiscard]] double room_about_shaver_mm(const HandPose& held) const;
+  [[nodiscard]] bool is_in_mouth(const simulation::Snapshot& now, std::size_t piece) const;
 
   // punch_plan.cpp
   bool seek_to_bite(const simulation::Snapshot& now);
@@ -263,6 +273,9 @@ class ScriptedArthroscopist {
   std::array<std::uint8_t, cases::kMaxPieces> cut_tries_{};
   std::uint8_t last_patch_ = cases::kMaxPatches;
   Vec3 last_cut_{};
+  bool is_before_ = false;  ///< the mouth was brought to a piece ...
+  std::size_t before_ = 0;  ///< ... this one
+  int pressed_ = 0;         ///< ... and the pedal pressed there, so often
   /// What is taken in the working hand, and what is in it; of a punch where one is on the tray.
   instruments::InstrumentIndex tool_;
   instruments::InstrumentIndex in_hand_ = instruments::kNoInstrument;
