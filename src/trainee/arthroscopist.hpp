@@ -214,6 +214,10 @@ class ScriptedArthroscopist {
                              const Vec3& from,
                              double least_cosine,
                              double turn_step_deg) const;
+  /// ... well within the round picture.
+  [[nodiscard]] View view_of(std::uint8_t portal,
+                             std::span<const Vec3> places,
+                             const Vec3& from) const;
   [[nodiscard]] View view_of(std::uint8_t portal, const Vec3& point, const Vec3& from) const;
   [[nodiscard]] arthroscopy::OpenedSpace space_at(std::uint8_t joint, const Vec3& at) const;
   [[nodiscard]] bool has_room(std::uint8_t joint, const Vec3& tip, double room_mm) const;
