@@ -31,6 +31,7 @@ import { preparesPathology } from "./pathology.mjs";
 import { screwControl } from "./screw.mjs";
 import { startStation } from "./station.mjs";
 import { playQuiz } from "./view_quiz.mjs";
+import { goesInFromVolar } from "./volar.mjs";
 
 const TRAINEE = "Browser test";
 /** Of grey levels: a blank picture with noise stays under this. */
@@ -662,6 +663,7 @@ try {
   await shaving(browser, station);
   await biting(browser, station);
   await makesPortals(browser, station);
+  await goesInFromVolar(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);

@@ -21,6 +21,7 @@ const EXERCISE = {
     portals: [
       { ...PORTAL, name: "3-4", skin_mm: [0, 0, 0] },
       { ...PORTAL, name: "4-5", skin_mm: [10, 0, 0] },
+      { ...PORTAL, name: "VR", skin_mm: [0, 0, -40], inwards: [0, 0, 1] },
     ],
   },
 } as unknown as ExerciseMessage;
@@ -68,6 +69,7 @@ function desk(tools = true): {
       take: (instrument, hand) => did.push(`take ${instrument} ${hand}`),
       pull: () => undefined,
       say: () => undefined,
+      showSide: (facing) => did.push(`show ${facing.map((v) => Math.round(v)).join()}`),
       showHand: () => undefined,
     },
     () => undefined,
@@ -144,6 +146,13 @@ describe("two hands at a scope", () => {
     // The shaft runs through the hole in the skin.
     const { tip_mm: tip = [0, 0, 0], shaft = [0, 0, 1] } = scope ?? {};
     expect(tip[1] - (tip[2] / shaft[2]) * shaft[1]).toBeCloseTo(3, 6);
+  });
+
+  it("show the side that their portal faces as they go round to it", () => {
+    const { leading, did } = desk();
+    leading.seeScope({ ...SCOPE, portals: ["", ""] });
+    leading.goToNextPortal(0);
+    expect(did).toContain("show 0,0,-1");
   });
 
   it("begin before their portal with what was taken elsewhere, wherever that is", () => {

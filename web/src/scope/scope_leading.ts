@@ -9,7 +9,9 @@ import type {
   Item,
   ScopeMessage,
   SnapshotMessage,
+  Vec3,
 } from "../protocol";
+import { scaled } from "../tool_placement";
 import { HandsToSend, PEDAL_REPEAT_MS } from "./hands_to_send";
 import { wrappedDeg } from "./scope_hand_model";
 import { ScopeHands, type HandIndex, type Lead } from "./scope_hands";
@@ -27,6 +29,8 @@ export interface LeadingRoom {
   /** @param byN  more traction, or less */
   pull(byN: number): void;
   say(text: string): void;
+  /** The panorama shows what faces this way, in Patient. */
+  showSide(facing: Vec3): void;
   /** Mouse and keys move this hand from now on. */
   showHand(hand: HandIndex): void;
 }
@@ -275,6 +279,8 @@ export class ScopeLeading {
     this.hands.goToNextPortal(hand);
     this.sending.mark(hand);
     this.onPortal();
+    const now = this.hands.portalNowOf(hand);
+    if (now !== undefined) this.room.showSide(scaled(now.inwards, -1));
     const next = this.hands.portalOf(hand);
     this.room.say(`${next?.name ?? ""}: ${next?.landmarks ?? ""}.`);
   }

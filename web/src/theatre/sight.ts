@@ -12,6 +12,7 @@ export type ViewId = (typeof VIEWS)[number];
 
 /** The sides of the forearm as it is held, as for the C-arm: Dorsal looks along the beam of PA. */
 const SIDES = { dorsal: "Dorsal", radial: "Radial", volar: "Volar", ulnar: "Ulnar" } as const;
+type Side = keyof typeof SIDES;
 const FIELD_OF_VIEW_DEG = 26;
 const DISTANCE_M = 0.225;
 const WIRE_DISTANCE_M = 0.16;
@@ -149,6 +150,15 @@ export class Sight {
     this.camera.position.copy(this.target).addScaledVector(offset.normalize(), distance);
     this.controls.update();
     this.onChange?.();
+  }
+
+  /** The named side that lies most in this direction of Patient. */
+  sideIn(direction: Vec3): Side {
+    const way = this.scratch.set(...this.frames.directionToRenderer(direction));
+    const share = (side: Side): number =>
+      this.forward.set(...towards(SIDES[side], this.facing)).dot(way);
+    const [first, ...others] = Object.keys(SIDES) as [Side, ...Side[]];
+    return others.reduce((best, side) => (share(side) > share(best) ? side : best), first);
   }
 
   /** Right and up of the screen, in Patient. */

@@ -42,6 +42,8 @@ import { looksDifferent } from "./snapshot_look_model";
 import { WornStage } from "./worn_stage";
 
 const CUBE_PX = 88;
+/** What faces the viewer by less is seen from its edge, or not at all. */
+const SEEN_COSINE = 0.5;
 /** With two eyes one looks past what holds an instrument. */
 const HOLDERS_ARE_SEEN = (): number => 0;
 
@@ -335,6 +337,11 @@ export class Theatre {
 
   lookFrom(view: ViewId): void {
     this.sight.lookFrom(view, this.tool);
+  }
+
+  /** From where something that faces this way, in Patient, is seen; undefined: from where one looks now. */
+  viewOf(facing: Vec3): ViewId | undefined {
+    return this.sight.towardsViewer(facing) < SEEN_COSINE ? this.sight.sideIn(facing) : undefined;
   }
 
   /** Turns the view about what it looks at [rad], and marks the middle for a moment. */

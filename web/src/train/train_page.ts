@@ -214,6 +214,10 @@ export class TrainPage {
         say: (text) => {
           this.panels.notice.say(text);
         },
+        showSide: (facing) => {
+          const view = this.theatre.viewOf(facing);
+          if (view !== undefined) this.actions.look(view);
+        },
         showHand: (hand) => {
           // The tray, too, is this hand's.
           if (hand !== this.hand.active) this.hand.switchHand();

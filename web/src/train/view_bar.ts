@@ -125,7 +125,7 @@ export class ViewBar {
     this.aids.ghost.hidden = false;
   }
 
-  /** A scope's V is its next portal. */
+  /** Where V does something else it is not named here. */
   offerKey(has: boolean): void {
     this.key.hidden = !has;
   }

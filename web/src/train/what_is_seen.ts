@@ -95,7 +95,8 @@ export class WhatIsSeen {
     drive.element.hidden = !offered.drive;
     arm.element.hidden = !offered.cArm;
     if (!worksOnSkin(exercise.instruments)) views.offerPlan(offered.plan);
-    views.offerKey(offered.drive);
+    // A scope's V is its next portal.
+    views.offerKey(exercise.arthroscopy === null);
     bottom.offer(offered);
     wrist.reset(exercise.wrist_limits);
   }

@@ -1,0 +1,98 @@
+// Copyright 2026 The Carpus authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From the palm by mouse and keys: the scope goes round to the volar radial portal, which is then in sight, and in; and
+// the palm's closed skin is opened there until the scope shows the joint by that way.
+// With CARPUS_SCOPE_PICTURES a folder for what is seen on the way.
+import { join } from "node:path";
+import { newPage } from "./browser.mjs";
+import { check, expect } from "./checks.mjs";
+import { atRest } from "./hands.mjs";
+import { dot, Operator, readWrist } from "./operator.mjs";
+import { minus, plus, SkinHands } from "./skin_hands.mjs";
+
+const TRAINEE = "Browser test, volar";
+/** Of grey levels: a blank picture stays under this. */
+const LEAST_DEVIATION = 12;
+
+export async function goesInFromVolar(browser, station) {
+  const page = await newPage(browser);
+  const operator = new Operator(page);
+  const hands = new SkinHands(page, operator);
+  const { dorsal } = readWrist(station.caseFolder);
+  const large = page.locator(".scope:not(.is-inset) .scope-picture");
+  const pictures = process.env.CARPUS_SCOPE_PICTURES;
+  const picture = async (name) => {
+    if (pictures !== undefined) await page.screenshot({ path: join(pictures, `volar_${name}.png`) });
+  };
+  const begin = async (procedure) => {
+    await operator.start(station.url, TRAINEE, procedure, "practice");
+    await atRest(operator);
+    const pull = page.locator("#wrist-traction_n");
+    await pull.fill("45");
+    await pull.blur();
+    await operator.until((s) => s.wrist.traction_n >= 44, "traction");
+  };
+  /** Of grey levels in the middle of the scope's picture. */
+  const deviation = () =>
+    large.evaluate((canvas) => {
+      const side = 64;
+      const small = new OffscreenCanvas(side, side).getContext("2d");
+      small.drawImage(canvas, canvas.width / 4, canvas.height / 4, canvas.width / 2, canvas.height / 2, 0, 0, side, side);
+      const { data } = small.getImageData(0, 0, side, side);
+      const grey = Array.from({ length: side * side }, (_, i) => data[4 * i + 1]);
+      const mean = grey.reduce((a, b) => a + b, 0) / grey.length;
+      return Math.sqrt(grey.reduce((sum, v) => sum + (v - mean) ** 2, 0) / grey.length);
+    });
+  const showsTheJoint = async () => {
+    for (let waited = 0; waited < 5000; waited += 200) {
+      if ((await deviation()) > LEAST_DEVIATION) return;
+      await page.waitForTimeout(200);
+    }
+    throw new Error(`the scope's picture is blank: ${await deviation()}`);
+  };
+
+  let portal;
+  await check(page, "V leads the scope round to the palm, in sight, and in by it", async () => {
+    await begin("diagnostic_arthroscopy");
+    portal = (await operator.exercise()).arthroscopy.portals.find((one) => one.id === "VR");
+    const said = page.locator(".notice", { hasText: "volar radial portal" });
+    for (let tries = 0; tries < 12 && !(await said.isVisible()); ++tries) {
+      await page.keyboard.press("v");
+      await page.waitForTimeout(100);
+    }
+    await page.locator('.view-bar button[aria-pressed="true"]', { hasText: "Volar" }).waitFor();
+    await operator.until((s) => dot(Operator.held(s).shaft, dorsal) < -0.7, "the scope from volar");
+    await hands.goIn();
+    expect((await hands.scope()).portals[0] === "VR", "it is in another portal");
+    await showsTheJoint();
+    await picture("by_v");
+  });
+  await check(page, "the palm's skin is opened, and the scope goes in by that way", async () => {
+    await begin("arthroscopy_from_the_skin");
+    const pose = (await page.evaluate(() => window.carpus.bodyPoses()))[portal.body];
+    const spot = Operator.moved(pose, portal.skin_mm);
+    const inwards = minus(Operator.moved(pose, plus(portal.skin_mm, portal.inwards)), spot);
+    await operator.take("fingertip");
+    await page.getByRole("button", { name: "Volar", exact: true }).click();
+    await page.keyboard.press("Enter");
+    await operator.until((s) => dot(Operator.held(s).shaft, dorsal) < -0.7, "the finger from volar");
+    await page.getByRole("button", { name: "Radial", exact: true }).click();
+    await operator.settle();
+    await operator.turnShaft(inwards.map((v) => -v), 4);
+    await page.getByRole("button", { name: "Volar", exact: true }).click();
+    await operator.settle();
+    await hands.cut(spot);
+    await picture("cut");
+    await hands.spread(spot);
+    await hands.enter(spot, 1);
+    await picture("sheath");
+    await hands.drawOut();
+    await operator.take("arthroscope_1_9_30");
+    await large.waitFor();
+    await hands.goIn();
+    await showsTheJoint();
+    await picture("by_own_way");
+  });
+  await page.context().close();
+}
