@@ -32,6 +32,8 @@ struct PortalLandmark {
   std::vector<std::string> draws_aside = {};
   /// Cut and spread before the needle: it goes in on the ground of the wound.
   bool is_opened_first = false;
+  std::string before_needle =
+      {};  ///< what to do so, in sentences before those of the needle's step
   /// Farther off its way, on its side of the wrist, lies what a case of an older program lacks:
   /// whether that was harmed nobody can say, and nothing there counts as unharmed.
   std::optional<double> judged_mm = std::nullopt;

@@ -85,6 +85,8 @@ std::string with_second_portal(std::string text,
   const auto asked = simulation::asked_portals(data, *procedure.making, seed);
   if (!asked) return text;
   const cases::Portal& second = data.arthroscopy->portals[asked->back()];
+  const auto* landmark = procedure::landmark_of(*procedure.making, second.id);
+  replace(text, "{second_before_needle}", landmark != nullptr ? landmark->before_needle : "");
   replace(text, "{second_landmarks}", second.landmarks);
   replace(text, "{second}", second.name);
   return text;

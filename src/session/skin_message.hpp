@@ -21,7 +21,8 @@ namespace carpus::session {
                                                          const simulation::Snapshot& now);
 
 /// A step's text with the second portal's name and landmarks in place of {second} and
-/// {second_landmarks}; as it is where the procedure makes no portals.
+/// {second_landmarks}, and what goes before its needle of {second_before_needle}; as it is where
+/// the procedure makes no portals.
 [[nodiscard]] std::string with_second_portal(std::string text,
                                              const cases::CaseData& data,
                                              const procedure::Procedure& procedure,

@@ -81,6 +81,16 @@ TEST(SkinMessage, TheTaskNamesTheSecondPortalAndNoLandmark) {
   EXPECT_FALSE(exercise_message(data, made, {}, opening).task);
 }
 
+TEST(SkinMessage, TheNeedlesStepSaysWhatGoesBeforeItWhereTheWayIsOpenedFirst) {
+  const cases::CaseData data = with_portals();
+  procedure::Procedure made = looking_by_own();
+  made.making->landmarks = {{"4-5", "3-4"}};
+  const std::string said = "{second_before_needle}Prick it.";
+  EXPECT_EQ(with_second_portal(said, data, made, 1), "Prick it.");
+  made.making->landmarks[0].before_needle = "First cut. ";
+  EXPECT_EQ(with_second_portal(said, data, made, 1), "First cut. Prick it.");
+}
+
 TEST(SkinMessage, WherePortalsThatAreToBeMadeLieIsNotTold) {
   const cases::CaseData data = with_portals();
   const auto message = arthroscopy_of(data, looking_by_own(), 1, {});

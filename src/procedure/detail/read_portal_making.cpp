@@ -24,6 +24,7 @@ PortalLandmark read_landmark(JsonFields& fields) {
   read.endangers = fields.texts_or_none("endangers");
   read.draws_aside = fields.texts_or_none("draws_aside");
   read.is_opened_first = fields.boolean_or("opened_first", false);
+  if (read.is_opened_first) read.before_needle = fields.text("before_needle");
   for (const auto* ids : {&read.endangers, &read.draws_aside}) {
     for (const std::string& id : *ids) {
       if (anatomy::StructureTable::generic().find(id) == nullptr) {
