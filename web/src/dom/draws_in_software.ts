@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
-
+//
+// Whether this machine draws by its processor, asked once of WebGL: by the name that its renderer gives itself.
 let known: boolean | undefined;
 
 /** Whether WebGL runs on the processor: then all is drawn simpler, from the start. */
