@@ -110,16 +110,23 @@ export async function ratesByAsset(browser) {
       await open.click();
       expect(!(await page.locator(".asset-table").isVisible()), "forms are seen while one rates");
     });
-    await check(page, "what was not saved is there again after a look at the replay", async () => {
-      await page.fill("#asset-comment", "Probe seen late.\nLook round first.");
-      await page.goto(`${station.url}/#/attempts`);
-      await page.locator("tr[data-attempt]").first().waitFor();
-      await page.goto(`${station.url}/#/attempts/1`);
+    const expectNotSavedIsThere = async () => {
       await page.locator(".asset-form").waitFor();
       const comment = await page.inputValue("#asset-comment");
       expect(comment.startsWith("Probe seen late."), `'${comment}'`);
       const chosen = await page.locator(".asset-form input:checked").count();
       expect(chosen === 6, `${chosen} rows`);
+    };
+    await check(page, "what was not saved is there again after a look at the replay", async () => {
+      await page.fill("#asset-comment", "Probe seen late.\nLook round first.");
+      await page.goto(`${station.url}/#/attempts`);
+      await page.locator("tr[data-attempt]").first().waitFor();
+      await page.goto(`${station.url}/#/attempts/1`);
+      await expectNotSavedIsThere();
+    });
+    await check(page, "and when the page is loaded anew, as for another case's replay", async () => {
+      await page.reload();
+      await expectNotSavedIsThere();
     });
     await check(
       page,

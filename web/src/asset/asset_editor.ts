@@ -20,13 +20,11 @@ import {
   type AssetRow,
 } from "./asset_model";
 import { draftOf, firstDraft, ratingOf, unseenForm, type Draft } from "./draft_model";
+import { forgetDraft, keepDraft, keptDraft, type RatedAttempt } from "./kept_drafts";
 
 const RATER_KEY = "carpus.rater";
 const MAX_NAME = 64;
 const MAX_COMMENT = 2000;
-
-/** By attempt, until this page is loaded anew: who rates looks at the replay in between. */
-const unsaved = new Map<number, Draft>();
 
 export class AssetEditor {
   readonly element = make("form.asset-form", { novalidate: "", "aria-label": "Your ASSET form" });
@@ -52,13 +50,13 @@ export class AssetEditor {
 
   /** @param said  where it is told what became of it */
   constructor(
-    private readonly attemptId: number,
+    private readonly attempt: RatedAttempt,
     private forms: AssetForms,
     private readonly said: HTMLElement,
     private readonly onSaved: (forms: AssetForms) => void,
     private readonly onClose: () => void,
   ) {
-    const kept = unsaved.get(attemptId);
+    const kept = keptDraft(attempt);
     this.draft = kept ?? firstDraft(remembered(RATER_KEY), forms.forms);
     this.element.hidden = kept === undefined;
     this.element.append(
@@ -114,7 +112,7 @@ export class AssetEditor {
 
   private close(): void {
     this.element.hidden = true;
-    this.say(this.draft.isChanged ? "Not saved yet; it is kept while this page is open." : "");
+    this.say(this.draft.isChanged ? "Not saved yet; it is kept until this tab is closed." : "");
     this.onClose();
   }
 
@@ -172,7 +170,7 @@ export class AssetEditor {
 
   private change(by: Partial<Draft>): void {
     this.draft = { ...this.draft, ...by, isChanged: true };
-    unsaved.set(this.attemptId, this.draft);
+    keepDraft(this.attempt, this.draft);
     this.say("");
     this.tell();
   }
@@ -209,7 +207,7 @@ export class AssetEditor {
       `${unseen.rater} has saved a form here. `,
       button("Open it", "", () => {
         this.draft = draftOf(unseen);
-        unsaved.delete(this.attemptId);
+        forgetDraft(this.attempt);
         this.say("");
         this.fill();
         this.focusFirst();
@@ -232,16 +230,16 @@ export class AssetEditor {
     this.save.disabled = true;
     this.say("Saving…");
     try {
-      this.forms = await saveAssetRating(this.attemptId, rating);
+      this.forms = await saveAssetRating(this.attempt.id, rating);
     } catch (error) {
       this.say(error instanceof Error ? error.message : String(error), true);
       // Perhaps another's form is in the way: then it can be opened.
-      this.forms = await fetchAssetForms(this.attemptId).catch(() => this.forms);
+      this.forms = await fetchAssetForms(this.attempt.id).catch(() => this.forms);
       this.tell();
       return;
     }
     remember(RATER_KEY, rating.rater);
-    unsaved.delete(this.attemptId);
+    forgetDraft(this.attempt);
     this.draft = firstDraft(rating.rater, this.forms.forms);
     this.fill();
     this.onSaved(this.forms);

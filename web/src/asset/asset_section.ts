@@ -8,13 +8,14 @@ import { button, make, setText } from "../dom";
 import type { AssetForms } from "../protocol";
 import { AssetEditor } from "./asset_editor";
 import { formsTable } from "./forms_table";
+import type { RatedAttempt } from "./kept_drafts";
 import "./asset.css";
 
 const ABOUT =
   "The program cannot judge this; a person can. It changes nothing in the score above. A form passes " +
   "where each of the eight domains is 3 or better, whatever the sum.";
 
-export function assetSection(attemptId: number, staying: { isLeft(): boolean }): HTMLElement {
+export function assetSection(attempt: RatedAttempt, staying: { isLeft(): boolean }): HTMLElement {
   const saved = make("div.asset-saved", {}, make("p.secondary", {}, "Loading…"));
   const said = make("p.asset-said", { role: "status" });
   const place = make("div");
@@ -40,7 +41,7 @@ export function assetSection(attemptId: number, staying: { isLeft(): boolean }):
       editor.open();
       stand();
     });
-    const editor = new AssetEditor(attemptId, forms, said, show, () => {
+    const editor = new AssetEditor(attempt, forms, said, show, () => {
       stand();
       opener.focus();
     });
@@ -52,7 +53,7 @@ export function assetSection(attemptId: number, staying: { isLeft(): boolean }):
     stand();
     place.replaceChildren(opener, editor.element);
   };
-  fetchAssetForms(attemptId).then(
+  fetchAssetForms(attempt.id).then(
     (forms) => {
       if (staying.isLeft()) return;
       show(forms);

@@ -35,6 +35,18 @@ export function firstDraft(rater: string, forms: readonly AssetForm[]): Draft {
   return own === undefined ? newDraft(rater) : draftOf(own);
 }
 
+/** What was kept of a draft as it would be sent. */
+export function draftAgain(rating: AssetRating): Draft {
+  const { rater, revision, comment } = rating;
+  return {
+    rater,
+    comment,
+    chosen: chosenOf(rating),
+    basis: revision === 0 ? undefined : { rater, revision },
+    isChanged: true,
+  };
+}
+
 /** One of this name that is saved and is not what the draft began from: it must be seen first. */
 export function unseenForm(draft: Draft, forms: readonly AssetForm[]): AssetForm | undefined {
   const saved = forms.find((form) => form.rater === draft.rater.trim());

@@ -139,7 +139,7 @@ function show(
       "Where targets come from: [S50] and the like are published sources, by their number in docs/sources.md; [K] is general knowledge without a source, [E] our own estimate.",
     ),
     ...(report.is_void !== true && isRatedByAsset(report)
-      ? [assetSection(attempt.id, { isLeft })]
+      ? [assetSection(attempt, { isLeft })]
       : []),
     ...(attempt.case_is_open && report.is_void !== true && isFixation(report)
       ? [viewsSection(attempt)]
