@@ -5,8 +5,6 @@
 // and nothing is half written. CARPUS_LONG=1 takes more moments.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include <random>
 #include <thread>
 
+#include "child_process.hpp"
 #include "core/error.hpp"
 #include "disk_shim.hpp"
 #include "scenario.hpp"
@@ -26,11 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-bool is_long() {
-  const char* const value = std::getenv("CARPUS_LONG");
-  return value != nullptr && *value != '\0';
-}
 
 class Durability : public ::testing::Test {
  protected:
@@ -46,26 +40,6 @@ class Durability : public ::testing::Test {
     fs::remove_all(root_ / name);
     fs::create_directory(root_ / name);
     return root_ / name;
-  }
-
-  /// A child process that ends with what `work` returns.
-  template <typename Work>
-  static pid_t start(Work&& work) {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    int status = 1;
-    try {
-      status = work();
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "child: %s\n", error.what());
-    }
-    ::_exit(status);
-  }
-  static int wait_for(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
 
   void judge(const Found& found, const std::string& when) {
