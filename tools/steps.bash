@@ -31,6 +31,17 @@ fail() {
   exit 1
 }
 
+# fail, with what may be the reason where the disk has little room left: tools say it pages above, or not at all.
+fail_maybe_full() {
+  local free
+  free=$(df -Pm . 2>/dev/null | awk 'NR == 2 { print $4 }')
+  [ "${free:-$ROOM_MB}" -ge "$ROOM_MB" ] ||
+    fail "$* Only $free MB are free on this disk, and it may take $ROOM_MB: make room, and start again."
+  fail "$*"
+}
+# What a build of the program and of the page take, with what npm unpacks meanwhile.
+ROOM_MB=500
+
 require_debian_12() {
   local id="" version=""
   if [ -r /etc/os-release ]; then
@@ -55,7 +66,7 @@ build_targets() {
     }
     touch "$configured"
   fi
-  cmake --build "build/$preset" --target "$@" || fail "the build failed; the first error is above."
+  cmake --build "build/$preset" --target "$@" || fail_maybe_full "the build failed; the first error is above."
 }
 
 # Runs npm ci only when the lock file changed since it last succeeded.
@@ -63,15 +74,16 @@ install_web_packages() {
   local stamp=web/node_modules/.carpus-lock
   if ! cmp -s web/package-lock.json "$stamp"; then
     (cd web && npm ci --no-audit --no-fund --loglevel=error) ||
-      fail "npm could not install the page's packages (is the npm registry reachable?)."
+      fail_maybe_full "npm could not install the page's packages (is the npm registry reachable?)."
     cp web/package-lock.json "$stamp"
   fi
 }
 
-# Builds web/dist when a source is newer than the last build.
+# Builds web/dist when a source is newer than the last build. Hints for who writes the page are left to
+# `npm run build`: to who starts it they read like faults.
 build_web() {
   if [ ! -f web/dist/index.html ] ||
     [ -n "$(find web/src web/public web/index.html web/package-lock.json web/vite.config.* -newer web/dist/index.html -print -quit 2>/dev/null)" ]; then
-    (cd web && npm run --silent build) || fail "building the page failed; the reason is above."
+    (cd web && npm run --silent build -- --logLevel error) || fail_maybe_full "building the page failed; the reason is above."
   fi
 }
