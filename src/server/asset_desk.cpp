@@ -159,9 +159,9 @@ HttpResponse AssetDesk::rate(const Guest& guest, std::int64_t number, std::strin
                         "A form of this name was saved here that you have not seen. Open it, or "
                         "rate under another name.");
   } catch (const IoError& error) {
-    return make_problem(503, std::string(error.what()) +
-                                 ". Your form was not stored; it is still on this page: save it "
-                                 "again in a moment.");
+    // Of the records it says already that the form was not stored, why, and what to do about it.
+    return make_problem(
+        503, std::string(error.what()) + ". It is still on this page: save it again afterwards.");
   }
 }
 
