@@ -1,91 +1,33 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A card at the theatre's edge that has the person do each thing once. It comes with the first operation on
-// this device, can be left at once, and begins again from the help.
+// A card at the theatre's edge that has the person do each thing once. It comes with the first operation of
+// its kind on this device, can be left at once, and begins again from the help.
 import { button, make, remember, remembered, setText } from "../dom";
 import { keyCap } from "../key_caps";
 import "./first_touch.css";
-import { FirstTouch, TASKS, type Observation, type Task } from "./first_touch_model";
+import { FirstTouch, type Lesson, type Observation } from "./first_touch_model";
 
-const KEY = "carpus.first_touch";
-
-interface Told {
-  readonly name: string;
-  readonly mouse: string;
-  readonly finger: string;
-  readonly keys: string;
-  readonly gamepad: string;
+interface Row {
+  readonly element: HTMLElement;
+  readonly way: HTMLElement;
 }
-
-const TOLD: Readonly<Record<Task, Told>> = {
-  look: {
-    name: "Turn the view",
-    mouse: "Drag with the right button.",
-    finger: "Drag with two fingers.",
-    keys: "Ctrl + arrows",
-    gamepad: "The cross turns it; the right stick pressed goes to the next view.",
-  },
-  move: {
-    name: "Move the tip",
-    mouse: "Drag it onto a bone with the left button.",
-    finger: "Drag with one finger: it pushes the tip along.",
-    keys: "Arrows, {KeyA} {KeyD}",
-    gamepad: "The left stick; RB brings it nearer, LB back.",
-  },
-  aim: {
-    name: "Aim",
-    mouse: "Shift + drag turns the shaft, or look along the way and press Enter.",
-    finger: "Choose Shaft below and drag, or look along the way and touch Aim.",
-    keys: "Shift + arrows, Enter",
-    gamepad: "The right stick, or look along the way and press B.",
-  },
-  drive: {
-    name: "Push and drive",
-    mouse: "With the tip on bone hold Drive. Less push where bone is soft.",
-    finger: "With the tip on bone hold Drive. Less push where bone is soft.",
-    keys: "hold Space, {BracketLeft} {BracketRight}",
-    gamepad: "With the tip on bone: the right trigger, as deep as you push.",
-  },
-  shot: {
-    name: "Take a picture",
-    mouse: "Choose a view of the C-arm.",
-    finger: "Touch a view of the C-arm.",
-    keys: "1 … 6, hold {KeyE}",
-    gamepad: "A; Y takes the next view, X held looks live.",
-  },
-  undo: {
-    name: "Undo",
-    mouse: "Back to before the bone was entered.",
-    finger: "Back to before the bone was entered.",
-    keys: "{KeyZ}",
-    gamepad: "Back.",
-  },
-};
 
 export class FirstTouchCard {
   readonly element: HTMLElement;
   private readonly list = make("ol");
-  private readonly rows: ReadonlyMap<Task, HTMLElement>;
+  private readonly rows = new Map<string, Row>();
   private readonly end = make("p", { role: "status" });
   private readonly leaveButton: HTMLButtonElement;
   private readonly anewButton: HTMLButtonElement;
+  private lesson: Lesson | undefined;
   private touch: FirstTouch | undefined;
   private beganMs = 0;
+  private hasGamepad = false;
   private readonly byFinger = window.matchMedia("(pointer: coarse)").matches;
-  private readonly ways = new Map<Task, HTMLElement>();
 
   /** @param startAnew  asks, then begins an operation in earnest */
   constructor(startAnew: () => void) {
-    this.rows = new Map(
-      TASKS.map((task) => {
-        const way = make("p");
-        this.ways.set(task, way);
-        const row = make("li", {}, make("span.first-touch-name", {}, TOLD[task].name), way);
-        return [task, row];
-      }),
-    );
-    this.list.append(...this.rows.values());
     this.leaveButton = button(
       "Skip",
       "",
@@ -107,25 +49,44 @@ export class FirstTouchCard {
       this.anewButton,
     );
     this.element.hidden = true;
-    this.useGamepad(false);
   }
 
   /** Says how by gamepad, while one is plugged in. */
   useGamepad(on: boolean): void {
-    for (const [task, way] of this.ways) {
-      const { finger, gamepad, keys, mouse } = TOLD[task];
-      if (on) way.replaceChildren(gamepad);
-      else way.replaceChildren(this.byFinger ? finger : mouse, " ", keyCap(keys));
+    this.hasGamepad = on;
+    for (const task of this.lesson?.tasks ?? []) {
+      const way = this.rows.get(task.id)?.way;
+      if (on) way?.replaceChildren(task.gamepad);
+      else way?.replaceChildren(this.byFinger ? task.finger : task.mouse, " ", keyCap(task.keys));
     }
   }
 
-  /** With the first operation on this device. */
+  /** That of the operation that runs; undefined where there is none. */
+  useLesson(lesson: Lesson | undefined): void {
+    if (lesson === this.lesson) return;
+    this.lesson = lesson;
+    this.touch = undefined;
+    this.element.hidden = true;
+    this.rows.clear();
+    for (const { id, name } of lesson?.tasks ?? []) {
+      const way = make("p");
+      this.rows.set(id, {
+        element: make("li", {}, make("span.first-touch-name", {}, name), way),
+        way,
+      });
+    }
+    this.list.replaceChildren(...[...this.rows.values()].map(({ element }) => element));
+    this.useGamepad(this.hasGamepad);
+  }
+
+  /** With the first operation of its kind on this device. */
   offer(): void {
-    if (remembered(KEY) === "") this.begin();
+    if (this.lesson !== undefined && remembered(this.lesson.id) === "") this.begin();
   }
 
   begin(): void {
-    this.touch = new FirstTouch();
+    if (this.lesson === undefined) return;
+    this.touch = new FirstTouch(this.lesson);
     this.beganMs = performance.now();
     this.element.hidden = false;
     this.show();
@@ -137,27 +98,30 @@ export class FirstTouchCard {
   }
 
   private leave(): void {
-    remember(KEY, "seen");
+    this.rememberIt();
     this.touch = undefined;
     this.element.hidden = true;
+  }
+
+  private rememberIt(): void {
+    if (this.lesson !== undefined) remember(this.lesson.id, "seen");
   }
 
   private show(): void {
     const { touch } = this;
     if (touch === undefined) return;
-    for (const [task, row] of this.rows) {
-      row.classList.toggle("done", touch.isDone(task));
-      row.classList.toggle("current", task === touch.current);
+    for (const [task, { element }] of this.rows) {
+      element.classList.toggle("done", touch.isDone(task));
+      element.classList.toggle("current", task === touch.current);
     }
     const { finished } = touch;
-    if (finished) remember(KEY, "seen");
+    if (finished) this.rememberIt();
     const seconds = Math.round((performance.now() - this.beganMs) / 1000);
-    setText(
-      this.end,
-      finished ? `All of it in ${seconds} s. This bone is drilled: start anew.` : "",
-    );
+    const { spoils } = touch.lesson;
+    const all = `All of it in ${seconds} s.${spoils ? " This bone is drilled: start anew." : ""}`;
+    setText(this.end, finished ? all : "");
     setText(this.leaveButton, finished ? "Go on" : "Skip");
-    this.anewButton.hidden = !finished;
+    this.anewButton.hidden = !finished || !spoils;
     this.element.classList.toggle("finished", finished);
   }
 }

@@ -1,12 +1,9 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first ninety seconds: six things that hands must know, each ticked by what really happened, in
-// whatever order. Pure.
+// The first ninety seconds: a few things that hands must know, each ticked by what really happened, in
+// whatever order. Which they are is a lesson's affair. Pure.
 import type { Vec3 } from "../protocol";
-
-export const TASKS = ["look", "move", "aim", "drive", "shot", "undo"] as const;
-export type Task = (typeof TASKS)[number];
 
 /** What there is to see of what the person does. */
 export interface Observation {
@@ -19,56 +16,73 @@ export interface Observation {
   readonly depthMm: number;
   readonly shots: number;
   readonly undos: number;
+  /** That mouse and keys move. */
+  readonly hand: number;
+  /** In a joint, whatever hand holds it; undefined before: outside it neither leans nor looks. */
+  readonly scope: ScopeSeen | undefined;
 }
 
-/** So much was meant. */
-const LOOK_DEG = 10;
-const MOVE_MM = 3;
-const AIM_DEG = 5;
-const DRIVE_MM = 1;
+export interface ScopeSeen {
+  readonly tip: Vec3;
+  readonly shaft: Vec3;
+  /** How the shaft and its camera head are turned. */
+  readonly shaftDeg: number;
+  readonly cameraDeg: number;
+}
 
-function degreesBetween(a: Vec3, b: Vec3): number {
+export interface Task {
+  readonly id: string;
+  readonly name: string;
+  /** How, by each way of leading. */
+  readonly mouse: string;
+  readonly finger: string;
+  readonly keys: string;
+  readonly gamepad: string;
+  /** So much was meant. */
+  isDone(first: Observation, now: Observation): boolean;
+}
+
+export interface Lesson {
+  /** Under which a device remembers that it was gone through. */
+  readonly id: string;
+  readonly tasks: readonly Task[];
+  /** It leaves a bone that is drilled: an operation in earnest begins anew. */
+  readonly spoils: boolean;
+}
+
+export function degreesBetween(a: Vec3, b: Vec3): number {
   const cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   return (180 / Math.PI) * Math.acos(Math.min(1, Math.max(-1, cosine)));
 }
 
 export class FirstTouch {
-  private readonly done = new Set<Task>();
+  private readonly done = new Set<string>();
   private first: Observation | undefined;
-  private firstFree: Observation["free"];
+
+  constructor(readonly lesson: Lesson) {}
 
   get finished(): boolean {
-    return this.done.size === TASKS.length;
+    return this.done.size === this.lesson.tasks.length;
   }
 
   /** What is to be tried next. */
-  get current(): Task | undefined {
-    return TASKS.find((task) => !this.done.has(task));
+  get current(): string | undefined {
+    return this.lesson.tasks.find(({ id }) => !this.done.has(id))?.id;
   }
 
-  isDone(task: Task): boolean {
+  isDone(task: string): boolean {
     return this.done.has(task);
   }
 
   /** @return whether something was done that was not before */
   observe(now: Observation): boolean {
-    this.first ??= now;
-    this.firstFree ??= now.free;
+    const { first = now } = this;
+    // What was not there at first counts from when it is.
+    this.first = { ...first, free: first.free ?? now.free, scope: first.scope ?? now.scope };
     const before = this.done.size;
-    const { first, firstFree } = this;
-    const turned = Math.max(
-      degreesBetween(first.screenRight, now.screenRight),
-      degreesBetween(first.screenUp, now.screenUp),
-    );
-    if (turned > LOOK_DEG) this.done.add("look");
-    if (firstFree !== undefined && now.free !== undefined) {
-      const [a, b] = [firstFree.tip, now.free.tip];
-      if (Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > MOVE_MM) this.done.add("move");
-      if (degreesBetween(firstFree.shaft, now.free.shaft) > AIM_DEG) this.done.add("aim");
+    for (const task of this.lesson.tasks) {
+      if (task.isDone(this.first, now)) this.done.add(task.id);
     }
-    if (now.depthMm > DRIVE_MM) this.done.add("drive");
-    if (now.shots > first.shots) this.done.add("shot");
-    if (now.undos > first.undos) this.done.add("undo");
     return this.done.size > before;
   }
 }

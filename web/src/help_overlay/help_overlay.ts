@@ -10,13 +10,15 @@ import "./help_overlay.css";
 export class HelpOverlay {
   readonly element: HTMLDialogElement;
 
+  private readonly firstTouch: HTMLButtonElement;
+
   /** @param firstTouch  begins it */
   constructor(firstTouch: () => void) {
     const close = button("Close", "Esc", () => {
       this.element.close();
     });
     close.autofocus = true;
-    const again = button("First touch, 90 seconds", "", () => {
+    this.firstTouch = button("First touch, 90 seconds", "", () => {
       this.element.close();
       firstTouch();
     });
@@ -30,7 +32,7 @@ export class HelpOverlay {
           "header",
           {},
           make("h2", { id: "help-title" }, "Mouse, keys, touch, gamepad"),
-          make("span.help-ways", {}, again, close),
+          make("span.help-ways", {}, this.firstTouch, close),
         ),
         make(
           "p.secondary",
@@ -66,6 +68,11 @@ export class HelpOverlay {
 
   /** Whether it is read from now on. */
   onOpen: ((isOpen: boolean) => void) | undefined;
+
+  /** Whether this operation has one. */
+  offerFirstTouch(hasOne: boolean): void {
+    this.firstTouch.hidden = !hasOne;
+  }
 
   toggle(): void {
     if (this.element.open) this.element.close();

@@ -5,6 +5,7 @@
 import { AppearancePanel } from "../appearance";
 import { lostText } from "../devices";
 import { setText } from "../dom";
+import { lessonOf } from "../first_touch";
 import { faceNames, makeFrameMap, type FrameMap } from "../frames";
 import { GamepadHand } from "../gamepad";
 import { Headset, headsetIsThere } from "../headset";
@@ -13,6 +14,7 @@ import type {
   CArmPicture,
   CaseDescription,
   CaseList,
+  ExerciseMessage,
   HostMessage,
   ProcedureSummary,
 } from "../protocol";
@@ -378,6 +380,14 @@ export class TrainPage {
     });
   }
 
+  private offerFirstTouch(exercise: ExerciseMessage): void {
+    const { firstTouch, help } = this.panels;
+    const lesson = lessonOf(exercise);
+    firstTouch.useLesson(lesson);
+    help.offerFirstTouch(lesson !== undefined);
+    if (this.part.operates && exercise.mode !== "assessed") firstTouch.offer();
+  }
+
   private receive(message: HostMessage): void {
     const { notice, steps } = this.panels;
     switch (message.type) {
@@ -390,7 +400,9 @@ export class TrainPage {
             whatIsHeard(message, this.seen.doing, this.hand, this.scope.pressGrade, now),
           );
           if (this.hand.placed)
-            this.panels.firstTouch.observe(whatIsDone(message, this.hand, this.theatre));
+            this.panels.firstTouch.observe(
+              whatIsDone(message, this.scope.told, this.hand, this.theatre),
+            );
         }
         this.part.showWaiting();
         break;
@@ -399,8 +411,7 @@ export class TrainPage {
         this.seen.begin(message);
         this.scope.begin(message);
         this.skin.begin(message);
-        if (this.part.operates && this.seen.doing?.mode !== "assessed")
-          this.panels.firstTouch.offer();
+        this.offerFirstTouch(message);
         break;
       case "tissue":
         this.seen.takeTissue(message);
