@@ -27,12 +27,13 @@ export async function newcomersPage(browser, more = {}) {
   return context.newPage();
 }
 
-/** The same of someone who knows the first touch. */
+/** The same of someone who knows the first touch, of bones and of scopes. */
 export async function newPage(browser, more = {}) {
   const page = await newcomersPage(browser, more);
   await page.context().addInitScript(() => {
     try {
       localStorage.setItem("carpus.first_touch", "seen");
+      localStorage.setItem("carpus.first_touch.scope", "seen");
     } catch {
       // The browser's own pages have no storage.
     }

@@ -113,3 +113,35 @@ export async function firstMinutes(browser, station) {
   });
   await page.close();
 }
+
+/** The same before a joint is looked into. */
+export async function firstLookThroughAScope(browser, station) {
+  const page = await newcomersPage(browser);
+  const operator = new Operator(page);
+  const card = page.locator(".first-touch");
+  const done = card.locator("li.done");
+  await check(page, "a first arthroscopy comes with a first touch of its own", async () => {
+    await operator.start(station.url, "Browser test, newcomer", "arthroscopic_basics");
+    await card.waitFor();
+    expect((await card.getByText("Push and drive").count()) === 0, "it has one drive a wire");
+    await expectAccessible(page);
+    await page.locator("canvas").first().focus();
+    for (const [key, what] of [
+      ["KeyA", "Go in by the portal"],
+      ["ArrowLeft", "Lean"],
+      ["Comma", "Look round"],
+      ["Shift+Comma", "Keep the horizon"],
+    ]) {
+      const keys = key.split("+");
+      for (const one of keys) await page.keyboard.down(one);
+      await done.filter({ hasText: what }).waitFor();
+      for (const one of keys.reverse()) await page.keyboard.up(one);
+    }
+    await page.keyboard.press("KeyH");
+    await done.filter({ hasText: "The other hand" }).waitFor();
+    await card.getByText("All of it in").waitFor();
+    await card.getByRole("button", { name: "Go on" }).click();
+    expect(!(await card.isVisible()), "it cannot be left");
+  });
+  await page.close();
+}

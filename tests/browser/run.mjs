@@ -15,7 +15,7 @@ import { chooseAmongCases } from "./cases.mjs";
 import { check, counted, expect } from "./checks.mjs";
 import { changesTheLook } from "./appearance.mjs";
 import { withPictures } from "./c_arm.mjs";
-import { firstMinutes } from "./first_minutes.mjs";
+import { firstLookThroughAScope, firstMinutes } from "./first_minutes.mjs";
 import { byFinger, byKeysAlone } from "./hands.mjs";
 import { cross, dot, Operator, readAxis, readWrist } from "./operator.mjs";
 import { wearsHeadset } from "./headset.mjs";
@@ -654,6 +654,7 @@ try {
   await wearsHeadset(browser, station);
   await operateAssessed(browser, station);
   await firstMinutes(browser, station);
+  await firstLookThroughAScope(browser, station);
   await arthroscopy(browser, station);
   await examination(browser, station);
   await basics(browser, station);

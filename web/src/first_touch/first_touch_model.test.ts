@@ -15,6 +15,7 @@ const rest: Observation = {
   shots: 4,
   undos: 1,
   hand: 0,
+  inJoint: false,
   scope: undefined,
 };
 
@@ -70,10 +71,9 @@ describe("FirstTouch", () => {
 
 describe("FirstTouch at a scope", () => {
   const scope = { tip: [0, 0, 0], shaft: [0, 0, 1], shaftDeg: 175, cameraDeg: 0 } as const;
-  const looking: Observation = { ...rest, scope };
+  const looking: Observation = { ...rest, inJoint: true, scope };
 
   it.each([
-    ["go_in", { scope: { ...scope, tip: [0, 0, -3.1] } }],
     ["lean", { scope: { ...scope, shaft: [0.1, 0, 0.995] } }],
     ["look_round", { scope: { ...scope, shaftDeg: -160 } }],
     ["level", { scope: { ...scope, cameraDeg: 9 } }],
@@ -94,11 +94,13 @@ describe("FirstTouch at a scope", () => {
     expect(touch.observe({ ...looking, scope: aside })).toBe(false);
   });
 
-  it("counts from when the scope is in a joint", () => {
+  it("goes in from outside, and counts what is seen from then on", () => {
     const touch = new FirstTouch(SCOPE_LESSON);
-    touch.observe(rest);
-    expect(touch.observe({ ...rest, scope: { ...scope, tip: [0, 0, 9] } })).toBe(false);
+    touch.observe({ ...rest, scope: undefined });
+    expect(touch.current).toBe("go_in");
     expect(touch.observe(looking)).toBe(true);
     expect(touch.current).toBe("lean");
+    const leant = { ...scope, shaft: [0.1, 0, 0.995] } as const;
+    expect(touch.observe({ ...looking, scope: leant })).toBe(true);
   });
 });

@@ -18,6 +18,8 @@ export interface Observation {
   readonly undos: number;
   /** That mouse and keys move. */
   readonly hand: number;
+  /** The scope is in one. */
+  readonly inJoint: boolean;
   /** In a joint, whatever hand holds it; undefined before: outside it neither leans nor looks. */
   readonly scope: ScopeSeen | undefined;
 }

@@ -5,7 +5,6 @@
 // elsewhere without moving, and the horizon is the camera head's.
 import { degreesBetween, type Lesson } from "./first_touch_model";
 
-const GO_MM = 3;
 const LEAN_DEG = 4;
 const TURN_DEG = 20;
 const LEVEL_DEG = 8;
@@ -26,12 +25,7 @@ export const SCOPE_LESSON: Lesson = {
       finger: "Spread two fingers on one half of the picture; pinch to draw back.",
       keys: "{KeyA} {KeyD}",
       gamepad: "RB goes in, LB draws back, with the other hand than mouse and keys.",
-      isDone: ({ scope: a }, { scope: b }) =>
-        a !== undefined &&
-        b !== undefined &&
-        Math.abs(
-          a.shaft.reduce((sum, along, i) => sum + along * ((b.tip[i] ?? 0) - (a.tip[i] ?? 0)), 0),
-        ) > GO_MM,
+      isDone: (first, now) => now.inJoint && !first.inJoint,
     },
     {
       id: "lean",

@@ -26,6 +26,7 @@ export function whatIsDone(
     shots: s.shots,
     undos: s.undos,
     hand: hand.active,
+    inJoint: isIn,
     scope:
       scope === undefined || held === undefined
         ? undefined
