@@ -5,6 +5,7 @@
 // tells which views show the screw.
 import { expectAccessible } from "./accessibility.mjs";
 import { check, expect } from "./checks.mjs";
+import { losesGraphics } from "./lost_graphics.mjs";
 
 function shownAt(page, tick) {
   return page.waitForFunction(
@@ -97,6 +98,9 @@ export async function debriefByView(page, station, id) {
     await page.locator(".outline-bone").first().waitFor({ state: "attached" });
     await expectAccessible(page, 10);
   });
+  await check(page, "the view that is turned comes back as it was when its graphics are lost", () =>
+    losesGraphics(page, ".turning-frame"),
+  );
   await check(page, "the report prints on two pages", async () => {
     const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
     const pages = pdf.match(/\/Type\s*\/Page[^s]/g).length;

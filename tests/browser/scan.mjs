@@ -9,6 +9,7 @@ import { gunzipSync } from "node:zlib";
 import { expectAccessible } from "./accessibility.mjs";
 import { drawn, newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
+import { losesGraphics } from "./lost_graphics.mjs";
 import { mendsScan } from "./scan_mend.mjs";
 
 const reading = (page) => page.textContent(".scan-reading");
@@ -49,6 +50,9 @@ export async function lookAtScan(browser, station) {
     },
   );
   if (opened) {
+    await check(page, "the bones come back as they were when their graphics are lost", () =>
+      losesGraphics(page, ".scan-panel.bones"),
+    );
     await check(page, "a bone is found by its name, and said", async () => {
       await page.locator("[data-bone=capitate]").click();
       await page.locator(".scan-reading", { hasText: "Capitate" }).waitFor();

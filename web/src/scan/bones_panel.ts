@@ -6,7 +6,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { make } from "../dom";
+import { lostPicture, make } from "../dom";
 import type { Vec3 } from "../protocol";
 
 const KEY_RAD = Math.PI / 24;
@@ -48,8 +48,11 @@ export class BonesPanel {
       { "aria-label": "Bones" },
       canvas,
       make("h2.scan-panel-title", {}, "3-D"),
+      lostPicture(canvas, () => {
+        this.ask();
+      }),
     );
-    this.renderer.setClearColor("#0e1214");
+    this.scene.background = new THREE.Color("#0e1214"); // a clear colour is lost with the context
     this.renderer.setPixelRatio(Math.min(1.5, devicePixelRatio));
     const material = new THREE.LineBasicMaterial({ color: "#5cc8ff", depthTest: false });
     material.transparent = true;

@@ -4,7 +4,7 @@
 // Something of the case to be turned by hand: drawn when it is turned, and at no other time.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { make } from "../dom";
+import { lostPicture, make } from "../dom";
 import { faceNames, towards, type AnatomicalSide } from "../frames";
 import type { CaseDescription } from "../protocol";
 import type { StudioLight } from "../theatre";
@@ -69,7 +69,7 @@ export class TurningView {
     this.renderer = renderer;
     renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     renderer.toneMapping = THREE.ACESFilmicToneMapping;
-    renderer.setClearColor("#11171a");
+    placed.world.background = new THREE.Color("#11171a"); // a clear colour is lost with the context
     const canvas = renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
@@ -82,10 +82,14 @@ export class TurningView {
     this.labels = placed.marks.map(({ name }) =>
       make("span.turning-label", { "aria-hidden": "true" }, name),
     );
+    const lost = lostPicture(canvas, () => {
+      placed.light.mirrorAnew();
+      this.draw();
+    });
     this.element = make(
       "figure.turning",
       {},
-      make("div.turning-frame", {}, canvas, ...this.labels),
+      make("div.turning-frame", {}, canvas, ...this.labels, lost),
       make("figcaption", {}, `Drag to turn, wheel nears. ${words.caption}`),
     );
     this.controls = new OrbitControls(this.camera, canvas);

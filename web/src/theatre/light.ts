@@ -19,15 +19,22 @@ export interface StudioLight {
   follow(camera: THREE.Camera, target: THREE.Vector3): void;
   /** Side of the shadow map, 0 for no shadows. */
   setShadowPixels(side: number): void;
+  /** Makes anew what was drawn once and is mirrored since: a lost graphics context comes back without it. */
+  mirrorAnew(): void;
   dispose(): void;
 }
 
-export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): StudioLight {
+function mirroredRoom(renderer: THREE.WebGLRenderer): THREE.WebGLRenderTarget {
   const generator = new THREE.PMREMGenerator(renderer);
   const room = new RoomEnvironment();
-  const environment = generator.fromScene(room, 0.03);
+  const mirrored = generator.fromScene(room, 0.03);
   room.dispose();
   generator.dispose();
+  return mirrored;
+}
+
+export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): StudioLight {
+  let environment = mirroredRoom(renderer);
   scene.environment = environment.texture;
   scene.environmentIntensity = 0.55;
 
@@ -93,6 +100,11 @@ export function studioLight(renderer: THREE.WebGLRenderer, scene: THREE.Scene): 
       if (side > 0) key.shadow.mapSize.set(side, side);
       key.shadow.map?.dispose();
       key.shadow.map = null;
+    },
+    mirrorAnew() {
+      environment.dispose();
+      environment = mirroredRoom(renderer);
+      scene.environment = environment.texture;
     },
     dispose() {
       environment.dispose();

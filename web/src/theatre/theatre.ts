@@ -127,6 +127,7 @@ export class Theatre {
         this.stale = true;
       },
       onLost: () => {
+        this.light.mirrorAnew();
         this.stale = true;
       },
       onShadowPixels: (side) => {
