@@ -21,10 +21,11 @@ export const SCOPE_LESSON: Lesson = {
     {
       id: "go_in",
       name: "Go in by the portal",
-      mouse: "Turn the wheel over the picture; back draws it out.",
-      finger: "Spread two fingers on one half of the picture; pinch to draw back.",
-      keys: "{KeyA} {KeyD}",
-      gamepad: "RB goes in, LB draws back, with the other hand than mouse and keys.",
+      mouse: "Pull the joint open first; then turn the wheel over the picture.",
+      finger: "Pull the joint open first; then spread two fingers on one half of the picture.",
+      keys: "hold {KeyW}, then {KeyA}",
+      gamepad:
+        "Up on the cross pulls the joint open; then RB, with the hand that mouse and keys do not lead.",
       isDone: (first, now) => now.inJoint && !first.inJoint,
     },
     {
