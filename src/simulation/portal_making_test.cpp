@@ -68,6 +68,24 @@ TEST(PortalMaking, AFingerIsHeldBackBySkinAndFeelsACordWhereATendonRuns) {
   EXPECT_EQ(world.now().skin.feels[0].felt, Felt::Nothing);
 }
 
+TEST(PortalMaking, AFingerThatIsPressedOnDoesNotComeOutAtTheLimbsOtherSide) {
+  cases::CaseData limb = wrist_with_skin();
+  TriangleMesh& skin = static_cast<TriangleMesh&>(limb.skin);
+  const TriangleMesh near = skin;
+  constexpr double kThickMm = 36;
+  for (Vec3 corner : near.vertices)
+    skin.vertices.push_back({corner.x - kThickMm, corner.y / 2, corner.z / 2});
+  for (const auto& [a, b, c] : near.facets) skin.facets.push_back({a + 4, c + 4, b + 4});
+  World world(limb, making(), 1);
+  Maker maker(world);
+  for (double deep = 0; deep < kThickMm + 10; deep += 0.5) {
+    maker.hand.go(at(-deep), 30);
+    ASSERT_GT(tip_out_mm(world), -10) << "pressed " << deep << " mm deep";
+  }
+  maker.hand.go(at(5), 100);
+  EXPECT_GT(tip_out_mm(world), 0) << "it comes away as it came";
+}
+
 TEST(PortalMaking, OneTouchIsNotAPlaceFeltAndNothingCountsAfterThePrick) {
   World world(wrist_with_skin(), making(), 1);
   Maker maker(world);

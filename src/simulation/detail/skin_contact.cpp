@@ -4,6 +4,8 @@
 // What works on closed skin: where the skin lies now, and how a fingertip, a marker and a blade go
 // over it. Skin gives way by a share of what a hand presses, so that the force of the coupling
 // tells what lies beneath.
+#include <algorithm>
+
 #include "haptics/virtual_coupling.hpp"
 #include "simulation/detail/world_state.hpp"
 
@@ -23,6 +25,10 @@ constexpr double kWaitsMm = 3.0;         // off the skin
 constexpr int kBackSteps = 2;            // by which its place as scanned is found
 constexpr double kFastestMm = 2.0;       // a tick: 2 m/s
 constexpr double kCutsFastestMm = 0.05;  // a blade in skin, a tick
+/// Of a hand under the skin [E]: from half a limb on the skin of its other side is the nearest.
+constexpr double kDeepestMm = 10.0;
+constexpr double kPressesMm = 0.5;  // the tip under the skin
+constexpr double kLeastStepMm = 0.5;
 
 }  // namespace
 
@@ -101,6 +107,23 @@ void World::State::move_on_skin(const Model& model, std::uint8_t hand) noexcept 
   }
 }
 
+/// Where a hand that presses on wishes its tip: no deeper on the way there than kDeepestMm. Depth
+/// changes by no more than the way, which is what a step may be.
+Vec3 World::State::wished_on_skin(const Model& model,
+                                  const Vec3& tip,
+                                  const Vec3& wish) const noexcept {
+  double depth = skin_at(model, tip).depth_mm;
+  const double far = distance(tip, wish);
+  if (depth < kPressesMm) return wish;
+  double on = 0.0;
+  while (depth < kDeepestMm) {
+    on += std::max(kDeepestMm - depth, kLeastStepMm);
+    if (on >= far) return wish;
+    depth = skin_at(model, tip + (wish - tip) * (on / far)).depth_mm;
+  }
+  return tip + (wish - tip) * (on / far);
+}
+
 void World::State::move_over_skin(const Model& model, std::uint8_t hand) noexcept {
   Item& item = *in_hand(hand);
   const instruments::SkinTool& tool = *kind_of(model, item).skin;
@@ -111,7 +134,7 @@ void World::State::move_over_skin(const Model& model, std::uint8_t hand) noexcep
   held.touched_body = kNoBody;
   held.contact_normal = {};
   making.feels[hand] = {};
-  const Vec3& wish = held.plan.tip;
+  const Vec3 wish = wished_on_skin(model, item.tip, held.plan.tip);
   const SkinPlace at = skin_at(model, wish);
   if (!(at.depth_mm > 0.0)) {
     follow_wish(item, wish, kFastestMm);

@@ -393,6 +393,9 @@ struct World::State : detail::ChangingData {
   [[nodiscard]] double hand_share(const Model& model, const Vec3& scanned) const noexcept;
   [[nodiscard]] detail::SkinPlace skin_at(const Model& model, const Vec3& at) const noexcept;
   void move_on_skin(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] Vec3 wished_on_skin(const Model& model,
+                                    const Vec3& tip,
+                                    const Vec3& wish) const noexcept;
   void move_over_skin(const Model& model, std::uint8_t hand) noexcept;
   void follow_wish(detail::Item& item, const Vec3& to, double most_mm) noexcept;
   void publish_skin(const Model& model) noexcept;
