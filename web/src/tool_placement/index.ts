@@ -4,5 +4,6 @@
 // Where the hand holds the instrument, as the page asks for it.
 export * from "./vectors";
 export * from "./tool_pose";
+export * from "./at_skin";
 export * from "./held_key_speed";
 export * from "./key_steps";

@@ -21,8 +21,11 @@ import type { Theatre } from "../theatre";
 import {
   add,
   approachedBy,
+  begunBeforeSkin,
   cross,
+  DEEPEST_MM,
   dot,
+  givenWay,
   length,
   heldBackTo,
   MAX_APPROACH_MM,
@@ -45,12 +48,6 @@ const BESIDE_MM = 30;
 const REPEAT_MS = 250;
 /** An operation's first instants swing the instrument about before it rests where it begins. */
 const SETTLED_TICKS = 150;
-/** Pressed on closed skin or led through it, so far beyond where the tip was laid [mm]. */
-const DEEPEST_MM = 45;
-const BEFORE_SKIN_MM = 12;
-/** Nobody feels here what holds a needle, a clamp or a sheath: at 2 N a mm it is pressed by no more than 12 N, over
- * the 9 that a clamp needs to go through the capsule. A key that draws it back draws it back at once. */
-const MOST_AHEAD_MM = 6;
 /** While the driver is held: the host stops it 150 ms after it last heard of it. */
 const DRIVE_REPEAT_MS = 40;
 /**
@@ -60,6 +57,13 @@ const DRIVE_REPEAT_MS = 40;
 const START_THRUST_N = 40;
 /** Nearer to the screen's plane than this a direction cannot turn the shaft (sine). */
 const SMALLEST_TURN = 0.2;
+/** To the right and up. */
+const WAY: Readonly<Record<Direction, readonly [number, number]>> = {
+  right: [1, 0],
+  left: [-1, 0],
+  up: [0, 1],
+  down: [0, -1],
+};
 
 const NOWHERE: ToolPose = { anchorMm: [0, 0, 0], approachMm: MAX_APPROACH_MM, shaft: [0, 0, 1] };
 
@@ -161,7 +165,7 @@ export class Hand {
     // What is driven came off or was put down: the held key was not meant for what is in the hand now.
     if (before !== undefined && s.hands[this.moved].item !== before.hands[this.moved].item)
       this.stopDriving();
-    this.drawBackFromSkin(s, before);
+    this.beginBeforeSkin(s, before);
     this.giveWay(s);
     for (const hand of [0, 1] as const) {
       const item = heldItem(s, hand);
@@ -176,34 +180,30 @@ export class Hand {
     this.isPlaced = true;
   }
 
-  /** What is taken anew begins before the skin, not in it: it would prick before it was placed. */
-  private drawBackFromSkin(s: SnapshotMessage, before: SnapshotMessage | undefined): void {
+  /** What is taken anew begins before closed skin. */
+  private beginBeforeSkin(s: SnapshotMessage, before: SnapshotMessage | undefined): void {
     if (before === undefined || !this.handlers.worksOnSkin()) return;
     for (const hand of [0, 1] as const) {
       const { item } = s.hands[hand];
-      const pose = this.poses[hand];
-      const isAnother =
-        item !== before.hands[hand].item ||
-        heldItem(s, hand)?.instrument !== heldItem(before, hand)?.instrument;
-      // After a reload the page may know of a scope's place in the joint alone: nor deeper than that was drawn out to.
       const had = heldItem(before, hand);
-      const out = had === undefined ? 0 : dot(subtract(had.tip_mm, pose.anchorMm), pose.shaft);
-      const least = Math.min(MAX_APPROACH_MM, Math.max(BEFORE_SKIN_MM, out));
-      if (item < 0 || !isAnother || pose.approachMm >= least) continue;
-      this.poses[hand] = { ...pose, approachMm: least };
-      this.changed = true;
+      const isAnother =
+        item !== before.hands[hand].item || heldItem(s, hand)?.instrument !== had?.instrument;
+      if (item >= 0 && isAnother)
+        this.hasPose(hand, begunBeforeSkin(this.poses[hand], had?.tip_mm));
     }
   }
 
-  /** What is held by what it went through comes no farther than that lets it. */
   private giveWay(s: SnapshotMessage): void {
     for (const hand of [0, 1] as const) {
       const item = heldItem(s, hand);
       if (item === undefined || this.handlers.whyHeldBySkin(hand) === undefined) continue;
-      const pose = heldBackTo(this.poses[hand], item.tip_mm, MOST_AHEAD_MM);
-      if (pose !== this.poses[hand]) this.changed = true;
-      this.poses[hand] = pose;
+      this.hasPose(hand, givenWay(this.poses[hand], item.tip_mm));
     }
+  }
+
+  private hasPose(hand: HandIndex, pose: ToolPose): void {
+    if (pose !== this.poses[hand]) this.changed = true;
+    this.poses[hand] = pose;
   }
 
   /** Something gave before it, which a mouse does not let one feel: a key that is held leads it no farther. */
@@ -372,10 +372,10 @@ export class Hand {
   private readonly go = (action: SteppedAction, by: number): void => {
     switch (action.kind) {
       case "move_tip":
-        this.slide(scaled(this.onScreen(action.to), by));
+        this.slide(scaled(this.onScreen(WAY[action.to]), by));
         break;
       case "turn_shaft":
-        this.turn(this.onScreen(action.to), by);
+        this.turn(this.onScreen(WAY[action.to]), by);
         break;
       case "approach":
         this.pose = approachedBy(
@@ -388,27 +388,17 @@ export class Hand {
         this.handlers.moveWrist(action.axis, action.sign * by);
         return;
       case "orbit": {
-        const right = action.to === "right" ? by : action.to === "left" ? -by : 0;
-        const up = action.to === "up" ? by : action.to === "down" ? -by : 0;
-        this.theatre.orbit(right, -up);
+        const [right, up] = WAY[action.to];
+        this.theatre.orbit(by * right, -by * up);
         return;
       }
     }
     this.changed = true;
   };
 
-  private onScreen(to: Direction): Vec3 {
-    const { right, up } = this.theatre.screenAxes();
-    switch (to) {
-      case "right":
-        return right;
-      case "left":
-        return scaled(right, -1);
-      case "up":
-        return up;
-      case "down":
-        return scaled(up, -1);
-    }
+  private onScreen([right, up]: readonly [number, number]): Vec3 {
+    const axes = this.theatre.screenAxes();
+    return add(scaled(axes.right, right), scaled(axes.up, up));
   }
 
   /** Moves the tip in the screen's plane; while it touches, along the bone's surface. */
@@ -476,15 +466,13 @@ export class Hand {
 
   /** Moves the tip on the screen [mm]. */
   moveTipBy(right: number, up: number): void {
-    const axes = this.theatre.screenAxes();
-    this.slide(add(scaled(axes.right, right), scaled(axes.up, up)));
+    this.slide(this.onScreen([right, up]));
     this.changed = true;
   }
 
   /** Turns the shaft's tail on the screen [rad]. */
   turnShaftBy(right: number, up: number): void {
-    const axes = this.theatre.screenAxes();
-    const towards = add(scaled(axes.right, right), scaled(axes.up, up));
+    const towards = this.onScreen([right, up]);
     const angle = length(towards);
     if (angle > 0) this.turn(scaled(towards, 1 / angle), angle);
     this.changed = true;
