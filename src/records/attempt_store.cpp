@@ -35,7 +35,7 @@ constexpr const char* kAssetColumns =
 std::string advice(const SQLite::Exception& error) {
   switch (error.getErrorCode()) {
     case SQLITE_FULL:
-      return "the disk is full; free some space and try again";
+      return "free some space and try again";
     case SQLITE_READONLY:
       return "the file is read-only; make it writable or choose another with --records";
     case SQLITE_CANTOPEN:

@@ -162,7 +162,7 @@ TEST(AttemptStore, FullDiskStoresNothingOfTheAttemptAndSaysWhatToDo) {
   store.limit_pages(16);
   const std::string message =
       message_of<IoError>([&] { store.save(make_attempt("too much", 500000)); });
-  EXPECT_THAT(message, HasSubstr("the disk is full; free some space"));
+  EXPECT_THAT(message, HasSubstr("disk is full; free some space"));
   store.limit_pages(100000);
   ASSERT_EQ(store.list().size(), 1U);
   store.save(make_attempt("after", 500000));
