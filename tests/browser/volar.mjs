@@ -4,22 +4,71 @@
 // From the palm by mouse and keys: the scope goes round to the volar radial portal, which is then in sight, and in; and
 // the palm's closed skin is opened there until the scope shows the joint by that way.
 // With CARPUS_SCOPE_PICTURES a folder for what is seen on the way.
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { atRest } from "./hands.mjs";
 import { dot, Operator, readWrist } from "./operator.mjs";
 import { minus, plus, SkinHands } from "./skin_hands.mjs";
+import { root } from "./station.mjs";
 
 const TRAINEE = "Browser test, volar";
 /** Of grey levels: a blank picture stays under this. */
 const LEAST_DEVIATION = 12;
+
+/** Of the palm's skin, about so far before the wrist [mm]. */
+const PALM_MM = 15;
+/** A crease is sought from so far before to so far beyond where it lay as scanned: pulled at, the hand takes it along. */
+const SOUGHT_MM = [-1, 5];
+const STEP_MM = 0.25;
+/** Beside a crease, in which light is lost. */
+const BESIDE_STEPS = 6;
+/** Beside a crease skin is lighter, by grey levels. */
+const LEAST_DIP = 7;
+
+/** How much darker than on both its sides the palm is, at most about so far distal of the radius; the mean across it. */
+async function crease(page, caseFolder, distalMm) {
+  const { rotation, translation_mm: moved } = JSON.parse(
+    readFileSync(join(caseFolder, "case.json"), "utf8"),
+  ).wrist_from_patient;
+  const patient = (at) => [0, 1, 2].map((c) => at.reduce((sum, v, r) => sum + rotation[r][c] * (v - moved[r]), 0));
+  const [from, to] = SOUGHT_MM;
+  const steps = Math.round((to - from) / STEP_MM) + 2 * BESIDE_STEPS;
+  const lines = [-9, -6, -3, 0, 3, 6, 9].map((across) =>
+    Array.from({ length: steps + 1 }, (_, i) =>
+      patient([-(distalMm + from + (i - BESIDE_STEPS) * STEP_MM), across, PALM_MM]),
+    ),
+  );
+  const png = `data:image/png;base64,${(await page.screenshot()).toString("base64")}`;
+  return page.evaluate(
+    async ([picture, all, beside]) => {
+      const bitmap = await createImageBitmap(await (await fetch(picture)).blob());
+      const drawn = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+      drawn.drawImage(bitmap, 0, 0);
+      const scale = bitmap.width / innerWidth;
+      const grey = (mm) => {
+        const { x, y } = window.carpus.pagePoint(mm);
+        const [r, g, b] = drawn.getImageData(Math.round(x * scale), Math.round(y * scale), 1, 1).data;
+        return (r + g + b) / 3;
+      };
+      const dips = all.map((line) => {
+        const levels = line.map(grey);
+        const dip = (i) => Math.min(levels[i - beside], levels[i + beside]) - levels[i];
+        return Math.max(...levels.map((_, i) => (i < beside || i + beside >= levels.length ? 0 : dip(i))));
+      });
+      return dips.reduce((a, b) => a + b, 0) / dips.length;
+    },
+    [png, lines, BESIDE_STEPS],
+  );
+}
 
 export async function goesInFromVolar(browser, station) {
   const page = await newPage(browser);
   const operator = new Operator(page);
   const hands = new SkinHands(page, operator);
   const { dorsal } = readWrist(station.caseFolder);
+  const { creases } = JSON.parse(readFileSync(join(root, "data/skin_creases.json"), "utf8"));
   const large = page.locator(".scope:not(.is-inset) .scope-picture");
   const pictures = process.env.CARPUS_SCOPE_PICTURES;
   const picture = async (name) => {
@@ -77,11 +126,19 @@ export async function goesInFromVolar(browser, station) {
     await page.getByRole("button", { name: "Volar", exact: true }).click();
     await page.keyboard.press("Enter");
     await operator.until((s) => dot(Operator.held(s).shaft, dorsal) < -0.7, "the finger from volar");
+    await operator.push("d", 1500); // the finger out of sight of the creases
+    for (const { id, distal_mm: mm } of creases) {
+      const dip = await crease(page, station.caseFolder, mm);
+      expect(dip > LEAST_DIP, `${id} is ${dip.toFixed(1)} grey levels darker than beside it`);
+    }
     await page.getByRole("button", { name: "Radial", exact: true }).click();
     await operator.settle();
     await operator.turnShaft(inwards.map((v) => -v), 4);
     await page.getByRole("button", { name: "Volar", exact: true }).click();
     await operator.settle();
+    await hands.prick(spot);
+    await picture("needle");
+    await hands.drawOut();
     await hands.cut(spot);
     await picture("cut");
     await hands.spread(spot);

@@ -5,6 +5,7 @@
 import * as THREE from "three";
 import { hexOf, materialOf, roughnessOf } from "../appearance";
 import { BLEND_DECLARATIONS } from "./blend_shader";
+import { CREASES_GLSL } from "./skin_creases";
 import type { StructureKind } from "./structure_model";
 import { CUT_GLSL, TRACKS_GLSL, type TrackUniforms } from "./track_shader";
 
@@ -202,6 +203,8 @@ varying float vFromRim;
 varying vec3 vNormalView;
 varying vec3 vToEye;
 varying vec3 vBoneMm;
+varying vec3 vOut;
+${CREASES_GLSL}
 float hash(vec3 p) {
   return fract(sin(dot(p, vec3(12.9898, 78.233, 37.719))) * 43758.5453);
 }
@@ -228,6 +231,7 @@ void main() {
   float fill = 0.22 + 0.1 * n.y;
   float shine = 0.10 * pow(max(0.0, dot(reflect(-key, n), eye)), 18.0);
   vec3 skin = tint * mix(vec3(1.0, 0.86, 0.82), vec3(1.03, 1.0, 0.97), patches) * (0.94 + 0.1 * pores);
+  skin *= mix(vec3(1.0), vec3(0.55, 0.3, 0.25), creases(vBoneMm, vOut, patches));
   vec3 color = skin * (fill + 0.85 * lit) + 0.5 * tint * through + shine;
   float edge = pow(1.0 - max(0.0, dot(n, eye)), 3.0);
   color *= 1.0 - 0.25 * edge;
@@ -290,6 +294,17 @@ export function handleMaterial(): THREE.MeshStandardMaterial {
 /** Blackened parts: knobs, cables, the inside of a barrel. */
 export function blackMaterial(): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({ color: "#14181a", roughness: 0.6, metalness: 0.1 });
+}
+
+/** A gloved finger: seen from behind it hides what lies under it less than a finger would. */
+export function gloveMaterial(): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({
+    color: "#9fc0d8",
+    roughness: 0.55,
+    envMapIntensity: 0.5,
+    transparent: true,
+    opacity: 0.5,
+  });
 }
 
 export type BlendUniforms = Readonly<

@@ -6,10 +6,12 @@
 // with fingers and an arm that are generated.
 import * as THREE from "three";
 import { MeshBVH } from "three-mesh-bvh";
+import type { Matrix16 } from "../frames";
 import type { Vec3 } from "../protocol";
 import { BLEND_DECLARATIONS } from "./blend_shader";
 import { makeHittable } from "./bone_rays";
 import { closedSkinMaterial, depthOnlyMaterial, skinMaterial } from "./materials";
+import { creaseUniforms } from "./skin_creases";
 import {
   blendedPoint,
   dualQuaternion,
@@ -64,10 +66,12 @@ ${BLEND_DECLARATIONS}
 varying vec3 vNormalView;
 varying vec3 vToEye;
 varying vec3 vBoneMm;
+varying vec3 vOut;
 varying float vFromRim;
 void main() {
   blendBegin(handWeight);
   vBoneMm = position;
+  vOut = normal;
   vFromRim = fromRim;
   vec4 inView = modelViewMatrix * vec4(blendMoved(position), 1.0);
   vNormalView = normalMatrix * blendTurned(normal);
@@ -171,6 +175,13 @@ export class Skin {
     const mesh = new THREE.Mesh(limb, closedSkinMaterial(VERTEX, DRAPE_MM));
     mesh.visible = false;
     return mesh;
+  }
+
+  /** @param rendererFromPatient  of the forearm as scanned */
+  layCreases(rendererFromPatient: Matrix16): void {
+    const uniforms = creaseUniforms(rendererFromPatient);
+    for (const mesh of [this.closed, ...this.limbs])
+      Object.assign(mesh.material.uniforms, uniforms);
   }
 
   /** @param opacity  0 none, 1 as on the patient */

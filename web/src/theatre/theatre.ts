@@ -115,6 +115,7 @@ export class Theatre {
     const { matrix } = this.patient;
     this.sight = new Sight(this.canvas, this.home, matrix, frames, facing);
     const { skin } = caseScene;
+    skin?.layCreases(frames.matrix);
     this.rays = new BoneRays(caseScene.bones, skin && (() => skin.hittable()));
     this.pointed = new PointedAt(this.canvas, this.sight.camera, this.rays, matrix, frames);
     this.sight.onChange = () => {
