@@ -42,7 +42,7 @@ struct Feed {
   double back_mm_per_s = 0.0;  ///< in reverse
 };
 
-enum class Material : std::uint8_t { Steel = 0, Titanium = 1, Handle = 2, Black = 3 };
+enum class Material : std::uint8_t { Steel = 0, Titanium = 1, Handle = 2, Black = 3, Glove = 4 };
 
 /// One round part, for the eye: a cone or cylinder about its axis, smooth or threaded.
 struct DrawnPart {

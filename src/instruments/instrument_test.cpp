@@ -184,7 +184,7 @@ TEST(ReadInstruments, TellFileInstrumentAndField) {
   EXPECT_EQ(
       spoilt("/parts/0/material", "wood"),
       "tools.json: awl: parts[0]: material is 'wood', must be one of steel, titanium, handle, "
-      "black");
+      "black, glove");
   EXPECT_EQ(spoilt("/parts/0/profile/1", Json::array({1})),
             "tools.json: awl: parts[0]: profile[1] is no [radius, z] in mm");
   EXPECT_EQ(spoilt("/id", kGone), "tools.json: instruments[0]: id is missing");

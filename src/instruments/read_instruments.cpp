@@ -27,7 +27,8 @@ constexpr std::array<std::string_view, 4> kWorks{"none", "drill", "ream", "threa
 constexpr std::array<std::string_view, kSkinWorks> kSkinWorkNames{"palpate", "mark",   "needle",
                                                                   "incise",  "spread", "sheath"};
 constexpr std::array<std::string_view, 3> kDrives{"none", "powered", "by_hand"};
-constexpr std::array<std::string_view, 4> kMaterials{"steel", "titanium", "handle", "black"};
+constexpr std::array<std::string_view, 5> kMaterials{"steel", "titanium", "handle", "black",
+                                                     "glove"};
 
 struct Held {
   std::vector<DrawnPart> parts;

@@ -131,9 +131,9 @@ inline constexpr std::array<std::string_view, 4> kFluidControlNames{"inflow", "o
 }
 
 /// Of a drawn part.
-enum class Material : std::uint8_t { Steel, Titanium, Handle, Black };
-inline constexpr std::array<std::string_view, 4> kMaterialNames{"steel", "titanium", "handle",
-                                                                "black"};
+enum class Material : std::uint8_t { Steel, Titanium, Handle, Black, Glove };
+inline constexpr std::array<std::string_view, 5> kMaterialNames{"steel", "titanium", "handle",
+                                                                "black", "glove"};
 [[nodiscard]] constexpr std::string_view name_of(Material value) noexcept {
   return kMaterialNames[static_cast<std::size_t>(value)];
 }

@@ -18,8 +18,8 @@ namespace carpus::session {
 namespace {
 
 // The enumerations of protocol.json are in the order of the instruments'.
-static_assert(static_cast<int>(protocol::Material::Black) ==
-              static_cast<int>(instruments::Material::Black));
+static_assert(static_cast<int>(protocol::Material::Glove) ==
+              static_cast<int>(instruments::Material::Glove));
 static_assert(static_cast<int>(protocol::Work::Thread) ==
               static_cast<int>(instruments::Work::Thread));
 static_assert(static_cast<int>(protocol::Drive::ByHand) ==

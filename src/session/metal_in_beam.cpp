@@ -21,6 +21,7 @@ std::optional<double> attenuation_of(instruments::Material material) noexcept {
       return fluoroscopy::kTitaniumPerMm;
     case instruments::Material::Handle:
     case instruments::Material::Black:
+    case instruments::Material::Glove:
       break;
   }
   return std::nullopt;

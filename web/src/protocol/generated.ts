@@ -48,7 +48,7 @@ export type DoseLevel = "low" | "usual" | "high";
 export type FluidControl = "inflow" | "outflow" | "flush" | "dry";
 
 /** Of a drawn part. */
-export type Material = "steel" | "titanium" | "handle" | "black";
+export type Material = "steel" | "titanium" | "handle" | "black" | "glove";
 
 /** What an instrument does to bone when it is driven. */
 export type Work = "none" | "drill" | "ream" | "thread";

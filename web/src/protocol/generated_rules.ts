@@ -20,7 +20,7 @@ export const SCHEMA: Schema = {
     aid: { values: ["ghost", "section", "hint"] },
     dose_level: { values: ["low", "usual", "high"] },
     fluid_control: { values: ["inflow", "outflow", "flush", "dry"] },
-    material: { values: ["steel", "titanium", "handle", "black"] },
+    material: { values: ["steel", "titanium", "handle", "black", "glove"] },
     work: { values: ["none", "drill", "ream", "thread"] },
     drive: { values: ["none", "powered", "by_hand"] },
     screw_place: { values: ["inside", "distal", "proximal", "side"] },

@@ -6,7 +6,13 @@ import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import type { InstrumentPart, Material } from "../protocol";
 import { chains, threadTurns, type Chain } from "./instrument_model";
-import { blackMaterial, handleMaterial, steelMaterial, titaniumMaterial } from "./materials";
+import {
+  blackMaterial,
+  gloveMaterial,
+  handleMaterial,
+  steelMaterial,
+  titaniumMaterial,
+} from "./materials";
 
 const AROUND = 48;
 const THREAD_AROUND = 40;
@@ -19,6 +25,7 @@ const MATERIALS: Readonly<Record<Material, () => THREE.MeshStandardMaterial>> = 
   titanium: titaniumMaterial,
   handle: handleMaterial,
   black: blackMaterial,
+  glove: gloveMaterial,
 };
 
 /** One mesh for each surface; parts that go on from each other show no seam. */

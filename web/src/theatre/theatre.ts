@@ -42,6 +42,8 @@ import { looksDifferent } from "./snapshot_look_model";
 import { WornStage } from "./worn_stage";
 
 const CUBE_PX = 88;
+/** In a lower picture the cube would stand before the hand. */
+const CUBE_FROM_PX = 240;
 /** What faces the viewer by less is seen from its edge, or not at all. */
 const SEEN_COSINE = 0.5;
 /** With two eyes one looks past what holds an instrument. */
@@ -414,7 +416,8 @@ export class Theatre {
     this.followCut();
     this.light.follow(this.sight.camera, this.sight.target);
     renderer.render(this.scene, this.sight.camera);
-    this.cube.draw(renderer, this.sight.camera, 8, 8, CUBE_PX);
+    if (this.surface.height >= CUBE_FROM_PX)
+      this.cube.draw(renderer, this.sight.camera, 8, 8, CUBE_PX);
     if (this.namesShown)
       this.names.draw(this.sight.camera, this.surface.width, this.surface.height);
   }
