@@ -8,6 +8,7 @@ import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { PAD } from "./fake_pad.mjs";
 import { atRest } from "./hands.mjs";
+import { losesGraphics } from "./lost_graphics.mjs";
 import { Operator } from "./operator.mjs";
 
 const TRAINEE = "Browser test, scope";
@@ -261,6 +262,9 @@ export async function arthroscopy(browser, station) {
       );
       expect((await shares.count()) >= 6, `${await shares.count()} shares`);
     },
+  );
+  await check(page, "the painted bones come back as they were when their graphics are lost", () =>
+    losesGraphics(page, ".cartilage .turning-frame"),
   );
   await page.context().close();
 }
