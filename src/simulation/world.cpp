@@ -173,9 +173,12 @@ void World::State::step(const Model& model, const Input& raw) noexcept {
     spent.ended = static_cast<std::uint8_t>(spent.ended | 1U);
     emit(EventKind::Finished, kNoItem, spent.ended >> 1U, 0.0);
   }
-  for (detail::HandState& hand : spent.hands) {
+  for (std::uint8_t h = 0; h < kHands; ++h) {
+    detail::HandState& hand = spent.hands[h];
     hand.forward_is_held = hand.wish.driver == Driver::Forward;
-    if (!hand.forward_is_held) hand.slip_is_told = false;
+    const Item* item = in_hand(h);
+    const bool is_at_skin = item != nullptr && works_on_skin(model, *item);  // told until it is off
+    if (!hand.forward_is_held && !is_at_skin) hand.slip_is_told = false;
   }
   publish(model);
   if (is_hashed) update_hash(model);

@@ -155,7 +155,10 @@ void World::State::move_under_skin(const Model& model, std::uint8_t hand) noexce
   if (!under.is_in) {
     turn_towards(item, held.plan.shaft);
     const SkinPlace at = skin_at(model, wish);
-    if (!(at.depth_mm > 0.0)) return follow_wish(item, wish, kFastestMm);
+    if (!(at.depth_mm > 0.0)) {
+      held.slip_is_told = false;
+      return follow_wish(item, wish, kFastestMm);
+    }
     const double deep = at.depth_mm * tool.gives_share;
     follow_wish(item, at.point - at.normal * deep, kFastestMm);
     // Only what has come to the skin there, and points into it.
