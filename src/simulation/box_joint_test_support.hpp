@@ -188,6 +188,7 @@ class Hand {
   [[nodiscard]] const Snapshot& now() const { return world_.now(); }
   [[nodiscard]] Vec3 tip() const { return now().items[0].tip_in_patient; }
   void pull(double newtons) { input_.wrist.traction_n = newtons; }
+  void bend(double flexion_rad) { input_.wrist.flexion_rad = flexion_rad; }
   void drive(Driver driver) {
     input_.hands[led].driver = driver;
     step();

@@ -86,6 +86,28 @@ TEST(PortalMaking, AFingerThatIsPressedOnDoesNotComeOutAtTheLimbsOtherSide) {
   EXPECT_GT(tip_out_mm(world), 0) << "it comes away as it came";
 }
 
+TEST(PortalMaking, SkinOfABentWristIsFoundWhereItLies) {
+  cases::CaseData bent = wrist_with_skin();
+  cases::ArthroscopicMap map = *bent.arthroscopy;
+  map.joints.back().distal = test::body_of(BoneId::Capitate);
+  bent.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  World world(bent, making(), 1);
+  Maker maker(world);
+  maker.hand.bend(0.45);
+  for (int i = 0; i < 5000; ++i) maker.hand.step();
+  for (const double distal : {-2.0, 2.0, 4.0, 6.0, 10.0}) {
+    maker.hand.lead(at(0.5, 0, distal));
+    // To where the skin is said to be the nearest, from there anew: it comes to lie on it.
+    for (int round = 0; round < 10; ++round) {
+      for (int i = 0; i < 40; ++i) maker.hand.step();
+      maker.hand.lead(world.now().skin.on_skin[0]);
+    }
+    for (int i = 0; i < 40; ++i) maker.hand.step();
+    const Vec3& tip = world.now().items[world.now().hands[0].item].tip_in_patient;
+    EXPECT_LT(distance(tip, world.now().skin.on_skin[0]), 0.05) << distal;
+  }
+}
+
 TEST(PortalMaking, OneTouchIsNotAPlaceFeltAndNothingCountsAfterThePrick) {
   World world(wrist_with_skin(), making(), 1);
   Maker maker(world);
@@ -190,6 +212,24 @@ TEST(PortalMaking, WhatIsBluntIsHeldBySkinThatWasNotCut) {
   maker.enter();
   EXPECT_FALSE(world.now().skin.under_mm[0] > 0);
   EXPECT_EQ(world.now().skin.facts.made, 0);
+}
+
+TEST(PortalMaking, WhatIsBluntIsToldOncePerTry) {
+  World world(wrist_with_skin(), making(), 1);
+  Maker maker(world);
+  maker.take("mosquito_clamp");
+  int told = 0;
+  for (const double to : {-6.0, 15.0, -6.0}) {
+    maker.hand.lead(at(to));
+    for (int i = 0; i < 300; ++i) {
+      maker.hand.step();
+      const Snapshot& now = world.now();
+      for (std::size_t e = 0; e < now.event_count; ++e) {
+        told += now.events[e].kind == EventKind::HeldBySkin ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(told, 2);
 }
 
 TEST(PortalMaking, ACutIsAsLongAndDeepAsTheBladeWasLed) {

@@ -28,6 +28,7 @@ constexpr double kDeepestCutMm = 9.0;  // it is not led on
 constexpr int kMostEntries = 3;
 constexpr double kFollows = 0.02;  // of what a blade is off its depth, a tick
 constexpr double kMostFollowMm = 0.01;
+constexpr double kJustInMm = 1.5;
 constexpr double kShortMm = 0.5;  // of the capsule a clamp is opened
 constexpr double kOpenS = 0.8;
 constexpr double kDrawsMmPerS = 20.0;
@@ -161,6 +162,7 @@ void ScriptedPortalMaker::plan_prick(bool is_first) {
 
 void ScriptedPortalMaker::plan_portal() {
   at_ = portal_now(which_);
+  skin_out_ = -at_.inwards;
   pricks_ = 0;
   const Vec3 out = -at_.inwards;
   if (which_ > 0) take("fingertip");
@@ -180,8 +182,8 @@ void ScriptedPortalMaker::plan_portal() {
 }
 
 /// By where the needle was, straight into the skin as it lies there.
-void ScriptedPortalMaker::plan_cut(const simulation::Snapshot& now) {
-  const Vec3 out = normalized_or(now.skin.out_of_skin[works_], -at_.inwards);
+void ScriptedPortalMaker::plan_cut() {
+  const Vec3 out = skin_out_;
   const Vec3 distal = data_.arthroscopy->distal;
   const Vec3 flat = normalized_or(distal - out * dot(distal, out), distal);
   const Vec3 start = found_ - flat * (skill_.cut_mm / 2);
@@ -309,6 +311,10 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
     }
     ++in_task_;
     if (reached_at_ == 0 && is_reached(task, now)) reached_at_ = now.tick;
+    // As the skin lies where it is touched or pricked: from farther off a hollow's side is nearer.
+    const bool is_felt = now.skin.feels[works_].felt != simulation::Felt::Nothing;
+    const double in_mm = now.skin.under_mm[works_];
+    if (is_felt || (in_mm > 0.0 && in_mm < kJustInMm)) skin_out_ = now.skin.out_of_skin[works_];
     const bool reacts = reached_at_ > 0 && now.tick >= reached_at_ + ticks_of(skill_.reaction_s);
     if (!reacts) hand_ = move_.at(in_task_);
     opens = task.opens;
@@ -355,7 +361,7 @@ simulation::Input ScriptedPortalMaker::next(const simulation::Snapshot& now) {
       }
       if (done.plans) {
         planned_ = hand_;
-        plan_cut(now);
+        plan_cut();
       } else if (done.finishes) {
         if (++which_ < procedure::kPortalsMade && now.skin.facts.made >= which_) {
           planned_ = hand_;

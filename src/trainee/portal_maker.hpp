@@ -92,7 +92,7 @@ class ScriptedPortalMaker {
   [[nodiscard]] Portal portal_now(std::size_t which) const;
   void plan_portal();
   void plan_prick(bool is_first);
-  void plan_cut(const simulation::Snapshot& now);
+  void plan_cut();
   void lead_blade(const simulation::Snapshot& now);
   void plan_way_in(const simulation::Snapshot& now);
   void plan_sheath();
@@ -125,6 +125,7 @@ class ScriptedPortalMaker {
   double lifted_mm_ = 0.0;  ///< of the blade, so that it keeps its depth
   Vec3 found_;              ///< where the needle was pricked last, on the skin
   Vec3 found_way_;          ///< and which way
+  Vec3 skin_out_;           ///< out of the skin there, unit
   Vec3 cut_at_;             ///< the middle of the last cut
   bool skips_needle_ = false;
   int pricks_ = 0;

@@ -23,6 +23,8 @@ constexpr double kWithForearmMm = -4.0;
 constexpr double kWithHandMm = 12.0;
 constexpr double kWaitsMm = 3.0;         // off the skin
 constexpr int kBackSteps = 2;            // by which its place as scanned is found
+constexpr int kBackTurns = 4;            // and by which it is mended, where the wrist is bent
+constexpr double kBackMm = 1e-3;         // near enough
 constexpr double kFastestMm = 2.0;       // a tick: 2 m/s
 constexpr double kCutsFastestMm = 0.05;  // a blade in skin, a tick
 /// Of a hand under the skin [E]: from half a limb on the skin of its other side is the nearest.
@@ -59,6 +61,14 @@ Vec3 World::State::as_scanned(const Model& model, const Vec3& at) const noexcept
   for (int i = 0; i < kBackSteps; ++i) {
     const double share = hand_share(model, scanned);
     scanned = by_forearm * (1.0 - share) + by_hand * share;
+  }
+  // Means of what turned the one way are not those of the other way.
+  for (int i = 0; i < kBackTurns; ++i) {
+    const Direction<frame::Patient> off{at - as_it_lies(model, scanned)};
+    if (squared_length(off.v) < kBackMm * kBackMm) break;
+    const double share = hand_share(model, scanned);
+    scanned += (inverses[model.map->forearm] * off).v * (1.0 - share) +
+               (inverses[model.map->joints.back().distal] * off).v * share;
   }
   return scanned;
 }
