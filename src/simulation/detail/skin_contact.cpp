@@ -124,7 +124,8 @@ Vec3 World::State::wished_on_skin(const Model& model,
                                   const Vec3& wish) const noexcept {
   double depth = skin_at(model, tip).depth_mm;
   const double far = distance(tip, wish);
-  if (depth < kPressesMm) return wish;
+  if (depth < kPressesMm || depth >= kDeepestMm)
+    return wish;  // where the skin came over it: out again
   double on = 0.0;
   while (depth < kDeepestMm) {
     on += std::max(kDeepestMm - depth, kLeastStepMm);
