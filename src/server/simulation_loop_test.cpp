@@ -62,16 +62,20 @@ Snapshot wait_for(SimulationLoop& loop,
   return state.snapshot;
 }
 
-TEST(SimulationLoop, KeepsTimeAndMeasuresIt) {
+// How many ticks a clock gives is TickClock's matter, tested there; here, that the loop goes by it.
+TEST(SimulationLoop, NeverRunsAheadAndMeasuresWhatItDoes) {
   CountingWorld world;
+  const auto began = std::chrono::steady_clock::now();
   const auto loop = run(world);
-  std::this_thread::sleep_for(1500ms);
-  loop->stop();
   LoopState state;
-  ASSERT_TRUE(loop->take_state(state));
-  // On a busy machine ticks are late but made up for; only long stops are given up.
-  EXPECT_NEAR(static_cast<double>(state.snapshot.tick), 1500.0, 300.0);
-  EXPECT_NEAR(state.timing.rate_hz, 1000.0, 200.0);
+  for (int i = 0; i < 60'000 && state.snapshot.tick < 1500; ++i) {
+    std::this_thread::sleep_for(1ms);
+    (void)loop->take_state(state);
+  }
+  EXPECT_LE(state.snapshot.tick * 1ms, std::chrono::steady_clock::now() - began);
+  ASSERT_GE(state.snapshot.tick, 1500U) << "in a minute";
+  EXPECT_EQ(state.timing.ticks, state.snapshot.tick);
+  EXPECT_GT(state.timing.rate_hz, 0.0);
   EXPECT_GT(state.timing.p50_us, 0.0);
   EXPECT_GE(state.timing.p99_us, state.timing.p50_us);
   EXPECT_GE(state.timing.worst_us, state.timing.p99_us);

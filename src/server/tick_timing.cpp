@@ -17,30 +17,38 @@ constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::uint32_t kFractionBitsDropped = 19;
 constexpr std::uint32_t kLeastWork = std::bit_cast<std::uint32_t>(0x1p-4F) >> kFractionBitsDropped;
 
-std::int64_t now_ns() noexcept {
-  timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return time.tv_sec * kNsPerSecond + time.tv_nsec;
-}
-
-void sleep_until(std::int64_t due_ns) noexcept {
-  timespec due{};
-  due.tv_sec = due_ns / kNsPerSecond;
-  due.tv_nsec = due_ns % kNsPerSecond;
-  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) == EINTR) {
+class MonotonicTime final : public TickTime {
+ public:
+  std::int64_t now_ns() noexcept override {
+    timespec time{};
+    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    return time.tv_sec * kNsPerSecond + time.tv_nsec;
   }
-}
+
+  void sleep_until(std::int64_t due_ns) noexcept override {
+    timespec due{};
+    due.tv_sec = due_ns / kNsPerSecond;
+    due.tv_nsec = due_ns % kNsPerSecond;
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) == EINTR) {
+    }
+  }
+};
 
 }  // namespace
 
+TickTime& monotonic_time() noexcept {
+  static MonotonicTime time;
+  return time;
+}
+
 void TickClock::start() noexcept {
-  window_began_ns_ = now_ns();
+  window_began_ns_ = time_->now_ns();
   due_ns_ = window_began_ns_ + kPeriodNs;
 }
 
 void TickClock::wait() noexcept {
-  sleep_until(due_ns_);
-  began_ns_ = now_ns();
+  time_->sleep_until(due_ns_);
+  began_ns_ = time_->now_ns();
   const std::int64_t late_ns = began_ns_ - due_ns_;
   late_before_work_ = late_ns > kPeriodNs ? 1 : 0;
   if (late_ns > kGiveUpNs) {
@@ -51,7 +59,7 @@ void TickClock::wait() noexcept {
 }
 
 void TickClock::work_done(bool has_worked) noexcept {
-  const std::int64_t now = now_ns();
+  const std::int64_t now = time_->now_ns();
   if (!has_worked) {
     window_began_ns_ = now;
     count_ = 0;

@@ -24,10 +24,24 @@ struct TickTiming {
   std::uint64_t late_ticks = 0;  ///< begun more than a tick after they were due
 };
 
-/// Sleeps from tick to tick on the monotonic clock, with absolute due times so that errors do not
+/// What a metronome goes by; tests let it pass by hand.
+class TickTime {
+ public:
+  virtual ~TickTime() = default;
+  [[nodiscard]] virtual std::int64_t now_ns() noexcept = 0;
+  /// At once when it is past. May return late, never early.
+  virtual void sleep_until(std::int64_t due_ns) noexcept = 0;
+};
+
+/// The system's monotonic clock; has no state of its own.
+[[nodiscard]] TickTime& monotonic_time() noexcept;
+
+/// Sleeps from tick to tick, with absolute due times so that errors do not
 /// add up. Neither allocates nor throws.
 class TickClock {
  public:
+  /// @param time  must outlive this.
+  explicit TickClock(TickTime& time = monotonic_time()) noexcept : time_(&time) {}
   /// The first tick is due one period from now.
   void start() noexcept;
   /// Sleeps until the next tick is due; at once when it is late. After a long stop (the computer
@@ -52,6 +66,7 @@ class TickClock {
   void add_to_histogram(float work_us) noexcept;
   [[nodiscard]] double histogram_quantile(double share) const noexcept;
 
+  TickTime* time_;
   std::int64_t due_ns_ = 0;
   std::int64_t began_ns_ = 0;
   std::int64_t window_began_ns_ = 0;
