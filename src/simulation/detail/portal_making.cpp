@@ -158,18 +158,21 @@ procedure::CutMade World::State::cut_made(const Model& model,
   procedure::CutMade made;
   if (under.cut == kNoCut) return made;
   const SkinCut& cut = making.worked.cuts[under.cut];
-  const Vec3 way = cut.to - cut.from;
+  const Vec3 from = as_it_lies(model, cut.from);
+  const Vec3 way = as_it_lies(model, cut.to) - from;
   made.length_mm = length(way);
   made.deepest_mm = cut.deepest_mm;
-  const Vec3 along = normalized_or(way, {});
-  // On the skin: its slope is none of the cut's doing.
+  // As scanned, where the limb's axis is known, and on the skin: its slope is none of the cut's
+  // doing.
+  const Vec3 along = normalized_or(cut.to - cut.from, {});
   const Vec3 out = model.skin->at((cut.from + cut.to) / 2.0).normal;
   const Vec3 distal = model.map->distal;
   const double cosine = dot(along, normalized_or(distal - out * dot(distal, out), distal));
   made.along_cosine = std::min(1.0, cosine < 0.0 ? -cosine : cosine);
-  const Vec3 spot = as_scanned(model, marked_way(model, model.asked[under.portal]).skin);
-  const double share = std::clamp(dot(spot - cut.from, along), 0.0, made.length_mm);
-  made.off_mm = distance(spot, cut.from + along * share);
+  const Vec3 spot = marked_way(model, model.asked[under.portal]).skin;
+  const Vec3 led = normalized_or(way, {});
+  const double share = std::clamp(dot(spot - from, led), 0.0, made.length_mm);
+  made.off_mm = distance(spot, from + led * share);
   return made;
 }
 

@@ -23,8 +23,9 @@ constexpr double kWithForearmMm = -4.0;
 constexpr double kWithHandMm = 12.0;
 constexpr double kWaitsMm = 3.0;         // off the skin
 constexpr int kBackSteps = 2;            // by which its place as scanned is found
-constexpr int kBackTurns = 4;            // and by which it is mended, where the wrist is bent
+constexpr int kBackTurns = 8;            // and by which it is mended, where the wrist is bent
 constexpr double kBackMm = 1e-3;         // near enough
+constexpr double kLeastStretch = 0.2;    // of skin that folds no way back is found by steps
 constexpr double kFastestMm = 2.0;       // a tick: 2 m/s
 constexpr double kCutsFastestMm = 0.05;  // a blade in skin, a tick
 /// Of a hand under the skin [E]: from half a limb on the skin of its other side is the nearest.
@@ -38,12 +39,16 @@ bool World::State::works_on_skin(const Model& model, const Item& item) const noe
   return model.makes_portals() && !item.is_fixed() && kind_of(model, item).skin.has_value();
 }
 
-double World::State::hand_share(const Model& model, const Vec3& scanned) const noexcept {
+/// How far on the way from the forearm's skin to the hand's, 0 to 1.
+double World::State::way_to_hand(const Model& model, const Vec3& scanned) const noexcept {
   const cases::ArthroscopicMap& map = *model.map;
   const double far = dot(scanned - map.portals[model.asked[0]].skin, map.distal);
-  const double t = (far - kWithForearmMm) / (kWithHandMm - kWithForearmMm);
-  const double within = t < 0.0 ? 0.0 : (t > 1.0 ? 1.0 : t);
-  return within * within * (3.0 - 2.0 * within);
+  return std::clamp((far - kWithForearmMm) / (kWithHandMm - kWithForearmMm), 0.0, 1.0);
+}
+
+double World::State::hand_share(const Model& model, const Vec3& scanned) const noexcept {
+  const double t = way_to_hand(model, scanned);
+  return t * t * (3.0 - 2.0 * t);
 }
 
 Vec3 World::State::as_it_lies(const Model& model, const Vec3& scanned) const noexcept {
@@ -53,22 +58,37 @@ Vec3 World::State::as_it_lies(const Model& model, const Vec3& scanned) const noe
          (poses[model.map->joints.back().distal] * at).v * share;
 }
 
+/// By Newton's steps: the slope of as_it_lies is the turn R of forearm and hand, by their shares,
+/// and how far they lie apart (u) along the limb, where the share grows (v): of R + u v^T the
+/// inverse is Sherman and Morrison's.
 Vec3 World::State::as_scanned(const Model& model, const Vec3& at) const noexcept {
-  const Point<frame::Patient> now_at{at};
-  const Vec3 by_forearm = (inverses[model.map->forearm] * now_at).v;
-  const Vec3 by_hand = (inverses[model.map->joints.back().distal] * now_at).v;
+  const Pose<frame::Bone, frame::Patient>& from_forearm = inverses[model.map->forearm];
+  const Pose<frame::Bone, frame::Patient>& from_hand = inverses[model.map->joints.back().distal];
+  const Vec3 by_forearm = (from_forearm * Point<frame::Patient>{at}).v;
+  const Vec3 by_hand = (from_hand * Point<frame::Patient>{at}).v;
   Vec3 scanned = by_forearm;
   for (int i = 0; i < kBackSteps; ++i) {
     const double share = hand_share(model, scanned);
     scanned = by_forearm * (1.0 - share) + by_hand * share;
   }
-  // Means of what turned the one way are not those of the other way.
   for (int i = 0; i < kBackTurns; ++i) {
-    const Direction<frame::Patient> off{at - as_it_lies(model, scanned)};
-    if (squared_length(off.v) < kBackMm * kBackMm) break;
     const double share = hand_share(model, scanned);
-    scanned += (inverses[model.map->forearm] * off).v * (1.0 - share) +
-               (inverses[model.map->joints.back().distal] * off).v * share;
+    const Point<frame::Bone> there{scanned};
+    const Vec3 with_forearm = (poses[model.map->forearm] * there).v;
+    const Vec3 with_hand = (poses[model.map->joints.back().distal] * there).v;
+    const Vec3 off = at - (with_forearm * (1.0 - share) + with_hand * share);
+    if (squared_length(off) < kBackMm * kBackMm) break;
+    const auto turned_back = [&](const Vec3& way) {
+      const Direction<frame::Patient> turned{way};
+      return (from_forearm * turned).v * (1.0 - share) + (from_hand * turned).v * share;
+    };
+    const double t = way_to_hand(model, scanned);
+    const double grows_per_mm = 6.0 * t * (1.0 - t) / (kWithHandMm - kWithForearmMm);
+    const Vec3 step = turned_back(off);
+    const Vec3 apart = turned_back(with_hand - with_forearm);
+    const double stretch = 1.0 + grows_per_mm * dot(model.map->distal, apart);
+    const double along = grows_per_mm * dot(model.map->distal, step);
+    scanned += step - apart * (along / std::max(stretch, kLeastStretch));
   }
   return scanned;
 }

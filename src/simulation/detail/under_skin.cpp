@@ -41,15 +41,13 @@ std::uint8_t World::State::cut_at(const Model& model,
                                   const Vec3& at,
                                   double radius_mm) const noexcept {
   const procedure::PortalMaking& figures = *model.procedure.making;
-  const Vec3 scanned = as_scanned(model, at);
   for (std::uint8_t c = 0; c < making.worked.cut_count; ++c) {
-    const detail::SkinCut& cut = making.worked.cuts[c];
-    const Vec3 way = cut.to - cut.from;
+    const Vec3 from = as_it_lies(model, making.worked.cuts[c].from);
+    const Vec3 way = as_it_lies(model, making.worked.cuts[c].to) - from;
     const double whole = squared_length(way);
     if (length(way) + figures.cut_stretch_mm < 2.0 * radius_mm) continue;
-    const double share =
-        whole > 0.0 ? std::clamp(dot(scanned - cut.from, way) / whole, 0.0, 1.0) : 0.0;
-    if (distance(scanned, cut.from + way * share) <= figures.cut_reach_mm) return c;
+    const double share = whole > 0.0 ? std::clamp(dot(at - from, way) / whole, 0.0, 1.0) : 0.0;
+    if (distance(at, from + way * share) <= figures.cut_reach_mm) return c;
   }
   return kNoCut;
 }

@@ -390,6 +390,7 @@ struct World::State : detail::ChangingData {
   [[nodiscard]] bool works_on_skin(const Model& model, const detail::Item& item) const noexcept;
   [[nodiscard]] Vec3 as_scanned(const Model& model, const Vec3& at) const noexcept;
   [[nodiscard]] Vec3 as_it_lies(const Model& model, const Vec3& scanned) const noexcept;
+  [[nodiscard]] double way_to_hand(const Model& model, const Vec3& scanned) const noexcept;
   [[nodiscard]] double hand_share(const Model& model, const Vec3& scanned) const noexcept;
   [[nodiscard]] detail::SkinPlace skin_at(const Model& model, const Vec3& at) const noexcept;
   void move_on_skin(const Model& model, std::uint8_t hand) noexcept;
