@@ -138,15 +138,16 @@ class Sentence {
       case EventKind::ViewClouded:
         return "The view is clouded: let fluid run through, or raise its pressure";
       case EventKind::FluidBack:
-        return "Fluid comes back through the needle: it is in a joint";
+        return "Fluid comes back through the needle: it is in a joint" + from_elsewhere();
       case EventKind::NeedleStruckBone:
         return "The needle struck bone: draw it back, aim anew";
       case EventKind::SkinCut:
-        return "The skin is cut";
+        return "The skin is cut" + from_elsewhere();
       case EventKind::WaySpread:
         return "Spread, down to the capsule";
       case EventKind::SheathIn:
-        return with_mm("The sheath gave way into a joint, and went on by", event_.value);
+        return with_mm("The sheath gave way into a joint, and went on by", event_.value) +
+               from_elsewhere();
       case EventKind::HeldBySkin:
         return subject() + " is blunt: the skin holds it, but where it was cut wide enough";
       case EventKind::NeedleSeen:
@@ -158,6 +159,11 @@ class Sentence {
   }
 
  private:
+  [[nodiscard]] std::string from_elsewhere() const {
+    if (event_.detail != 1) return {};
+    return ", but on another side of the wrist than the portal: it does not count for it";
+  }
+
   [[nodiscard]] std::string probed_of_screw() const {
     switch (static_cast<cases::ScrewSite>(event_.detail)) {
       case cases::ScrewSite::Proximal:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -177,8 +178,9 @@ class Hand {
     step();
   }
   void step() {
-    world_.step(input_);
+    const Snapshot& now = world_.step(input_);
     inputs.push_back(input_);
+    if (listener) listener(now);
   }
   void command(const Command& command) {
     input_.command = command;
@@ -195,6 +197,7 @@ class Hand {
   }
   std::uint8_t led = 0;  ///< the hand that goes; the other one stays
   std::vector<Input> inputs;
+  std::function<void(const Snapshot&)> listener;  ///< told of each tick
   double mm_per_tick = 0.02;
 
  private:

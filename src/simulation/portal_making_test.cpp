@@ -354,6 +354,33 @@ TEST(PortalMaking, ATendonThatIsDrawnAsideIsNotHarmedOnceTheWayIsSpread) {
   EXPECT_EQ(struck(making()), std::pair(true, procedure::kCutBeforeNeedle));
 }
 
+TEST(PortalMaking, WhatComesFromTheLimbsOtherSideMakesNoPortal) {
+  cases::CaseData turned = wrist_with_skin();
+  cases::ArthroscopicMap map = *turned.arthroscopy;
+  for (cases::Portal& portal : map.portals) portal.inwards = portal.inwards * -1.0;
+  turned.arthroscopy = std::make_shared<const cases::ArthroscopicMap>(map);
+  World world(turned, making(), 1);
+  Maker maker(world);
+  std::vector<std::pair<EventKind, int>> told;
+  maker.hand.listener = [&](const Snapshot& now) {
+    for (std::uint32_t i = 0; i < now.event_count; ++i) {
+      told.emplace_back(now.events[i].kind, now.events[i].detail);
+    }
+  };
+  maker.prick();
+  maker.cut();
+  maker.spread();
+  maker.enter();
+  const procedure::MakingFacts& facts = world.now().skin.facts;
+  EXPECT_EQ(facts.made, 0);
+  EXPECT_FALSE(facts.portal[0].needle.is_in);
+  EXPECT_FALSE(facts.portal[0].is_cut);
+  EXPECT_EQ(facts.portal[0].out_of_order, 0);
+  for (const EventKind kind : {EventKind::FluidBack, EventKind::SkinCut, EventKind::SheathIn}) {
+    EXPECT_EQ(std::count(told.begin(), told.end(), std::pair(kind, 1)), 1) << int(kind);
+  }
+}
+
 TEST(PortalMaking, TheStateComesBackFromItsBytesAndGoesOnAlike) {
   World world(wrist_with_skin(), making(), 1);
   Maker maker(world);

@@ -256,17 +256,20 @@ enum class EventKind : std::uint8_t {
   CartilagePressed = 35,   ///< in a joint, with more than 8 N; detail: body, value: N
   /// The scope, across from its portal, with more than 3 N; detail: portal, value: N
   CapsulePushed = 36,
-  PressureTooHigh = 40,   ///< of the fluid in the joint; value: mmHg
-  TissueSwells = 41,      ///< of what went into it; value: ml
-  ViewClouded = 42,       ///< blood or what lies on the lens hides the joint
-  ScrewProbed = 50,       ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
-  FluidBack = 60,         ///< through a needle that is in a joint
+  PressureTooHigh = 40,  ///< of the fluid in the joint; value: mmHg
+  TissueSwells = 41,     ///< of what went into it; value: ml
+  ViewClouded = 42,      ///< blood or what lies on the lens hides the joint
+  ScrewProbed = 50,      ///< a site of a screw, in the scope's sight; detail: cases::ScrewSite
+  /// Through a needle that is in a joint; detail: 1 where it came in from another side than the
+  /// portal's that is asked for
+  FluidBack = 60,
   NeedleStruckBone = 61,  ///< detail: body
-  SkinCut = 62,           ///< a cut was begun
+  SkinCut = 62,           ///< a cut was begun; detail as of FluidBack
   WaySpread = 63,         ///< down to the capsule
-  SheathIn = 64,          ///< in a joint; value: by how much it went on beyond the capsule [mm]
-  HeldBySkin = 65,        ///< what is blunt does not go through it
-  NeedleSeen = 66,        ///< its point, by the scope, before the skin was cut
+  /// In a joint; detail as of FluidBack, value: by how much it went on beyond the capsule [mm]
+  SheathIn = 64,
+  HeldBySkin = 65,  ///< what is blunt does not go through it
+  NeedleSeen = 66,  ///< its point, by the scope, before the skin was cut
 };
 
 struct Event {

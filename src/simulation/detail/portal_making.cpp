@@ -68,13 +68,20 @@ void World::State::watch_blade(const Model& model,
   }
 }
 
+/// What comes from another side of the limb makes no portal, whatever joint it reaches.
+bool World::State::is_from_its_side(const Model& model,
+                                    std::size_t asked,
+                                    const Vec3& towards) const noexcept {
+  return dot(towards, marked_way(model, model.asked[asked]).inwards) > kSameSideCosine;
+}
+
 /// Only where it goes in from the portal's side: on the other lies what is generated for others.
 void World::State::note_strayed(const Model& model,
                                 std::size_t asked,
                                 const Vec3& at,
                                 const Vec3& towards) noexcept {
+  if (!is_from_its_side(model, asked, towards)) return;
   const WayIn marked = marked_way(model, model.asked[asked]);
-  if (!(dot(towards, marked.inwards) > kSameSideCosine)) return;
   double& most = making.facts.portal[asked].strayed_mm;
   most = std::max(most, std::sqrt(squared_aside(at - marked.skin, marked.inwards)));
 }
@@ -95,9 +102,11 @@ void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPla
     }
     if (under.cut == kNoCut && worked.cut_count < kMaxCuts) {
       const std::size_t asked = asked_now();
+      const bool is_elsewhere = !is_from_its_side(model, asked, -at.normal);
       procedure::PortalMade& made = making.facts.portal[asked];
       if (made.cuts < 255) ++made.cuts;
-      if (!made.needle.is_in && making.facts.made <= asked && !model.is_opened_first[asked]) {
+      if (!is_elsewhere && !made.needle.is_in && making.facts.made <= asked &&
+          !model.is_opened_first[asked]) {
         made.out_of_order |= procedure::kCutBeforeNeedle;
       }
       under.cut = worked.cut_count;
@@ -105,7 +114,8 @@ void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPla
       cut = {};
       cut.from = cut.to = scanned;
       cut.portal = static_cast<std::uint8_t>(asked);
-      emit(EventKind::SkinCut, now.held[hand], 0, 0.0);
+      cut.is_elsewhere = is_elsewhere;
+      emit(EventKind::SkinCut, now.held[hand], is_elsewhere ? 1 : 0, 0.0);
     }
   }
   watch_blade(model, hand, at);
@@ -180,8 +190,9 @@ procedure::CutMade World::State::cut_made(const Model& model,
 bool World::State::is_uncut(const UnderSkin& under) const noexcept {
   const detail::Worked& worked = making.worked;
   return under.cut == kNoCut && making.facts.made == under.portal &&
-         std::none_of(worked.cuts.begin(), worked.cuts.begin() + worked.cut_count,
-                      [&](const SkinCut& cut) { return cut.portal == under.portal; });
+         std::none_of(
+             worked.cuts.begin(), worked.cuts.begin() + worked.cut_count,
+             [&](const SkinCut& cut) { return cut.portal == under.portal && !cut.is_elsewhere; });
 }
 
 /// How long the scope in the other hand has its point in the picture, in the joint.
@@ -226,14 +237,16 @@ void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
   if (under.is_told || static_cast<double>(under.ticks) * kTickSeconds < figures.in_joint_s) return;
   under.is_told = true;
   note_line_in(model, hand);
+  const bool is_elsewhere = !is_from_its_side(model, under.portal, under.towards);
   if (work == SkinWork::Needle) {
-    if (making.facts.made == under.portal) made.needle = way_made(model, under);
+    if (making.facts.made == under.portal && !is_elsewhere) made.needle = way_made(model, under);
     if (is_uncut(under)) made.needle_seen_ticks = 0;  // what was seen of one before led to nothing
-    return emit(EventKind::FluidBack, now.held[hand], 0, 0.0);
+    return emit(EventKind::FluidBack, now.held[hand], is_elsewhere ? 1 : 0, 0.0);
   }
   made.overrun_mm = std::max(made.overrun_mm, under.travel_mm - under.capsule_mm);
-  emit(EventKind::SheathIn, now.held[hand], 0, under.travel_mm - under.capsule_mm);
-  if (making.facts.made != under.portal) return;
+  emit(EventKind::SheathIn, now.held[hand], is_elsewhere ? 1 : 0,
+       under.travel_mm - under.capsule_mm);
+  if (making.facts.made != under.portal || is_elsewhere) return;
   made.sheath = way_made(model, under);
   making.ways[under.portal] = way_as_made(model, under);
   made.cut = cut_made(model, under);
@@ -283,7 +296,7 @@ procedure::MakingFacts World::State::making_facts(const Model& model) const noex
   facts.asked = model.asked;
   for (std::size_t c = 0; c < making.worked.cut_count; ++c) {
     const SkinCut& cut = making.worked.cuts[c];
-    if (cut.portal < facts.made) continue;
+    if (cut.portal < facts.made || cut.is_elsewhere) continue;
     facts.portal[cut.portal].is_cut = true;
     facts.portal[cut.portal].is_spread = facts.portal[cut.portal].is_spread || cut.is_spread;
   }

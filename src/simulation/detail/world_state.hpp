@@ -432,6 +432,9 @@ struct World::State : detail::ChangingData {
   void watch_blade(const Model& model, std::uint8_t hand, const detail::SkinPlace& at) noexcept;
   void watch_making(const Model& model, std::uint8_t hand) noexcept;
   void note_line_in(const Model& model, std::uint8_t hand) noexcept;
+  [[nodiscard]] bool is_from_its_side(const Model& model,
+                                      std::size_t asked,
+                                      const Vec3& towards) const noexcept;
   void note_strayed(const Model& model,
                     std::size_t asked,
                     const Vec3& at,
