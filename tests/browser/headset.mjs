@@ -170,5 +170,12 @@ export async function wearsHeadset(browser, station) {
     for (let tap = 0; tap < 4; ++tap) await operator.tap("KeyJ");
     await operator.until((s) => s.wrist.flexion_deg > before + 2, "a wrist that moves by key");
   });
+  await check(page, "an arthroscopy, whose picture a headset does not show, is not begun with one", async () => {
+    await operator.start(station.url, "Browser test, headset", "diagnostic_arthroscopy", "practice");
+    await page.locator('button[aria-disabled="true"]', { hasText: "Headset" }).waitFor();
+    await button.dispatchEvent("click"); // one that is disabled is not clicked
+    await page.locator(".notice", { hasText: "led at the page" }).waitFor();
+    expect((await wearer.shown()) === undefined, "it was put on");
+  });
   await page.close();
 }

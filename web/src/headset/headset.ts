@@ -27,6 +27,8 @@ const TABLE_BELOW_M = 0.03;
 const WORDS_EVERY_MS = 100;
 
 export interface HeadsetHandlers extends HeadsetRoom {
+  /** Why it is not put on; undefined: it is. */
+  whyNot(): string | undefined;
   stage(): WornStage;
   words(): Words;
   /** The newest picture; undefined before the first. */
@@ -68,6 +70,11 @@ export class Headset {
   async toggle(): Promise<void> {
     if (this.worn !== undefined) return this.worn.session.end();
     if (this.isAsking) return;
+    const why = this.handlers.whyNot();
+    if (why !== undefined) {
+      this.handlers.say(why);
+      return;
+    }
     this.isAsking = true;
     try {
       const session = await navigator.xr?.requestSession("immersive-vr", {

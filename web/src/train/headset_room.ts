@@ -58,6 +58,7 @@ export function headsetRoom(around: HeadsetSurroundings): HeadsetHandlers {
       else if (action.kind === "take") take();
       else around.actions().act(action);
     },
+    whyNot: () => seen.whyNoHeadset,
     stage: () => theatre.beWorn(),
     words: () => wordsOf(around, chosenNow()),
     picture: () => around.picture(),

@@ -12,10 +12,13 @@ export interface OfferedControls {
   readonly plan: boolean;
   readonly gauge: boolean;
   readonly decline: boolean;
+  /** A headset's controllers lead what is held, but nothing in a portal. */
+  readonly headset: boolean;
 }
 
 export type Declared = Pick<ExerciseMessage, "views" | "mode" | "decline_reasons"> & {
   readonly ideal: unknown;
+  readonly arthroscopy: unknown;
   readonly instruments: readonly { readonly drive: string; readonly is_gauge: boolean }[];
 };
 
@@ -26,5 +29,6 @@ export function offeredControls(declared: Declared): OfferedControls {
     plan: declared.mode !== "assessed" && declared.ideal !== null,
     gauge: declared.instruments.some((one) => one.is_gauge),
     decline: declared.decline_reasons.length > 0,
+    headset: declared.arthroscopy === null,
   };
 }

@@ -16,6 +16,8 @@ export interface TopBarHandlers {
   headset(): void;
 }
 
+const WHAT_A_HEADSET_DOES = "Operate with the headset's controllers, in the room";
+
 function tickTimeText(us: number): string {
   return us < 1000 ? `${Math.round(us)} µs` : `${(us / 1000).toFixed(1)} ms`;
 }
@@ -44,6 +46,7 @@ export class TopBar {
     this.soundButton = button("Sound", "{Backquote}", handlers.sound, ".quiet.sound");
     this.headsetButton = button("Headset", "", handlers.headset, ".quiet");
     this.headsetButton.hidden = true;
+    this.allowHeadset(undefined);
     this.device = button("mouse and keys", "", handlers.devices, ".quiet.device-held");
     this.device.title = "What the hands hold: choose a device, feel a wall, calibrate";
     const patient = make("span.patient", {}, description.pseudonym);
@@ -78,7 +81,12 @@ export class TopBar {
   /** Whether this browser has a headset. */
   offerHeadset(isThere: boolean): void {
     this.headsetButton.hidden = !isThere;
-    this.headsetButton.title = "Operate with the headset's controllers, in the room";
+  }
+
+  /** @param why  what is done is not done with one */
+  allowHeadset(why: string | undefined): void {
+    this.headsetButton.setAttribute("aria-disabled", String(why !== undefined));
+    this.headsetButton.title = why ?? WHAT_A_HEADSET_DOES;
   }
 
   showHeadset(isWorn: boolean): void {

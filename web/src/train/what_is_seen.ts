@@ -20,6 +20,9 @@ import type { Hand } from "./hand";
 import { offeredControls } from "./offered_controls_model";
 import type { Panels } from "./panels";
 
+const WHY_NO_HEADSET =
+  "An arthroscopy is led at the page: a headset shows no scope's picture and leads nothing in a portal.";
+
 export class WhatIsSeen {
   private snapshot: SnapshotMessage | undefined;
   private exercise: ExerciseMessage | undefined;
@@ -70,6 +73,12 @@ export class WhatIsSeen {
     return (snapshot === undefined ? "" : exercise?.steps[snapshot.step]?.instrument) ?? "";
   }
 
+  /** Undefined: what is done can be done with one. */
+  get whyNoHeadset(): string | undefined {
+    const { exercise } = this;
+    return exercise === undefined || offeredControls(exercise).headset ? undefined : WHY_NO_HEADSET;
+  }
+
   /** What is done from now on; its state follows. */
   begin(exercise: ExerciseMessage): void {
     const { arm, bottom, drive, steps, top, tray, views, wrist } = this.panels;
@@ -87,6 +96,7 @@ export class WhatIsSeen {
     if (!assessed && closed) views.showGhostOnSkin();
     views.showAids(false, "off");
     top.showProcedure(exercise.procedure.title, assessed);
+    top.allowHeadset(this.whyNoHeadset);
     steps.setSteps(exercise);
     arm.setViews(exercise.views);
     tray.setTray(exercise);
