@@ -4,7 +4,7 @@
 // What a trainee reads while the headset is worn: the step, what is held and chosen, what was said, and which
 // button does what. The headset shows no page.
 import { Plate } from "./plate";
-import { wrapped } from "./wrapped";
+import { writtenLines, type Paragraph } from "./written_lines";
 
 export interface Words {
   readonly title: string;
@@ -18,12 +18,13 @@ const WIDTH = 1024;
 const HEIGHT = 768;
 const MARGIN = 44;
 const FONT = "'Inter Variable', sans-serif";
-const BUTTONS: readonly string[] = [
-  "Hand: trigger drives, grip reverses, A next picture, B takes hold",
-  "of a wire in bone, stick left and right chooses, pressed takes.",
-  "Other hand: trigger live X-ray, grip carries the table, stick turns",
-  "and enlarges it, pressed a hint; X same picture again, Y pause.",
-];
+const BUTTONS: readonly Paragraph[] = [
+  "Hand: trigger drives, grip reverses, A next picture, B takes hold of a wire in bone, stick left and right chooses, pressed takes.",
+  "Other hand: trigger live X-ray, grip carries the table, stick turns and enlarges it, pressed a hint; X same picture again, Y pause.",
+].map((text) => ({ text, sizePx: 27, weight: 400, color: "#9aaab1", gapPx: 0 }));
+const BUTTONS_HEIGHT = 4 * 1.28 * 27;
+/** Between the words and the buttons. */
+const APART = 16;
 
 export class WordPlate {
   private readonly plate: Plate;
@@ -56,34 +57,44 @@ export class WordPlate {
     context.fillStyle = "#10171b";
     context.fillRect(0, 0, WIDTH, HEIGHT);
     context.textBaseline = "top";
-    let y = MARGIN;
-    const write = (line: string, size: number, weight: number, color: string): void => {
-      context.font = `${weight} ${size}px ${FONT}`;
-      context.fillStyle = color;
-      const width = (part: string): number => context.measureText(part).width;
-      for (const part of wrapped(line, WIDTH - 2 * MARGIN, width)) {
-        context.fillText(part, MARGIN, y);
-        y += 1.28 * size;
+    const width = WIDTH - 2 * MARGIN;
+    const write = (paragraphs: readonly Paragraph[], top: number, height: number): void => {
+      const lines = writtenLines(
+        paragraphs,
+        { widthPx: width, heightPx: height },
+        (part, sizePx, weight) => {
+          context.font = `${weight} ${sizePx}px ${FONT}`;
+          return context.measureText(part).width;
+        },
+      );
+      for (const { text: line, topPx, sizePx, of } of lines) {
+        context.font = `${of.weight} ${sizePx}px ${FONT}`;
+        context.fillStyle = of.color;
+        context.fillText(line, MARGIN, top + topPx);
       }
     };
-    write(words.title, 46, 650, "#f1f5f6");
-    y += 8;
-    write(words.instruction, 31, 400, "#c9d5da");
-    y += 18;
-    for (const [name, value] of words.readings) write(`${name}: ${value}`, 31, 500, "#8fd0e8");
-    y += 14;
-    write(words.notice, 31, 500, "#f4c66b");
-    y = HEIGHT - MARGIN - BUTTONS.length * 30;
-    for (const line of BUTTONS) {
-      context.font = `400 24px ${FONT}`;
-      context.fillStyle = "#8b9aa1";
-      context.fillText(line, MARGIN, y);
-      y += 30;
-    }
+    const buttonsTop = HEIGHT - MARGIN - BUTTONS_HEIGHT;
+    write(paragraphsOf(words), MARGIN, buttonsTop - MARGIN - APART);
+    write(BUTTONS, buttonsTop, BUTTONS_HEIGHT + 1);
     this.plate.changed();
   }
 
   dispose(): void {
     this.plate.dispose();
   }
+}
+
+function paragraphsOf({ title, instruction, readings, notice }: Words): readonly Paragraph[] {
+  const reading = { sizePx: 31, weight: 500, color: "#8fd0e8" };
+  const last = readings.length - 1;
+  return [
+    { text: title, sizePx: 46, weight: 650, color: "#f1f5f6", gapPx: 8 },
+    { text: instruction, sizePx: 31, weight: 400, color: "#c9d5da", gapPx: 18 },
+    ...readings.map((one, i) => ({
+      ...reading,
+      text: one.join(": "),
+      gapPx: i === last ? 14 : 0,
+    })),
+    { text: notice, sizePx: 31, weight: 500, color: "#f4c66b", gapPx: 0 },
+  ];
 }
