@@ -138,6 +138,9 @@ export async function wearsHeadset(browser, station) {
     await operator.until((s) => !s.paused, "time that goes on");
   });
   await check(page, "the trigger drives the wire in, the grip draws it out", async () => {
+    await wearer.press("right", "trigger");
+    await wearer.until((s) => s.text.includes("no bone: lead it onto the bone"), "words without keys");
+    await wearer.press("right", "trigger", 0);
     await wearer.hold(plus(axis.entry, axis.toHand, -0.2), axis.toHand);
     await operator.until((s) => s.hands[0].touching, "the tip on the bone");
     await wearer.press("right", "trigger");

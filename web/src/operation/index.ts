@@ -7,3 +7,4 @@ export * from "./key_map";
 export * from "./offered_actions";
 export * from "./held_items";
 export * from "./tick_text";
+export * from "./why_still";

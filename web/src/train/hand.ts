@@ -5,6 +5,7 @@
 // instrument, how it pushes, the driver; the other hand stays where it is. It asks; which way the hand
 // goes and where the instrument really is, the host says.
 import {
+  BY_KEYS,
   heldAction,
   heldItem,
   MAX_THRUST_N,
@@ -14,6 +15,7 @@ import {
   type HandIndex,
   type HeldAction,
   type KeyPress,
+  type LedWith,
   type WristAxis,
 } from "../operation";
 import type { HandMessage, Item, SnapshotMessage, Vec3 } from "../protocol";
@@ -86,6 +88,8 @@ export interface HandHandlers {
 }
 
 export class Hand {
+  /** As what it says names it. */
+  ledWith: LedWith = BY_KEYS;
   private readonly poses: [ToolPose, ToolPose] = [NOWHERE, NOWHERE];
   /** The hand that mouse and keys move. */
   private moved: HandIndex = 0;
@@ -357,7 +361,8 @@ export class Hand {
       const why = this.handlers.whyHeldBySkin(this.moved);
       if (why !== undefined) return why;
     }
-    return whyItKeepsStill(item, (body) => this.handlers.label(body), this.leads(item));
+    const label = (body: string): string => this.handlers.label(body);
+    return whyItKeepsStill(item, label, this.leads(item), this.ledWith);
   }
 
   private leadsNow(): boolean {

@@ -3,7 +3,7 @@
 //
 // What a headset reaches in the room, and what it shows of it.
 import type { HeadsetHandlers, HeadsetOnce, Words } from "../headset";
-import { heldItem } from "../operation";
+import { BY_CONTROLLERS, BY_KEYS, heldItem } from "../operation";
 import type { CArmPicture, Instrument } from "../protocol";
 import type { Theatre } from "../theatre";
 import type { Actions } from "./actions";
@@ -66,6 +66,7 @@ export function headsetRoom(around: HeadsetSurroundings): HeadsetHandlers {
       hand.frame(nowMs);
     },
     worn: (on) => {
+      hand.ledWith = on ? BY_CONTROLLERS : BY_KEYS;
       panels.top.showHeadset(on);
       panels.notice.say(
         on

@@ -4,7 +4,7 @@
 // What the host has told: what is done, its last snapshot, what can be asked for; and all that shows it:
 // the theatre at once, readings ten times a second.
 import { isPushedWith } from "../devices";
-import { OfferedActions, whyStuck } from "../operation";
+import { BY_DEVICE, OfferedActions, whyStuck } from "../operation";
 import type {
   ActionsMessage,
   BodyPose,
@@ -161,7 +161,7 @@ export class WhatIsSeen {
     arm.showCount(s.shots, s.dose_cgy_cm2);
     const stuck =
       hand.driver === "forward" && !s.paused && !worksOnSkin(this.exercise?.instruments ?? [])
-        ? whyStuck(s, hand.active, thrustN, isPressed)
+        ? whyStuck(s, hand.active, thrustN, isPressed ? BY_DEVICE : hand.ledWith)
         : undefined;
     if (stuck !== undefined) notice.say(stuck);
   }
