@@ -466,7 +466,8 @@ struct Step {
   /// stable, snake_case
   std::string id;
   std::string title;
-  /// one sentence: what to do next
+  /// one sentence: what to do next; {scope:radiocarpal}, {tool:midcarpal} stand for the portal of
+  /// that joint before which the page holds the scope, or what works beside it, and where it lies
   std::string instruction;
   /// whose keys the page names with it: of action_id, or what a page does by itself
   std::vector<std::string> actions;

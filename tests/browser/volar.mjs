@@ -111,8 +111,13 @@ export async function goesInFromVolar(browser, station) {
       await page.waitForTimeout(100);
     }
     await page.locator('.view-bar button[aria-pressed="true"]', { hasText: "Volar" }).waitFor();
+    // The step is told for the portal that was chosen, and is done by it.
+    await page.locator(".step-list li", { hasText: "by the volar radial portal: at the proximal wrist crease" }).waitFor();
     await operator.until((s) => dot(Operator.held(s).shaft, dorsal) < -0.7, "the scope from volar");
     await hands.goIn();
+    const { steps } = await operator.exercise();
+    const step = steps.findIndex((one) => one.id === "look_in");
+    await operator.until((s) => s.completed_steps.includes(step), "the scope's step done");
     expect((await hands.scope()).portals[0] === "VR", "it is in another portal");
     await showsTheJoint();
     await picture("by_v");

@@ -64,10 +64,15 @@ bool has_seen(const Situation& now) noexcept {
 bool is_pulled(const Situation& now) noexcept {
   return now.wrist.traction_n >= kLeastTractionN && now.wrist.traction_n <= kMostTractionN;
 }
+/// By whichever portal was chosen: the page says where that one lies.
 bool is_scope_in(const Situation& now) noexcept {
+  return is_in(now, kRadiocarpal, true, [](std::uint8_t) { return true; });
+}
+/// Where portals are made: by the one that was made first, what works beside it by another.
+bool is_scope_in_first(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, true, [](std::uint8_t by) { return by == kPortal34; });
 }
-bool is_probe_in(const Situation& now) noexcept {
+bool is_probe_in_second(const Situation& now) noexcept {
   return is_in(now, kRadiocarpal, false, [](std::uint8_t by) { return by != kPortal34; });
 }
 /// Something works beside the scope.
@@ -143,7 +148,9 @@ std::span<const NamedPredicate> named_predicates() {
   static constexpr std::array kPredicates{
       NamedPredicate{"is_pulled", is_pulled},
       NamedPredicate{"is_scope_in", is_scope_in},
-      NamedPredicate{"is_probe_in", is_probe_in},
+      NamedPredicate{"is_scope_in_first", is_scope_in_first},
+      NamedPredicate{"is_probe_in", is_tool_in},
+      NamedPredicate{"is_probe_in_second", is_probe_in_second},
       NamedPredicate{"is_grasper_in", is_tool_in},
       NamedPredicate{"is_shaver_in", is_tool_in},
       NamedPredicate{"is_tool_in", is_tool_in},

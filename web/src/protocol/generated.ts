@@ -285,7 +285,7 @@ export interface Step {
   /** stable, snake_case */
   readonly id: string;
   readonly title: string;
-  /** one sentence: what to do next */
+  /** one sentence: what to do next; {scope:radiocarpal}, {tool:midcarpal} stand for the portal of that joint before which the page holds the scope, or what works beside it, and where it lies */
   readonly instruction: string;
   /** whose keys the page names with it: of action_id, or what a page does by itself */
   readonly actions: readonly string[];

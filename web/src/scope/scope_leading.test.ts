@@ -7,7 +7,13 @@ import type { ExerciseMessage, HandMessage, ScopeMessage, SnapshotMessage } from
 import { length, subtract } from "../tool_placement";
 import { ScopeLeading } from "./scope_leading";
 
-const PORTAL = { joint: "", body: "radius", inwards: [0, 0, -1], capsule_mm: 10, landmarks: "" };
+const PORTAL = {
+  joint: "radiocarpal",
+  body: "radius",
+  inwards: [0, 0, -1],
+  capsule_mm: 10,
+  landmarks: "",
+};
 // Only what leading asks of it.
 const EXERCISE = {
   bodies: [{ name: "radius" }],
@@ -57,9 +63,12 @@ function desk(tools = true): {
   readonly sent: Sent[];
   readonly did: string[];
   frame(): readonly Sent[];
+  /** As told last. */
+  words(text: string): string;
 } {
   const sent: Sent[] = [];
   const did: string[] = [];
+  let told = (text: string): string => text;
   const leading = new ScopeLeading(
     {
       operates: () => true,
@@ -71,6 +80,9 @@ function desk(tools = true): {
       say: () => undefined,
       showSide: (facing) => did.push(`show ${facing.map((v) => Math.round(v)).join()}`),
       showHand: () => undefined,
+      tellPortals: (words) => {
+        told = words;
+      },
     },
     () => undefined,
   );
@@ -84,7 +96,7 @@ function desk(tools = true): {
     return [...sent];
   };
   frame();
-  return { leading, sent, did, frame };
+  return { leading, sent, did, frame, words: (text) => told(text) };
 }
 
 describe("two hands at a scope", () => {
@@ -146,6 +158,17 @@ describe("two hands at a scope", () => {
     // The shaft runs through the hole in the skin.
     const { tip_mm: tip = [0, 0, 0], shaft = [0, 0, 1] } = scope ?? {};
     expect(tip[1] - (tip[2] / shaft[2]) * shaft[1]).toBeCloseTo(3, 6);
+  });
+
+  it("tell a step's words of the portals that were chosen for them", () => {
+    const { leading, words } = desk();
+    const said = (): string => words("{scope:radiocarpal} {tool:radiocarpal}");
+    expect(said()).toBe("3-4:  4-5: ");
+    leading.seeScope({ ...SCOPE, portals: ["", ""] });
+    leading.goToNextPortal(0);
+    expect(said()).toBe("VR:  4-5: ");
+    leading.goToNextPortal(1);
+    expect(said()).toBe("VR:  3-4: ");
   });
 
   it("show the side that their portal faces as they go round to it", () => {

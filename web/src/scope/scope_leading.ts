@@ -13,6 +13,7 @@ import type {
 } from "../protocol";
 import { scaled } from "../tool_placement";
 import { HandsToSend, PEDAL_REPEAT_MS } from "./hands_to_send";
+import { withPortals } from "./portal_words_model";
 import { wrappedDeg } from "./scope_hand_model";
 import { ScopeHands, type HandIndex, type Lead } from "./scope_hands";
 import type { ScopeMotion } from "./scope_keys";
@@ -31,6 +32,8 @@ export interface LeadingRoom {
   say(text: string): void;
   /** The panorama shows what faces this way, in Patient. */
   showSide(facing: Vec3): void;
+  /** Hands are before other portals. @param words  a step's, of the portals that they are before now */
+  tellPortals(words: (text: string) => string): void;
   /** Mouse and keys move this hand from now on. */
   showHand(hand: HandIndex): void;
 }
@@ -74,6 +77,17 @@ export class ScopeLeading {
     this.shaftDeg = this.cameraDeg = 0;
     this.askedToTakeMs = -Infinity;
     this.keys.clear();
+    this.tellPortals();
+  }
+
+  private tellPortals(): void {
+    const hand = this.scope?.hand === 1 ? 1 : 0;
+    const chosen = {
+      scope: this.hands.portalOf(hand),
+      tool: this.hands.portalOf(hand === 0 ? 1 : 0),
+    };
+    const portals = this.exercise?.arthroscopy?.portals ?? [];
+    this.room.tellPortals((text) => withPortals(text, portals, chosen));
   }
 
   see(snapshot: SnapshotMessage): void {
@@ -279,6 +293,7 @@ export class ScopeLeading {
     this.hands.goToNextPortal(hand);
     this.sending.mark(hand);
     this.onPortal();
+    this.tellPortals();
     const now = this.hands.portalNowOf(hand);
     if (now !== undefined) this.room.showSide(scaled(now.inwards, -1));
     const next = this.hands.portalOf(hand);

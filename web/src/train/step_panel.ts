@@ -15,6 +15,7 @@ interface ShownStep {
   readonly step: Step;
   readonly item: HTMLLIElement;
   readonly mark: HTMLElement;
+  readonly sentence: HTMLElement;
   /** Goes back to it. */
   readonly again: HTMLButtonElement;
   /** Of the step that judges the fracture. */
@@ -113,6 +114,7 @@ export class StepPanel {
       const question = step.actions.includes("judge")
         ? new DisplacementQuestion(this.onJudge)
         : undefined;
+      const sentence = make("p.step-sentence", {}, step.instruction);
       const item = make(
         "li",
         {},
@@ -121,15 +123,21 @@ export class StepPanel {
           "div",
           {},
           make("span.step-name", {}, step.title),
-          make("p.step-sentence", {}, step.instruction),
+          sentence,
           ...(question === undefined ? [] : [question.element]),
           make("p.step-keys", {}, ...(tool === undefined ? [] : [`${tool.name} `]), ...keys),
         ),
         again,
       );
-      return { step, item, mark, again, question };
+      return { step, item, mark, sentence, again, question };
     });
     this.list.replaceChildren(...this.items.map(({ item }) => item));
+  }
+
+  /** @param words  a step's, with what was chosen on the page in place of its names */
+  fill(words: (text: string) => string): void {
+    for (const { step, sentence } of this.items) setText(sentence, words(step.instruction));
+    this.showCurrent();
   }
 
   show(s: SnapshotMessage): void {
@@ -137,7 +145,7 @@ export class StepPanel {
     const state = `${s.step} ${s.completed_steps.join(" ")} ${isBefore} ${s.judged_displaced}`;
     if (state === this.shown) return;
     this.shown = state;
-    this.items.forEach(({ step, item, mark, question }, index) => {
+    this.items.forEach(({ step, item, mark, sentence, question }, index) => {
       // Nobody tells in an assessed operation which step it is: the question stands until bone is
       // entered.
       item.classList.toggle("asked", question !== undefined && isBefore);
@@ -149,7 +157,7 @@ export class StepPanel {
       setText(mark, done ? "✓" : String(index + 1));
       if (current) {
         item.setAttribute("aria-current", "step");
-        setText(this.announcer, `${step.title}: ${step.instruction}`);
+        setText(this.announcer, `${step.title}: ${sentence.textContent}`);
       } else {
         item.removeAttribute("aria-current");
       }

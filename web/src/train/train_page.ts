@@ -226,6 +226,9 @@ export class TrainPage {
         },
         activeHand: () => this.hand.active,
         hasGamepad: () => this.gamepad.isConnected,
+        tellPortals: (words) => {
+          this.panels.steps.fill(words);
+        },
       },
       walls,
       this.abort.signal,
