@@ -5,6 +5,7 @@
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { Operator } from "./operator.mjs";
+import { pixelsOf } from "./pixels.mjs";
 
 const TRAINEE = "Browser test, assessed";
 
@@ -52,16 +53,9 @@ export async function operateAssessed(browser, station) {
     await operator.settle(4);
     const above = await page.locator(".stage canvas").first().boundingBox();
     const clip = { x: above.x + above.width / 2 - 40, y: above.y + 0.25 * above.height, width: 80, height: 20 };
-    const hue = await page.evaluate(async (png) => {
-      const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
-      const canvas = new OffscreenCanvas(picture.width, picture.height);
-      const drawing = canvas.getContext("2d");
-      drawing.drawImage(picture, 0, 0);
-      const { data } = drawing.getImageData(0, 0, picture.width, picture.height);
-      let most = 0;
-      for (let i = 0; i < data.length; i += 4) most = Math.max(most, data[i] - data[i + 2]);
-      return most;
-    }, (await page.screenshot({ clip })).toString("base64"));
+    const { data } = await pixelsOf(page, await page.screenshot({ clip }));
+    let hue = 0;
+    for (let i = 0; i < data.length; i += 4) hue = Math.max(hue, data[i] - data[i + 2]);
     expect(hue > 40, `nothing of skin's colour where fingers are: ${hue}`);
   });
   await check(page, "no scan is shown while it runs", async () => {

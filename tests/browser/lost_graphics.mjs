@@ -3,27 +3,16 @@
 //
 // A picture whose graphics context is lost says so, and looks as before once it has it again.
 import { expect } from "./checks.mjs";
+import { pixelsOf } from "./pixels.mjs";
 
 const PATIENCE_MS = 10_000;
 /** Of 255: smoothed edges alone, which not every context draws alike, were 1.5 off; another ground behind them 12. */
 const MOST_APART = 4;
 
 /** How far two pictures of one size are apart, the mean of all pixels' colours, of 255. */
-function apart(page, pictures) {
-  return page.evaluate(
-    async (all) => {
-      const [one, other] = await Promise.all(
-        all.map(async (png) => {
-          const bitmap = await createImageBitmap(await (await fetch(png)).blob());
-          const drawn = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
-          drawn.drawImage(bitmap, 0, 0);
-          return drawn.getImageData(0, 0, bitmap.width, bitmap.height).data;
-        }),
-      );
-      return one.reduce((sum, value, i) => sum + Math.abs(value - other[i]), 0) / one.length;
-    },
-    pictures.map((png) => `data:image/png;base64,${png.toString("base64")}`),
-  );
+async function apart(page, one, other) {
+  const [a, b] = [(await pixelsOf(page, one)).data, (await pixelsOf(page, other)).data];
+  return a.reduce((sum, value, i) => sum + Math.abs(value - b[i]), 0) / a.length;
 }
 
 /** @param around  of the picture: its canvas, and what is said over it */
@@ -41,7 +30,7 @@ export async function losesGraphics(page, around) {
   await said.waitFor({ state: "hidden" });
   const end = Date.now() + PATIENCE_MS;
   for (;;) {
-    const off = await apart(page, [before, await picture.screenshot()]);
+    const off = await apart(page, before, await picture.screenshot());
     if (off < MOST_APART) return;
     expect(Date.now() < end, `once it has its graphics again it is ${off.toFixed(2)} of 255 off`);
     await page.waitForTimeout(100);

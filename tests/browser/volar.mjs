@@ -10,6 +10,7 @@ import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { atRest } from "./hands.mjs";
 import { dot, Operator, readWrist } from "./operator.mjs";
+import { pixelsOf } from "./pixels.mjs";
 import { minus, plus, SkinHands } from "./skin_hands.mjs";
 import { root } from "./station.mjs";
 
@@ -40,27 +41,22 @@ async function crease(page, caseFolder, distalMm) {
       patient([-(distalMm + from + (i - BESIDE_STEPS) * STEP_MM), across, PALM_MM]),
     ),
   );
-  const png = `data:image/png;base64,${(await page.screenshot()).toString("base64")}`;
-  return page.evaluate(
-    async ([picture, all, beside]) => {
-      const bitmap = await createImageBitmap(await (await fetch(picture)).blob());
-      const drawn = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
-      drawn.drawImage(bitmap, 0, 0);
-      const scale = bitmap.width / innerWidth;
-      const grey = (mm) => {
-        const { x, y } = window.carpus.pagePoint(mm);
-        const [r, g, b] = drawn.getImageData(Math.round(x * scale), Math.round(y * scale), 1, 1).data;
-        return (r + g + b) / 3;
-      };
-      const dips = all.map((line) => {
-        const levels = line.map(grey);
-        const dip = (i) => Math.min(levels[i - beside], levels[i + beside]) - levels[i];
-        return Math.max(...levels.map((_, i) => (i < beside || i + beside >= levels.length ? 0 : dip(i))));
-      });
-      return dips.reduce((a, b) => a + b, 0) / dips.length;
-    },
-    [png, lines, BESIDE_STEPS],
+  const { width, data } = await pixelsOf(page, await page.screenshot());
+  const { places, across } = await page.evaluate(
+    (all) => ({ places: all.map((line) => line.map((mm) => window.carpus.pagePoint(mm))), across: innerWidth }),
+    lines,
   );
+  const scale = width / across;
+  const grey = ({ x, y }) => {
+    const at = 4 * (Math.round(y * scale) * width + Math.round(x * scale));
+    return (data[at] + data[at + 1] + data[at + 2]) / 3;
+  };
+  const dips = places.map((line) => {
+    const levels = line.map(grey);
+    const dip = (i) => Math.min(levels[i - BESIDE_STEPS], levels[i + BESIDE_STEPS]) - levels[i];
+    return Math.max(...levels.map((_, i) => (i < BESIDE_STEPS || i + BESIDE_STEPS >= levels.length ? 0 : dip(i))));
+  });
+  return dips.reduce((a, b) => a + b, 0) / dips.length;
 }
 
 export async function goesInFromVolar(browser, station) {
