@@ -8,7 +8,7 @@
 
 namespace carpus::procedures {
 
-/// The dorsal fixation, which is operated when none is named, then by their folders' names.
+/// In the order of CMakeLists.txt: first the dorsal fixation, which is operated when none is named.
 /// Read once, on the first call.
 /// @throws InvalidInput naming file and field when a procedure.json is wrong.
 [[nodiscard]] const procedure::ProcedureList& built_in();

@@ -62,6 +62,20 @@ TEST(BuiltIn, WithoutANameTheDorsalFixationIsOperated) {
   EXPECT_EQ(built_in().all().front()->id, "dorsal_scaphoid_fixation");
 }
 
+TEST(BuiltIn, FixationsStandTogetherAndArthroscopyGoesFromTheBasicsToTheExamination) {
+  const auto all = built_in().all();
+  const auto place = [&](std::string_view id) {
+    return std::ranges::find(all, id, [](const auto* one) { return std::string_view(one->id); }) -
+           all.begin();
+  };
+  EXPECT_EQ(place("volar_scaphoid_fixation"), 1);
+  EXPECT_EQ(place("arthroscopic_basics"), 2);
+  EXPECT_EQ(place("arthroscopic_basics_harder"), 3);
+  EXPECT_LT(place("diagnostic_arthroscopy"), place("arthroscopy_from_the_skin"));
+  EXPECT_LT(place("arthroscopic_portal_making"), place("arthroscopy_from_the_skin"));
+  EXPECT_EQ(all.back()->id, "arthroscopic_examination");
+}
+
 TEST(BuiltIn, OffersEveryFolder) {
   ASSERT_EQ(built_in().all().size(), 13U);
   EXPECT_NE(built_in().find("arthroscopy_from_the_skin"), nullptr);
