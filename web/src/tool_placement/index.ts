@@ -5,5 +5,6 @@
 export * from "./vectors";
 export * from "./tool_pose";
 export * from "./at_skin";
+export * from "./taken_over";
 export * from "./held_key_speed";
 export * from "./key_steps";

@@ -26,15 +26,16 @@ import {
   begunBeforeSkin,
   cross,
   DEEPEST_MM,
-  dot,
+  emptyHanded,
   givenWay,
   length,
   heldBackTo,
-  MAX_APPROACH_MM,
   movedBy,
   normalized,
+  NOWHERE,
   scaled,
   subtract,
+  takenOver,
   tipTarget,
   turnedBy,
   type ToolPose,
@@ -44,8 +45,6 @@ import { HeldDown, type SteppedAction } from "./held_down";
 const TURN_RAD_PER_PX = (0.25 * Math.PI) / 180;
 /** A fine step never jumps to another bone that happens to lie on the line of sight. */
 const FOLLOW_SURFACE_MM = 3;
-/** An empty hand begins so far beside the middle, to the right of the screen. */
-const BESIDE_MM = 30;
 /** A still hand is sent again after this long: the host pauses when it hears nothing [ms]. */
 const REPEAT_MS = 250;
 /** An operation's first instants swing the instrument about before it rests where it begins. */
@@ -66,8 +65,6 @@ const WAY: Readonly<Record<Direction, readonly [number, number]>> = {
   up: [0, 1],
   down: [0, -1],
 };
-
-const NOWHERE: ToolPose = { anchorMm: [0, 0, 0], approachMm: MAX_APPROACH_MM, shaft: [0, 0, 1] };
 
 export interface HandHandlers {
   send(hand: Omit<HandMessage, "type" | "sequence">): void;
@@ -225,19 +222,11 @@ export class Hand {
   }
 
   private takeOver(hand: HandIndex, item: Item | undefined, isAtBone: boolean): void {
-    const middle = this.theatre.middleMm();
-    if (item === undefined) {
-      const beside = scaled(this.theatre.screenAxes().right, BESIDE_MM);
-      const shaft = normalized(this.poses[0].shaft);
-      this.poses[hand] = { anchorMm: add(middle, beside), approachMm: MAX_APPROACH_MM, shaft };
-    } else {
-      const shaft = normalized(item.shaft);
-      const above = isAtBone || item.body !== "" ? 0 : dot(subtract(item.tip_mm, middle), shaft);
-      // Drawn back from the level of what is operated on, so that it can be advanced to there.
-      const approachMm = Math.min(MAX_APPROACH_MM, Math.max(0, above));
-      const anchorMm = subtract(item.tip_mm, scaled(shaft, approachMm));
-      this.poses[hand] = { anchorMm, approachMm, shaft };
-    }
+    const middleMm = this.theatre.middleMm();
+    this.poses[hand] =
+      item === undefined
+        ? emptyHanded(middleMm, this.theatre.screenAxes().right, this.poses[0].shaft)
+        : takenOver(item, middleMm, isAtBone || item.body !== "");
     this.changed = true;
   }
 
