@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { bonesNow, isThere, nameOfLabel } from "./bones_now_model";
+import { bonesNow, isThere, nameOfLabel, whyMissing } from "./bones_now_model";
 import { KNOWN_BONES, type ScannedBone } from "./scan_case_model";
 
 const found = (name: string, label: number): ScannedBone => ({
@@ -18,6 +18,18 @@ const counts =
 
 describe("bones as they are now", () => {
   const bones = [found("scaphoid", 3), found("hamate", 10)];
+  it("say why one is missing", () => {
+    const now = bonesNow(bones, counts({ 3: 5 }));
+    const why = (label: number): string =>
+      now
+        .filter((bone) => bone.label === label)
+        .map(whyMissing)
+        .join();
+    expect(why(10)).toBe("has no voxels any more");
+    expect(why(16)).toBe("is not there: the scaphoid is in one piece");
+    expect(why(15)).toBe("was not found");
+  });
+
   it("are all that are known, those too that were not found", () => {
     const now = bonesNow(bones, counts({ 3: 5, 10: 7 }));
     expect(now.map(({ label }) => label)).toEqual(KNOWN_BONES.map(([label]) => label));

@@ -18,6 +18,12 @@ export const SCAPHOID_DISTAL = 16;
 export const isThere = ({ presence }: BoneNow): boolean =>
   presence === "found" || presence === "later";
 
+/** Of one that is not there, after its name. */
+export function whyMissing({ presence, label }: BoneNow): string {
+  if (presence === "gone") return "has no voxels any more";
+  return label === SCAPHOID_DISTAL ? "is not there: the scaphoid is in one piece" : "was not found";
+}
+
 /** As the host will call it: a scaphoid of which there is a distal part is the proximal one. */
 export function nameOfLabel(label: number, count: (label: number) => number): string {
   if (label === SCAPHOID && count(SCAPHOID_DISTAL) > 0) return "scaphoid_proximal";

@@ -138,6 +138,18 @@ export function extentAlong(volume: Volume, axis: Vec3): readonly [number, numbe
   return [low, high];
 }
 
+/** The middle of the volume [mm]. */
+export function middleOf({ size, patientFromVoxel }: Volume): Vec3 {
+  return applied(patientFromVoxel, [(size[0] - 1) / 2, (size[1] - 1) / 2, (size[2] - 1) / 2]);
+}
+
+/** The same place, or the nearest along the volume's axes where it lies outside [mm]. */
+export function heldInside({ size, voxelFromPatient, patientFromVoxel }: Volume, mm: Vec3): Vec3 {
+  const [i, j, k] = applied(voxelFromPatient, mm);
+  const held = (at: number, count: number): number => Math.min(count - 1, Math.max(0, at));
+  return applied(patientFromVoxel, [held(i, size[0]), held(j, size[1]), held(k, size[2])]);
+}
+
 /** The shortest edge of a voxel [mm]. */
 export function finestSpacing(volume: Volume): number {
   return Math.min(

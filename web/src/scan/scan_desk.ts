@@ -5,7 +5,7 @@
 import { make, setText } from "../dom";
 import type { Vec3 } from "../protocol";
 import { BoneList } from "./bone_list";
-import { bonesNow, isThere, SCAPHOID_DISTAL, type BoneNow } from "./bones_now_model";
+import { bonesNow, isThere, whyMissing, type BoneNow } from "./bones_now_model";
 import { BonesPanel } from "./bones_panel";
 import { takeKey, type DeskActs } from "./desk_keys";
 import { placeOfLabel } from "./label_place_model";
@@ -14,7 +14,7 @@ import { MeasureTool } from "./measure_tool";
 import type { MendedBone } from "./mended_model";
 import { NewCaseDialog } from "./new_case_dialog";
 import { PaintTools } from "./paint_tools";
-import { applied, extentAlong, finestSpacing, type Volume } from "./nifti_model";
+import { extentAlong, finestSpacing, heldInside, middleOf, type Volume } from "./nifti_model";
 import { along, dot, PLANE_IDS, planesOf, type Alignment, type Plane } from "./planes_model";
 import { labelAt, readingAt } from "./reading_model";
 import { ScanBar } from "./scan_bar";
@@ -89,11 +89,7 @@ export class ScanDesk {
     this.focused = this.panels[0] as SlicePanel;
     this.sliders = this.panels.map((panel) => this.slider(panel));
     this.step = finestSpacing(data.ct);
-    this.cross = applied(data.ct.patientFromVoxel, [
-      (data.ct.size[0] - 1) / 2,
-      (data.ct.size[1] - 1) / 2,
-      (data.ct.size[2] - 1) / 2,
-    ]);
+    this.cross = middleOf(data.ct);
     this.list = new BoneList(this.colors, (bone) => {
       this.goTo(bone);
     });
@@ -274,7 +270,7 @@ export class ScanDesk {
 
   /** @param middle  in the middle of all pictures; else they stay where they are */
   private setCross(mm: Vec3, middle: boolean, from?: Plane): void {
-    const clamped = this.inside(mm);
+    const clamped = heldInside(this.data.ct, mm);
     for (const panel of this.panels) {
       if (middle) panel.pan = [0, 0];
       // In the picture that is pressed nothing may slip away under the pointer.
@@ -289,14 +285,6 @@ export class ScanDesk {
     this.cross = clamped;
     this.pointed = undefined;
     this.ask();
-  }
-
-  private inside(mm: Vec3): Vec3 {
-    const { ct } = this.data;
-    const voxel = applied(ct.voxelFromPatient, mm).map((v, i) =>
-      Math.min((ct.size[i] ?? 1) - 1, Math.max(0, v)),
-    ) as [number, number, number];
-    return applied(ct.patientFromVoxel, voxel);
   }
 
   private scroll(plane: Plane, slices: number): void {
@@ -344,13 +332,10 @@ export class ScanDesk {
     const { labels } = this.data;
     const title = boneTitle(bone.name);
     if (!isThere(bone)) {
-      const what =
-        bone.presence === "gone"
-          ? "has no voxels any more"
-          : bone.label === SCAPHOID_DISTAL
-            ? "is not there: the scaphoid is in one piece"
-            : "was not found";
-      setText(this.said, `${title} ${what}. ${this.mend?.chooseMissing(bone.label) ?? ""}`);
+      setText(
+        this.said,
+        `${title} ${whyMissing(bone)}. ${this.mend?.chooseMissing(bone.label) ?? ""}`,
+      );
       return;
     }
     const mm = labels === undefined ? undefined : placeOfLabel(labels, bone.label);

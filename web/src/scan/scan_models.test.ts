@@ -4,7 +4,15 @@ import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../protocol";
 import { placeOfLabel } from "./label_place_model";
 import { measureText } from "./measure_model";
-import { applied, inverted, parseNifti, voxelIndexAt, type Volume } from "./nifti_model";
+import {
+  applied,
+  heldInside,
+  inverted,
+  middleOf,
+  parseNifti,
+  voxelIndexAt,
+  type Volume,
+} from "./nifti_model";
 import { cross, dot, PLANE_IDS, planesOf } from "./planes_model";
 import { boneTitle, labelColors, parseScannedCase, withTrust } from "./scan_case_model";
 import { drawGrey, drawLabels, pixelOf, placeAt, type SliceView } from "./slice_model";
@@ -70,6 +78,16 @@ describe("a volume of a case", () => {
     const place = placeOfLabel(labels, 7);
     expect(place && labels.values[voxelIndexAt(labels, place)]).toBe(7);
     expect(placeOfLabel(labels, 3)).toBeUndefined();
+  });
+  it("has a middle, and holds what is led out of it", () => {
+    expect(middleOf(ct())).toEqual([10.75, 21, 31]);
+    const close = (mm: Vec3, to: Vec3): void => {
+      mm.forEach((v, i) => {
+        expect(v).toBeCloseTo(to[i] ?? NaN, 6);
+      });
+    };
+    close(heldInside(ct(), [10.6, 21.2, 30.7]), [10.6, 21.2, 30.7]);
+    close(heldInside(ct(), [50, 21.2, -50]), [11.5, 21.2, 30]);
   });
   it("inverts what is oblique", () => {
     const m = [0.3, 0.1, 0, 5, -0.1, 0.3, 0.2, 6, 0, -0.1, 0.5, 7];
