@@ -165,6 +165,23 @@ export async function wearsHeadset(browser, station) {
     await wearer.tap("right", "thumbstick");
     await operator.until((s) => Operator.held(s)?.instrument !== before, "another in the hand");
   });
+  await check(page, "the other grip and its stick flex the wrist, X supinates it", async () => {
+    const { wrist } = await operator.snapshot();
+    await wearer.press("left", "squeeze");
+    await page.evaluate(() => window.headset.controllers.left.updateAxes("thumbstick", 0, 1));
+    await operator.until((s) => s.wrist.flexion_deg > wrist.flexion_deg + 4, "a flexed wrist");
+    await page.evaluate(() => window.headset.controllers.left.updateAxes("thumbstick", 0, -1));
+    await operator.until((s) => s.wrist.flexion_deg < wrist.flexion_deg + 1, "it extended again");
+    await page.evaluate(() => window.headset.controllers.left.updateAxes("thumbstick", 0, 0));
+    await wearer.press("left", "x-button");
+    await operator.until((s) => s.wrist.pronation_deg < wrist.pronation_deg - 2, "a supinated one");
+    await wearer.press("left", "x-button", 0);
+    await wearer.press("left", "y-button");
+    await operator.until((s) => s.wrist.pronation_deg > wrist.pronation_deg - 1, "and back");
+    await wearer.press("left", "y-button", 0);
+    await wearer.press("left", "squeeze", 0);
+    expect(!(await operator.snapshot()).paused, "the clock was stopped");
+  });
   await check(page, "taken off, the page goes on by mouse and keys", async () => {
     // The emulated eyes' canvas lies over the page.
     await button.dispatchEvent("click");

@@ -60,6 +60,21 @@ describe("the controller that holds the table", () => {
     expect(tableWish(controller({}, 0.15, 0.15), undefined)).toMatchObject({ turn: 0, grow: 0 });
   });
 
+  it("moves the wrist with what it grips, and carries nothing meanwhile", () => {
+    const flexed = tableWish(controller({ 1: 1 }, 0.2, 0.9), undefined);
+    expect([...flexed.wrist.values()]).toEqual([
+      { kind: "move_wrist", axis: "flexion_deg", sign: 1 },
+    ]);
+    expect(flexed).toMatchObject({ carries: false, turn: 0, grow: 0 });
+    const turned = tableWish(controller({ 1: 1, 4: 1 }, -0.8, 0), controller());
+    expect([...turned.wrist.values()]).toEqual([
+      { kind: "move_wrist", axis: "radial_deviation_deg", sign: -1 },
+      { kind: "move_wrist", axis: "pronation_deg", sign: -1 },
+    ]);
+    expect(turned.once).toEqual([]);
+    expect(tableWish(controller({ 4: 1 }, 0, 1), undefined).wrist.size).toBe(0);
+  });
+
   it("stops the clock once", () => {
     const down = controller({ 5: 1 });
     expect(tableWish(down, controller()).once).toEqual([{ kind: "pause" }]);

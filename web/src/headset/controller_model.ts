@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What two controllers of the mapping "xr-standard" ask for: one is the instrument, the other holds the
-// table, the pedal, the clock. Pure: the state of one moment and of that before.
-import type { HeldAction, OnceAction } from "../operation";
+// table, the pedal, the clock, and the wrist that lies there. Pure: the state of one moment and of that before.
+import type { HeldAction, OnceAction, WristAxis } from "../operation";
 
 /** Of the browser's Gamepad. */
 export interface ControllerState {
@@ -29,6 +29,8 @@ export interface TableWish {
   readonly pedal: boolean;
   /** Whether it holds the table and carries it. */
   readonly carries: boolean;
+  /** The same grip, and stick or buttons: moves the wrist instead. */
+  readonly wrist: ReadonlyMap<string, HeldAction>;
   /** -1 to 1: turns it, makes it larger. */
   readonly turn: number;
   readonly grow: number;
@@ -72,11 +74,33 @@ const INSTRUMENT_ONCE: OnButton = [
   [LOWER, { kind: "next_shot" }],
   [UPPER, { kind: "pick_up" }],
 ];
+const HOLDING_ONCE: OnButton = [[STICK, { kind: "hint" }]];
 const TABLE_ONCE: OnButton = [
-  [STICK, { kind: "hint" }],
+  ...HOLDING_ONCE,
   [LOWER, { kind: "free_shot" }],
   [UPPER, { kind: "pause" }],
 ];
+
+/** From half its way on a stick moves the wrist, as a key does. */
+const WRIST_FROM = 0.5;
+
+/** Down flexes, sideways deviates; the upper button pronates, the lower one supinates. */
+function wristHeld(pad: ControllerState): ReadonlyMap<string, HeldAction> {
+  const button = (which: number): number => (isDown(pad, which) ? 1 : 0);
+  const ways: readonly (readonly [axis: WristAxis, way: number])[] = [
+    ["flexion_deg", at(pad, STICK_Y)],
+    ["radial_deviation_deg", at(pad, STICK_X)],
+    ["pronation_deg", button(UPPER) - button(LOWER)],
+  ];
+  return new Map(
+    ways
+      .filter(([, way]) => Math.abs(way) > WRIST_FROM)
+      .map(([axis, way]): readonly [string, HeldAction] => {
+        const sign = way > 0 ? 1 : -1;
+        return [`headset ${axis} ${sign}`, { kind: "move_wrist", axis, sign }];
+      }),
+  );
+}
 
 export function instrumentWish(
   pad: ControllerState,
@@ -102,14 +126,17 @@ function stick(pad: ControllerState, axis: number): number {
 }
 
 export function tableWish(pad: ControllerState, before: ControllerState | undefined): TableWish {
-  const turn = stick(pad, STICK_X);
-  const grow = -stick(pad, STICK_Y);
+  const holds = value(pad, SQUEEZE) > 0.5;
+  const wrist = holds ? wristHeld(pad) : new Map<string, HeldAction>();
+  const turn = holds ? 0 : stick(pad, STICK_X);
+  const grow = holds ? 0 : -stick(pad, STICK_Y);
   const isTurn = Math.abs(turn) > Math.abs(grow);
   return {
     pedal: value(pad, TRIGGER) > 0.5,
-    carries: value(pad, SQUEEZE) > 0.5,
+    carries: holds && wrist.size === 0,
+    wrist,
     turn: isTurn ? turn : 0,
     grow: isTurn ? 0 : grow + 0,
-    once: pressed(pad, before, TABLE_ONCE),
+    once: pressed(pad, before, holds ? HOLDING_ONCE : TABLE_ONCE),
   };
 }

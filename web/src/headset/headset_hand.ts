@@ -1,7 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two controllers as the surgeon's hands: one is the instrument, the other holds table, pedal and clock.
+// Two controllers as the surgeon's hands: one is the instrument, the other holds table, wrist, pedal and clock.
 import * as THREE from "three";
 import type { FrameMap } from "../frames";
 import type { HeldAction } from "../operation";
@@ -22,6 +22,7 @@ const REJOIN_MM_PER_S = 150;
 const TURN_RAD_PER_S = (60 * Math.PI) / 180;
 /** The enlargement of a second of the stick. */
 const GROWTH_PER_S = 2;
+const NOTHING: ReadonlyMap<string, HeldAction> = new Map();
 
 export interface HeadsetRoom {
   /** Whether the hand may be moved now: one operates, and no dialog is open. */
@@ -49,7 +50,11 @@ export class HeadsetHand {
     instrument: undefined,
     table: undefined,
   };
-  private held: ReadonlySet<string> = new Set();
+  /** By what they hold: the instrument's driver, the wrist. */
+  private readonly held: Record<"driver" | "wrist", ReadonlySet<string>> = {
+    driver: new Set(),
+    wrist: new Set(),
+  };
   private pedalIsDown = false;
   private carriedFrom: THREE.Vector3 | undefined;
   private isAway = true;
@@ -85,24 +90,27 @@ export class HeadsetHand {
 
   /** Lets everything go. */
   rest(): void {
-    if (this.held.size > 0) this.room.squeeze(undefined);
-    for (const holder of this.held) this.room.letGo(holder);
-    this.held = new Set();
+    this.letDriverGo();
+    this.keep("wrist", NOTHING);
     this.press(false);
-    this.isAway = true;
   }
 
   private operate(hand: Controller | undefined, rendererFromRoom: THREE.Matrix4, s: number): void {
-    if (hand === undefined) return this.letAllGo();
+    if (hand === undefined) return this.letDriverGo();
     const wish = instrumentWish(hand.state, this.before.instrument);
     if (this.room.canBePlaced()) this.place(hand, rendererFromRoom, s);
     else this.isAway = true;
     this.room.squeeze(wish.held.has("headset drive") ? wish.squeeze : undefined);
-    for (const holder of this.held) if (!wish.held.has(holder)) this.room.letGo(holder);
-    for (const [holder, action] of wish.held)
-      if (!this.held.has(holder)) this.room.hold(holder, action);
-    this.held = new Set(wish.held.keys());
+    this.keep("driver", wish.held);
     for (const action of wish.once) this.room.act(action);
+  }
+
+  /** What is held no longer is let go. */
+  private keep(what: "driver" | "wrist", wish: ReadonlyMap<string, HeldAction>): void {
+    const before = this.held[what];
+    for (const holder of before) if (!wish.has(holder)) this.room.letGo(holder);
+    for (const [holder, action] of wish) if (!before.has(holder)) this.room.hold(holder, action);
+    this.held[what] = new Set(wish.keys());
   }
 
   private place(hand: Controller, rendererFromRoom: THREE.Matrix4, seconds: number): void {
@@ -112,17 +120,17 @@ export class HeadsetHand {
     this.room.place(to, shaft);
   }
 
-  private letAllGo(): void {
-    for (const holder of this.held) this.room.letGo(holder);
-    if (this.held.size > 0) this.room.squeeze(undefined);
-    this.held = new Set();
+  private letDriverGo(): void {
+    if (this.held.driver.size > 0) this.room.squeeze(undefined);
+    this.keep("driver", NOTHING);
     this.isAway = true;
   }
 
   private attend(table: Controller | undefined): void {
-    if (table === undefined) return this.press(false);
-    const wish = tableWish(table.state, this.before.table);
-    this.press(wish.pedal);
+    const wish = table === undefined ? undefined : tableWish(table.state, this.before.table);
+    this.press(wish?.pedal === true);
+    this.keep("wrist", wish?.wrist ?? NOTHING);
+    if (wish === undefined) return;
     for (const action of wish.once) this.room.act(action);
   }
 

@@ -20,9 +20,11 @@ const MARGIN = 44;
 const FONT = "'Inter Variable', sans-serif";
 const BUTTONS: readonly Paragraph[] = [
   "Hand: trigger drives, grip reverses, A next picture, B takes hold of a wire in bone, stick left and right chooses, pressed takes.",
-  "Other hand: trigger live X-ray, grip carries the table, stick turns and enlarges it, pressed a hint; X same picture again, Y pause.",
-].map((text) => ({ text, sizePx: 27, weight: 400, color: "#9aaab1", gapPx: 0 }));
-const BUTTONS_HEIGHT = 4 * 1.28 * 27;
+  "Other hand: trigger live X-ray, stick turns the table and enlarges it, pressed a hint; X same picture again, Y pause.",
+  "Its grip carries the table; held with the stick it flexes and deviates the wrist, with X and Y it supinates and pronates.",
+].map((text) => ({ text, sizePx: 25, weight: 400, color: "#9aaab1", gapPx: 0 }));
+/** Two lines each. */
+const BUTTONS_HEIGHT = 6 * 1.28 * 25;
 /** Between the words and the buttons. */
 const APART = 16;
 
