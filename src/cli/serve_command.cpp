@@ -290,6 +290,7 @@ void run(const ServeArguments& arguments) {
   const fs::path web = arguments.web.empty() ? find_web_root() : fs::path(arguments.web);
   make_parent_folder(arguments.records);
   server::NetworkOptions options = network_options(arguments);
+  server::require_network(options);
   const auto shelf = std::make_shared<server::SharedShelf>(find_all_cases(arguments).shelf);
   server::LogWriter log(STDERR_FILENO);
   const server::Log log_line = [&log](const std::string& line) { log.write("carpus: " + line); };

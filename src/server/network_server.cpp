@@ -75,6 +75,13 @@ std::vector<std::string> own_names() {
 
 }  // namespace
 
+void require_network(const NetworkOptions& options) {
+  if (!options.public_url.empty()) (void)parse_public_url(options.public_url);
+  (void)detail::make_tls_context(options.certificate, options.key);
+  asio::io_context context;
+  (void)open_acceptor(context, options);
+}
+
 struct NetworkServer::Implementation {
   using Session = detail::HttpSession;
   using Sessions = std::unordered_map<Session*, std::shared_ptr<Session>>;

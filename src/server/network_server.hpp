@@ -92,6 +92,9 @@ struct NetworkOptions {
   std::string public_url;
 };
 
+/// Before long work: throws what NetworkServer's constructor would throw now.
+void require_network(const NetworkOptions& options);
+
 class NetworkServer {
  public:
   /// Takes the port.

@@ -218,6 +218,32 @@ TEST_F(NetworkServerTest, PortInUseIsNamedWithTheOptionThatChangesIt) {
   }
 }
 
+TEST_F(NetworkServerTest, WhatTheServerWouldRefuseIsRefusedBeforeLongWork) {
+  start();
+  NetworkOptions options;
+  options.port = port();
+  EXPECT_THROW(require_network(options), IoError) << "the port is taken";
+  options.port = 0;
+  EXPECT_NO_THROW(require_network(options));
+  options.certificate = "no_such_certificate.pem";
+  options.key = "no_such_key.pem";
+  EXPECT_THROW(require_network(options), IoError) << "no such certificate";
+  options.certificate = options.key = "";
+  options.public_url = "train.example.org";
+  EXPECT_THROW(require_network(options), InvalidInput) << "no address of a page";
+}
+
+TEST_F(NetworkServerTest, AskingBeforeLongWorkLeavesThePortFree) {
+  start();
+  NetworkOptions options;
+  options.port = port();
+  server_->stop();
+  thread_.join();
+  server_.reset();
+  EXPECT_NO_THROW(require_network(options));
+  EXPECT_NO_THROW(require_network(options)) << "the first look kept it";
+}
+
 TEST_F(NetworkServerTest, AddressThatIsNoneIsRefused) {
   NetworkOptions options;
   options.address = "everywhere";
