@@ -69,14 +69,19 @@ build_targets() {
   cmake --build "build/$preset" --target "$@" || fail_maybe_full "the build failed; the first error is above."
 }
 
-# Runs npm ci only when the lock file changed since it last succeeded.
+# Runs npm ci only when the lock file changed since it last succeeded. npm alone waits for minutes, in silence,
+# where there is no network, and for hours where nobody answers; so the registry is asked for one small
+# package first, unless npm's cache holds all.
 install_web_packages() {
-  local stamp=web/node_modules/.carpus-lock
-  if ! cmp -s web/package-lock.json "$stamp"; then
-    (cd web && npm ci --no-audit --no-fund --loglevel=error) ||
-      fail_maybe_full "npm could not install the page's packages (is the npm registry reachable?)."
-    cp web/package-lock.json "$stamp"
-  fi
+  local stamp=web/node_modules/.carpus-lock ci=(npm ci --no-audit --no-fund --loglevel=error)
+  ! cmp -s web/package-lock.json "$stamp" || return 0
+  say "installing the page's packages with npm (100 MB from the network the first time)"
+  (cd web && "${ci[@]}" --offline >/dev/null 2>&1) || {
+    (cd web && npm view iwer version --fetch-timeout=10000 --fetch-retries=1 --fetch-retry-mintimeout=1000 --loglevel=error >/dev/null) ||
+      fail "npm reaches no registry (its reason is above), and the page's packages are not here yet. Connect this machine to the network, or tell npm of a mirror (npm config set registry https://...) or a proxy (npm config set https-proxy http://...), and start again."
+    (cd web && "${ci[@]}") || fail_maybe_full "npm could not install the page's packages; the reason is above. Start again where it is the network."
+  }
+  cp web/package-lock.json "$stamp"
 }
 
 # Builds web/dist when a source is newer than the last build. Hints for who writes the page are left to
