@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -30,19 +31,34 @@ struct StockArguments {
   bool list = false;
 };
 
+const char* answer_in_words(cases::RightAnswer answer) {
+  switch (answer) {
+    case cases::RightAnswer::Fix:
+      return "fix the scaphoid as it lies";
+    case cases::RightAnswer::ReduceFirst:
+      return "reduce the fracture, then fix it";
+    case cases::RightAnswer::Decline:
+      break;
+  }
+  return "decline: nothing for a screw through the skin";
+}
+
 std::string proof_in_words(const cases::Lesson& lesson) {
-  if (lesson.right_answer == cases::RightAnswer::Decline) return "not tried";
-  if (!lesson.expert) return "no procedure that the scripts know";
-  const std::string score = std::to_string(static_cast<int>(lesson.expert->overall)) + " of 100";
-  return (lesson.expert->is_acceptable ? "acceptable, " : "NOT acceptable, ") + score;
+  if (lesson.right_answer == cases::RightAnswer::Decline) return "has not tried it";
+  if (!lesson.expert) return "knows no procedure for it";
+  const std::string score = std::to_string(std::lround(lesson.expert->overall)) + " of 100 points";
+  return (lesson.expert->is_acceptable ? "fixed it acceptably, " : "did NOT fix it acceptably, ") +
+         score;
 }
 
 void print(const stock::StockItem& item, const cases::Lesson& lesson, const std::string& time) {
   const cases::Difficulty& d = lesson.difficulty;
   std::printf(
-      "%-26s %-12s difficulty %3.0f  clearance %5.2f mm  smaller part %4.1f mm  expert: %s  %s\n",
-      item.id.c_str(), std::string(name_of(lesson.right_answer)).c_str(), d.overall,
-      d.corridor_clearance_mm, d.smaller_part_mm, proof_in_words(lesson).c_str(), time.c_str());
+      "%s: %s (%s)\n  right answer: %s\n"
+      "  difficulty: %.0f of 100; room about the screw %.2f mm, smaller part %.1f mm\n"
+      "  scripted expert: %s\n",
+      item.id.c_str(), lesson.title.c_str(), time.c_str(), answer_in_words(lesson.right_answer),
+      d.overall, d.corridor_clearance_mm, d.smaller_part_mm, proof_in_words(lesson).c_str());
   std::fflush(stdout);
 }
 
@@ -52,7 +68,8 @@ cases::Lesson make(const stock::StockItem& item, const fs::path& folder) {
       stock::make_stock_case(item, folder, records::utc_now(), show_progress);
   const auto took = std::chrono::steady_clock::now() - before;
   print(item, lesson,
-        std::to_string(std::chrono::duration_cast<std::chrono::seconds>(took).count()) + " s");
+        "made in " +
+            std::to_string(std::chrono::duration_cast<std::chrono::seconds>(took).count()) + " s");
   return lesson;
 }
 
@@ -91,6 +108,9 @@ void run(const StockArguments& arguments) {
     if (lesson.right_answer != cases::RightAnswer::Decline && !is_solved)
       unsolved.push_back(item.id);
   }
+  if (arguments.list) return;
+  std::printf("The cases are in %s, simulated. To operate on them: ./run --case %s\n",
+              arguments.out.c_str(), arguments.out.c_str());
   if (unsolved.empty()) return;
   std::string text;
   for (const std::string& id : unsolved) text += " " + id;
