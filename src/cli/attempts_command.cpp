@@ -125,20 +125,21 @@ std::string padded(const std::string& text, std::size_t width) {
 
 std::string attempts_table(const std::vector<records::AttemptSummary>& attempts) {
   std::array<char, 512> line{};
-  std::snprintf(line.data(), line.size(), "%6s  %-24s  %-20s  %-28s  %-8s  %8s  %7s  %s\n", "id",
-                "started (UTC)", "trainee", "case", "input", "seconds", "score", "state hash");
+  std::snprintf(line.data(), line.size(), "%6s  %-24s  %-20s  %-28s  %-33s  %-8s  %8s  %7s  %s\n",
+                "id", "started (UTC)", "trainee", "case", "procedure", "input", "seconds", "score",
+                "state hash");
   std::string table = line.data();
   for (const records::AttemptSummary& attempt : attempts) {
     const std::string score = attempt.overall ? std::to_string(*attempt.overall).substr(0, 5)
                                               : std::string(name_of(attempt.outcome)).substr(0, 7);
     const std::string of_case =
         attempt.case_name.substr(0, 16) + simulated_mark(attempt.case_simulated.value_or(false));
-    std::snprintf(line.data(), line.size(), "%6lld  %-24s  %s  %s  %-8.8s  %8.1f  %7.7s  %s\n",
-                  static_cast<long long>(attempt.id), attempt.started_at.c_str(),
-                  padded(attempt.trainee, 20).c_str(), padded(of_case, 28).c_str(),
-                  attempt.input_device.c_str(),
-                  static_cast<double>(attempt.duration_ticks) / 1000.0, score.c_str(),
-                  attempt.final_hash.c_str());
+    std::snprintf(
+        line.data(), line.size(), "%6lld  %-24s  %s  %s  %-33s  %-8.8s  %8.1f  %7.7s  %s\n",
+        static_cast<long long>(attempt.id), attempt.started_at.c_str(),
+        padded(attempt.trainee, 20).c_str(), padded(of_case, 28).c_str(), attempt.procedure.c_str(),
+        attempt.input_device.c_str(), static_cast<double>(attempt.duration_ticks) / 1000.0,
+        score.c_str(), attempt.final_hash.c_str());
     table += line.data();
   }
   return table + std::to_string(attempts.size()) + " attempts\n";

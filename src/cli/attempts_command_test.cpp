@@ -22,5 +22,11 @@ TEST(AttemptsTable, CallsACaseSimulatedWhereThatWasNoted) {
   }
 }
 
+TEST(AttemptsTable, TellsWhatWasOperated) {
+  records::AttemptSummary attempt;
+  attempt.procedure = "arthroscopic_portal_making_harder";
+  EXPECT_THAT(attempts_table({attempt}), HasSubstr("  arthroscopic_portal_making_harder  "));
+}
+
 }  // namespace
 }  // namespace carpus::cli

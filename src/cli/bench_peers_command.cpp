@@ -24,8 +24,9 @@ void become_bench(const std::string& what, const std::vector<std::string>& argum
   argv.push_back(nullptr);
   execv(program.c_str(), argv.data());
   throw IoError(program.string() +
-                ": cannot be started. It is built where the other libraries are installed: run "
-                "tools/install bench, then configure and build again.");
+                ": cannot be started. It is built where the libraries that it compares with are "
+                "installed; in the project's folder run: tools/install bench && cmake --preset "
+                "release && cmake --build build/release --target carpus-bench");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "cli/collide_arguments.hpp"
 #include "cli/collide_picture.hpp"
 #include "cli/collide_report.hpp"
+#include "cli/operation_files.hpp"
 #include "core/error.hpp"
 #include "hull/fast_hull.hpp"
 #include "records/atomic_file.hpp"
@@ -55,7 +56,13 @@ void list_methods() {
 }
 
 fs::path surface_of(const Arguments& a, const std::string& name) {
-  if (a.case_folder.empty()) return name;
+  if (a.case_folder.empty()) {
+    if (bone_of(name) && !fs::exists(name)) {
+      throw UsageError("'" + name + "' is a bone: say of which case with --case, such as --case " +
+                       kDefaultCase);
+    }
+    return name;
+  }
   if (!fs::is_regular_file(a.case_folder / "case.json")) {
     throw IoError(a.case_folder.string() + ": no such case (there is no case.json in it)");
   }
