@@ -34,6 +34,13 @@ nlohmann::json parsed(const std::string& text, const std::string& file) {
   }
 }
 
+/// What a simulated scan's own list names besides bones.
+bool is_left_out(const std::string& name, const nlohmann::json& value) {
+  if (!value.is_number_integer()) return false;
+  return (name == "background" && value == 0) ||
+         (name == "fracture_gap" && value == kFractureGapLabel);
+}
+
 }  // namespace
 
 std::optional<std::uint8_t> label_of_bone(const std::string& name) {
@@ -50,6 +57,7 @@ LabelNumbers parse_label_names(const std::string& text, const std::string& file)
   }
   LabelNumbers map{};
   for (const auto& [name, value] : json.items()) {
+    if (is_left_out(name, value)) continue;
     const auto label = label_of_bone(name);
     if (!label) {
       throw InvalidInput(file + ": there is no bone '" + name +
@@ -67,6 +75,7 @@ LabelNumbers parse_label_names(const std::string& text, const std::string& file)
     if (to != 0) throw InvalidInput(file + ": two bones have the number of " + name);
     to = *label;
   }
+  if (map == LabelNumbers{}) throw InvalidInput(file + ": names no bone");
   return map;
 }
 

@@ -36,6 +36,14 @@ TEST(LabelNames, GiveEachNumberItsBone) {
   EXPECT_EQ(std::count(map.begin(), map.end(), 0), 253);
 }
 
+TEST(LabelNames, MayBeThoseOfASimulatedScan) {
+  EXPECT_EQ(parse_label_names(R"({"background": 0, "lunate": 4, "fracture_gap": 17})", "n"),
+            parse_label_names(R"({"lunate": 4})", "n"));
+  EXPECT_THAT(refusal(R"({"background": 1, "lunate": 4})"), HasSubstr("no bone 'background'"));
+  EXPECT_THAT(refusal(R"({"fracture_gap": "17"})"), HasSubstr("no bone 'fracture_gap'"));
+  EXPECT_THAT(refusal(R"({"background": 0})"), HasSubstr("names no bone"));
+}
+
 TEST(LabelNames, AreRefusedWhereTheyCouldMeanTwoThings) {
   // The second would win, and voxels of the first would be no bone's.
   EXPECT_THAT(refusal(R"({"lunate": 1, "lunate": 2})"), HasSubstr("'lunate' is there twice"));
