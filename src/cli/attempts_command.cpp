@@ -12,6 +12,7 @@
 #include <string>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
 #include "records/attempt_store.hpp"
@@ -151,18 +152,22 @@ void add_attempts_command(CLI::App& app) {
       "attempts", "List attempts, export their recordings, look after their file");
   command->add_option("--records", arguments->records, "File with the attempts")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the list to this file");
+  command->add_option("--json", arguments->json, "Write the list to this file")
+      ->check(output_file());
   CLI::Option* id = command->add_option("--export", arguments->export_id,
                                         "Number of the attempt whose recording is taken out");
-  CLI::Option* out = command->add_option("--out", arguments->out, "File for the recording");
+  CLI::Option* out =
+      command->add_option("--out", arguments->out, "File for the recording")->check(output_file());
   id->needs(out);
   out->needs(id);
   CLI::Option* care = command->add_flag("--check", arguments->check, "Look through the whole file");
   CLI::Option* mend =
       command->add_flag("--repair", arguments->repair, "Save what can be read of a damaged file");
   CLI::Option* copy =
-      command->add_option("--backup", arguments->backup,
-                          "Copy the records to this file; a station may go on meanwhile");
+      command
+          ->add_option("--backup", arguments->backup,
+                       "Copy the records to this file; a station may go on meanwhile")
+          ->check(output_file());
   mend->excludes(care)->excludes(copy)->excludes(id);
   copy->excludes(care)->excludes(id);
   care->excludes(id);

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "procedures/built_in.hpp"
@@ -335,7 +336,8 @@ void add_bench_journal_command(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--seconds", arguments->seconds, "True time of each run [s]")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -15,6 +15,7 @@
 
 #include "cli/long_operation.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "procedures/built_in.hpp"
@@ -167,8 +168,10 @@ void add_bench_replay_command(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--seeks", arguments->seeks, "Moments, chosen by chance")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the figures to this file");
-  command->add_option("--records", arguments->records, "Store the operation in this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
+  command->add_option("--records", arguments->records, "Store the operation in this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

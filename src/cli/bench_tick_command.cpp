@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "cli/tick_scenes.hpp"
 #include "core/error.hpp"
 #include "procedures/built_in.hpp"
@@ -157,7 +158,8 @@ void add_bench_tick_command(CLI::App& bench) {
   command
       ->add_option("--seconds", arguments->seconds, "Simulated time to measure in each scene [s]")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

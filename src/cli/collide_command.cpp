@@ -1,6 +1,7 @@
 // Copyright 2026 The Carpus authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/collide_command.hpp"
+#include "cli/output_file.hpp"
 #include "survey/methods.hpp"
 
 #include <CLI/CLI.hpp>
@@ -283,8 +284,10 @@ void add_collide_command(CLI::App& app) {
   command->add_option(
       "--sweep", arguments->sweep,
       "Velocity vx,vy,vz of the second against the first, mm/s: when do they touch?");
-  command->add_option("--json", arguments->json_file, "Write the printed figures to this file");
-  command->add_option("--svg", arguments->svg, "Draw both hulls and what was found");
+  command->add_option("--json", arguments->json_file, "Write the printed figures to this file")
+      ->check(output_file());
+  command->add_option("--svg", arguments->svg, "Draw both hulls and what was found")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

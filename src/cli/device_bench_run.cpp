@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/device_bench_picture.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "device_bench/rows.hpp"
 #include "records/atomic_file.hpp"
@@ -77,8 +78,10 @@ void add_device_bench_options(CLI::App& command, DeviceBenchArguments& arguments
       .add_option("--seeds", arguments.seeds,
                   "Specimens of every part to try; the worst of them counts")
       ->capture_default_str();
-  command.add_option("--json", arguments.json, "Write the figures to this file");
-  command.add_option("--plot", arguments.plot, "Draw a touch by each law and drive to this SVG");
+  command.add_option("--json", arguments.json, "Write the figures to this file")
+      ->check(output_file());
+  command.add_option("--plot", arguments.plot, "Draw a touch by each law and drive to this SVG")
+      ->check(output_file());
 }
 
 void run_device_bench(const DeviceBenchArguments& arguments,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/device_choice.hpp"
+#include "cli/output_file.hpp"
 #include "records/atomic_file.hpp"
 
 namespace carpus::cli {
@@ -86,7 +87,8 @@ void add_device_list_command(CLI::App& device) {
   CLI::App* command =
       device.add_subcommand("list", "Show the devices that are there, and how they are");
   command->add_flag("--quick", arguments->quick, "Names alone: nothing is opened");
-  command->add_option("--json", arguments->json, "Write what is found to this file");
+  command->add_option("--json", arguments->json, "Write what is found to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cli/device_choice.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
 
@@ -214,7 +215,8 @@ void add_device_test_command(CLI::App& device) {
       ->capture_default_str();
   command->add_option("--force-limit-n", arguments->limit, "Never more than this [N]")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

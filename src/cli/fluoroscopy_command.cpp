@@ -11,6 +11,7 @@
 
 #include "case_io/case_folder.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "fluoroscopy/composed_renderer.hpp"
 #include "records/atomic_file.hpp"
@@ -76,7 +77,9 @@ void add_fluoroscopy_command(CLI::App& app) {
   auto a = std::make_shared<FluoroscopyArguments>();
   CLI::App* command = app.add_subcommand("fluoroscopy", "Take a fluoroscopy picture of a case");
   command->add_option("case", a->case_folder, "Case folder")->capture_default_str();
-  command->add_option("--out", a->out, "Picture to write, as PGM")->required();
+  command->add_option("--out", a->out, "Picture to write, as PGM")
+      ->check(output_file())
+      ->required();
   command->add_option("--view", a->view, "Named view, such as pa, lateral, oblique_45_pronated")
       ->capture_default_str();
   auto* rotation = command->add_option("--rotation-deg", a->rotation_deg,

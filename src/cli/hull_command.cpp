@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "case_io/surface_file.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "figures/hull_picture.hpp"
 #include "hull/brute_force_hull.hpp"
@@ -215,12 +216,16 @@ void add_hull_command(CLI::App& app) {
                    "In the plane fast is a first filter and graham")
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  command->add_option("--out", arguments->out,
-                      "Write the hull here (.ply .stl .obj .off; in the plane .csv)");
+  command
+      ->add_option("--out", arguments->out,
+                   "Write the hull here (.ply .stl .obj .off; in the plane .csv)")
+      ->check(output_file());
   command->add_flag("--merge", arguments->merge,
                     "Write coplanar facets as one face (--out .obj or .off)");
-  command->add_option("--json", arguments->json_file, "Write the printed figures to this file");
-  command->add_option("--svg", arguments->svg, "Draw the object and its hull");
+  command->add_option("--json", arguments->json_file, "Write the printed figures to this file")
+      ->check(output_file());
+  command->add_option("--svg", arguments->svg, "Draw the object and its hull")
+      ->check(output_file());
   command->callback([arguments] {
     is_planar(arguments->input) ? run_in_plane(*arguments) : run_in_space(*arguments);
   });

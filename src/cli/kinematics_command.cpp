@@ -14,6 +14,7 @@
 #include "cases/make_hand_motion.hpp"
 #include "cli/kinematics_report.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
 
@@ -67,7 +68,8 @@ void add_kinematics_command(CLI::App& app) {
       "--reference", arguments->reference,
       "Compare with this file of measured motions, whose first position is the scan");
   command->add_flag("--remake", arguments->remake, "Make the table anew, not to be stored");
-  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -18,6 +18,7 @@
 #include "cli/case_pathology.hpp"
 #include "cli/corrected_case.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
@@ -170,7 +171,8 @@ void add_pathology_command(CLI::App& app) {
   set->excludes(healthy, by_seed, clear);
   healthy->excludes(by_seed, clear);
   by_seed->excludes(clear);
-  command->add_option("--json", a->json, "Write what the case holds to this file");
+  command->add_option("--json", a->json, "Write what the case holds to this file")
+      ->check(output_file());
   command->callback([a] { run(*a); });
 }
 

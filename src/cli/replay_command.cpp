@@ -12,6 +12,7 @@
 
 #include "cli/motion_table.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "core/hexadecimal.hpp"
 #include "core/version.hpp"
@@ -79,9 +80,12 @@ void add_replay_command(CLI::App& app) {
   command->add_option("recording", arguments->recording, "Recording of an operation")->required();
   command->add_option("--case", arguments->case_folder, "Case that it was made on")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the figures to this file");
-  CLI::Option* motion = command->add_option("--motion", arguments->motion,
-                                            "Write how the instruments moved to this table (.csv)");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
+  CLI::Option* motion = command
+                            ->add_option("--motion", arguments->motion,
+                                         "Write how the instruments moved to this table (.csv)")
+                            ->check(output_file());
   command->add_option("--every", arguments->every_ms, "Milliseconds between two lines of the table")
       ->check(CLI::Range(1U, 60000U))
       ->needs(motion)

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "records/atomic_file.hpp"
 
@@ -48,7 +49,8 @@ void add_score_command(CLI::App& app) {
   command->add_option("recording", arguments->recording, "Recording of an operation")->required();
   command->add_option("--case", arguments->case_folder, "Case that it was made on")
       ->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the report to this file");
+  command->add_option("--json", arguments->json, "Write the report to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

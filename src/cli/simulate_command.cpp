@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "core/hexadecimal.hpp"
@@ -112,9 +113,12 @@ void add_simulate_command(CLI::App& app) {
       ->check(CLI::IsMember({"expert", "middle", "novice"}))
       ->capture_default_str();
   add_seed_option(*command, arguments->seed, "Of the trainee's errors and tremor");
-  command->add_option("--out", arguments->out, "Write the recording to this file");
-  command->add_option("--records", arguments->records, "Store the attempt in this file");
-  command->add_option("--json", arguments->json, "Write the score report to this file");
+  command->add_option("--out", arguments->out, "Write the recording to this file")
+      ->check(output_file());
+  command->add_option("--records", arguments->records, "Store the attempt in this file")
+      ->check(output_file());
+  command->add_option("--json", arguments->json, "Write the score report to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -16,6 +16,7 @@
 #include "cases/make_hand_motion.hpp"
 #include "cases/make_structures.hpp"
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "cli/section_picture.hpp"
 #include "cli/section_report.hpp"
 #include "cli/soft_tissue_report.hpp"
@@ -156,8 +157,10 @@ void add_soft_tissue_command(CLI::App& app) {
   CLI::Option* section = command->add_flag(
       "--section", a->section, "Turn the hand with ligaments cut: ranges beside published ones");
   command->add_option("--json", a->json, "Write the figures of --section to this file")
+      ->check(output_file())
       ->needs(section);
   command->add_option("--svg", a->svg, "Draw the angle against the moment of --section")
+      ->check(output_file())
       ->needs(section);
   command->callback([a] { run(*a); });
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "procedures/built_in.hpp"
@@ -140,7 +141,8 @@ void add_study_axes_command(CLI::App& study) {
   CLI::App* command = study.add_subcommand(
       "axes", "The scaphoid's central axis and longest line, and what a screw along each scores");
   command->add_option("--cases", arguments->cases, "Case folders")->capture_default_str();
-  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "cli/output_file.hpp"
 #include "cli/seed_option.hpp"
 #include "cli/segmentation_study.hpp"
 #include "core/error.hpp"
@@ -93,11 +94,14 @@ void add_study_segmentation_command(CLI::App& study) {
       ->add_option("--voxel", arguments->voxel_mm,
                    "Side of the voxels [mm]; the seed's own, from 0.4 to 0.7, if not given")
       ->check(CLI::Range(0.3, 1.0));
-  command->add_option(
-      "--rows", arguments->rows,
-      "Append each scan to this file as it is done; what it holds is not made again");
-  command->add_option("--json", arguments->json, "Write every figure to this file");
-  command->add_option("--picture", arguments->picture, "Draw the figures into this file, as SVG");
+  command
+      ->add_option("--rows", arguments->rows,
+                   "Append each scan to this file as it is done; what it holds is not made again")
+      ->check(output_file());
+  command->add_option("--json", arguments->json, "Write every figure to this file")
+      ->check(output_file());
+  command->add_option("--picture", arguments->picture, "Draw the figures into this file, as SVG")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

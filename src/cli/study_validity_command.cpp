@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "cli/seed_option.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -298,7 +299,8 @@ void add_study_validity_command(CLI::App& study) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   add_seed_option(*command, arguments->first_seed, "Of the first operation; the next has the next");
-  command->add_option("--json", arguments->json, "Write the figures to this file");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 

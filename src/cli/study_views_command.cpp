@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/operation_files.hpp"
+#include "cli/output_file.hpp"
 #include "cli/seed_option.hpp"
 #include "cli/study_views_report.hpp"
 #include "records/atomic_file.hpp"
@@ -56,8 +57,10 @@ void add_study_views_command(CLI::App& study) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   add_seed_option(*command, arguments->first_seed, "Of the first screw; the next has the next");
-  command->add_option("--json", arguments->json, "Write the figures to this file");
-  command->add_option("--picture", arguments->picture, "Draw the figures into this file, as SVG");
+  command->add_option("--json", arguments->json, "Write the figures to this file")
+      ->check(output_file());
+  command->add_option("--picture", arguments->picture, "Draw the figures into this file, as SVG")
+      ->check(output_file());
   command->callback([arguments] { run(*arguments); });
 }
 
