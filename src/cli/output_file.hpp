@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "records/atomic_file.hpp"
+
 namespace carpus::cli {
 
 /// A file that can be made or replaced: said before the work whose figures it is to hold, which may
@@ -23,9 +25,10 @@ inline CLI::Validator output_file() {
     if (!fs::is_directory(folder, ignored)) {
       return "there is no folder '" + folder.string() + "' for '" + text + "'; create it first";
     }
-    // What is no plain file, such as /dev/stdout, is written as it stands.
-    const bool is_other = fs::exists(file, ignored) && !fs::is_regular_file(file, ignored);
-    if (!is_other && ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    if (!records::is_replaceable(file)) {
+      return "'" + text + "' is a device or no plain file; give another name";
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
       return "in the folder '" + folder.string() + "' nothing may be written; choose another";
     }
     return {};

@@ -27,12 +27,11 @@ class OutputFile : public ::testing::Test {
   const fs::path folder_ = fs::path(::testing::TempDir()) / "output_file_test";
 };
 
-TEST_F(OutputFile, MayBeNewOrThereOrADevice) {
+TEST_F(OutputFile, MayBeNewOrThere) {
   EXPECT_EQ(refusal(folder_ / "new.json"), "");
   std::ofstream(folder_ / "old.json") << "{}";
   EXPECT_EQ(refusal(folder_ / "old.json"), "");
   EXPECT_EQ(refusal("here.json"), "");
-  EXPECT_EQ(refusal("/dev/stdout"), "");
 }
 
 TEST_F(OutputFile, NeedsItsFolderBeforeTheWork) {
@@ -40,6 +39,11 @@ TEST_F(OutputFile, NeedsItsFolderBeforeTheWork) {
   EXPECT_FALSE(fs::exists(folder_ / "missing"));
   std::ofstream(folder_ / "file") << "";
   EXPECT_THAT(refusal(folder_ / "file" / "new.json"), HasSubstr("there is no folder"));
+}
+
+TEST_F(OutputFile, IsNoDevice) {
+  EXPECT_THAT(refusal("/dev/stdout"), HasSubstr("is a device"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("is a device"));
 }
 
 TEST_F(OutputFile, IsNoFolder) { EXPECT_THAT(refusal(folder_), HasSubstr("is a folder")); }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "records/detail/file_advice.hpp"
@@ -29,6 +30,9 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target)
       : target_(target), name_(target.string() + ".XXXXXX" + ending_of(target)) {
+    if (!is_replaceable(target)) {
+      throw IoError(target.string() + ": is a device or no plain file; give another name");
+    }
     descriptor_ = ::mkstemps(name_.data(), static_cast<int>(ending_of(target).size()));
     if (descriptor_ < 0) fail("cannot create");
     // mkstemps makes it private; other users may read it like any file that a program writes.
@@ -84,6 +88,15 @@ class TemporaryFile {
 };
 
 }  // namespace
+
+bool is_replaceable(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) return false;
+  // /dev/stdout is a link to a plain file where that is what it was led into.
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file).parent_path(),
+                                           ignored) != "/dev";
+}
 
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::byte> content) {
   TemporaryFile temporary(file);

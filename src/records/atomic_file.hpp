@@ -14,7 +14,11 @@
 
 namespace carpus::records {
 
-/// Replaces or creates `file`.
+/// Whether nothing is there, or a plain file: what is renamed to /dev/null or /dev/stdout by root
+/// takes the device's place, for every program.
+[[nodiscard]] bool is_replaceable(const std::filesystem::path& file);
+
+/// Replaces or creates `file`, which is_replaceable.
 /// @throws IoError  saying what to do; whatever was there before is still there.
 void write_file_atomically(const std::filesystem::path& file, std::span<const std::byte> content);
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);

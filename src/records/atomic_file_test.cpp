@@ -80,6 +80,20 @@ TEST(AtomicFile, OfAnotherWriterIsWholeOrNotThereAndNamedAsAsked) {
   EXPECT_EQ(count_files(folder), 2U);
 }
 
+TEST(AtomicFile, TakesNoDevicesPlace) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/null", folder / "device");
+  EXPECT_FALSE(is_replaceable(folder / "device"));
+  EXPECT_THROW(write_file_atomically(folder / "device", "x"), IoError);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "device"));
+  EXPECT_FALSE(is_replaceable(folder.path())) << "a folder";
+  EXPECT_FALSE(is_replaceable("/dev/null"));
+  EXPECT_FALSE(is_replaceable("/dev/stdout")) << "whatever it leads to";
+  EXPECT_FALSE(is_replaceable("/dev/carpus_test"));
+  EXPECT_TRUE(is_replaceable(folder / "new"));
+  EXPECT_TRUE(is_replaceable("new"));
+}
+
 TEST(AtomicFile, MissingFolderAndMissingFileAreNamed) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_file_atomically(folder / "no/a", "x"), IoError);
