@@ -161,7 +161,7 @@ class Sentence {
  private:
   [[nodiscard]] std::string from_elsewhere() const {
     if (event_.detail != 1) return {};
-    return ", but on another side of the wrist than the portal: it does not count for it";
+    return ", but from another side of the wrist than the portal that is asked for";
   }
 
   [[nodiscard]] std::string probed_of_screw() const {

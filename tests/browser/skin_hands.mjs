@@ -74,10 +74,20 @@ export class SkinHands {
     await this.operator.push("d", 300);
   }
 
+  /** The tip onto the skin there at once: one that is dragged over it cuts, or slips into a cut, on the way. */
+  async put(at) {
+    const { x, y } = await this.page.evaluate((mm) => window.carpus.pagePoint(mm), at);
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.down();
+    await this.operator.settle();
+    await this.page.mouse.up();
+    await this.operator.settle();
+  }
+
   async prick(at) {
     await this.operator.take("needle_22g");
     expect((await this.hand()).under_mm === 0, "it pricks before it is placed");
-    await this.operator.dragTipTo(at);
+    await this.put(at);
     await this.until("a", (s) => this.own(s).is_wet, "fluid");
   }
 
@@ -86,7 +96,7 @@ export class SkinHands {
     const { page, operator } = this;
     await operator.take("blade_15");
     const { up } = await page.evaluate(() => window.carpus.screenAxes());
-    await operator.dragTipTo(plus(at, up, -2.2));
+    await this.put(plus(at, up, -2.2));
     await this.until("a", (s) => this.own(s).under_mm > 1, "a cut");
     const start = (await this.hand()).on_skin_mm;
     const isLong = (s) => Math.abs(dot(minus(this.own(s).on_skin_mm, start), up)) > 4.2;
@@ -97,7 +107,7 @@ export class SkinHands {
   async spread(at) {
     const { page, operator } = this;
     await operator.take("mosquito_clamp");
-    await operator.dragTipTo(at);
+    await this.put(at);
     const lines = page.locator(".log li", { hasText: "Spread, down to the capsule" });
     const before = await lines.count();
     await this.until("a", (s) => this.own(s).under_mm > 13, "the clamp in the cut");
@@ -112,7 +122,7 @@ export class SkinHands {
   /** @param made  how many portals there are then */
   async enter(at, made) {
     await this.operator.take("scope_sheath_1_9");
-    await this.operator.dragTipTo(at);
+    await this.put(at);
     await this.until("a", (s) => s.made === made, "the sheath in the joint");
   }
 

@@ -68,7 +68,7 @@ void World::State::watch_blade(const Model& model,
   }
 }
 
-/// What comes from another side of the limb makes no portal, whatever joint it reaches.
+/// A way from another side of the limb leads past what is known to lie beside the portal's.
 bool World::State::is_from_its_side(const Model& model,
                                     std::size_t asked,
                                     const Vec3& towards) const noexcept {
@@ -105,8 +105,7 @@ void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPla
       const bool is_elsewhere = !is_from_its_side(model, asked, -at.normal);
       procedure::PortalMade& made = making.facts.portal[asked];
       if (made.cuts < 255) ++made.cuts;
-      if (!is_elsewhere && !made.needle.is_in && making.facts.made <= asked &&
-          !model.is_opened_first[asked]) {
+      if (!made.needle.is_in && making.facts.made <= asked && !model.is_opened_first[asked]) {
         made.out_of_order |= procedure::kCutBeforeNeedle;
       }
       under.cut = worked.cut_count;
@@ -114,7 +113,6 @@ void World::State::cut_skin(const Model& model, std::uint8_t hand, const SkinPla
       cut = {};
       cut.from = cut.to = scanned;
       cut.portal = static_cast<std::uint8_t>(asked);
-      cut.is_elsewhere = is_elsewhere;
       emit(EventKind::SkinCut, now.held[hand], is_elsewhere ? 1 : 0, 0.0);
     }
   }
@@ -168,9 +166,7 @@ procedure::CutMade World::State::cut_made(const Model& model,
   procedure::CutMade made;
   if (under.cut == kNoCut) return made;
   const SkinCut& cut = making.worked.cuts[under.cut];
-  const Vec3 from = as_it_lies(model, cut.from);
-  const Vec3 way = as_it_lies(model, cut.to) - from;
-  made.length_mm = length(way);
+  made.length_mm = cut_length(model, under.cut);
   made.deepest_mm = cut.deepest_mm;
   // As scanned, where the limb's axis is known, and on the skin: its slope is none of the cut's
   // doing.
@@ -180,9 +176,7 @@ procedure::CutMade World::State::cut_made(const Model& model,
   const double cosine = dot(along, normalized_or(distal - out * dot(distal, out), distal));
   made.along_cosine = std::min(1.0, cosine < 0.0 ? -cosine : cosine);
   const Vec3 spot = marked_way(model, model.asked[under.portal]).skin;
-  const Vec3 led = normalized_or(way, {});
-  const double share = std::clamp(dot(spot - from, led), 0.0, made.length_mm);
-  made.off_mm = distance(spot, from + led * share);
+  made.off_mm = distance(spot, on_cut(model, under.cut, spot));
   return made;
 }
 
@@ -190,9 +184,8 @@ procedure::CutMade World::State::cut_made(const Model& model,
 bool World::State::is_uncut(const UnderSkin& under) const noexcept {
   const detail::Worked& worked = making.worked;
   return under.cut == kNoCut && making.facts.made == under.portal &&
-         std::none_of(
-             worked.cuts.begin(), worked.cuts.begin() + worked.cut_count,
-             [&](const SkinCut& cut) { return cut.portal == under.portal && !cut.is_elsewhere; });
+         std::none_of(worked.cuts.begin(), worked.cuts.begin() + worked.cut_count,
+                      [&](const SkinCut& cut) { return cut.portal == under.portal; });
 }
 
 /// How long the scope in the other hand has its point in the picture, in the joint.
@@ -239,14 +232,14 @@ void World::State::note_under(const Model& model, std::uint8_t hand) noexcept {
   note_line_in(model, hand);
   const bool is_elsewhere = !is_from_its_side(model, under.portal, under.towards);
   if (work == SkinWork::Needle) {
-    if (making.facts.made == under.portal && !is_elsewhere) made.needle = way_made(model, under);
+    if (making.facts.made == under.portal) made.needle = way_made(model, under);
     if (is_uncut(under)) made.needle_seen_ticks = 0;  // what was seen of one before led to nothing
     return emit(EventKind::FluidBack, now.held[hand], is_elsewhere ? 1 : 0, 0.0);
   }
   made.overrun_mm = std::max(made.overrun_mm, under.travel_mm - under.capsule_mm);
   emit(EventKind::SheathIn, now.held[hand], is_elsewhere ? 1 : 0,
        under.travel_mm - under.capsule_mm);
-  if (making.facts.made != under.portal || is_elsewhere) return;
+  if (making.facts.made != under.portal) return;
   made.sheath = way_made(model, under);
   making.ways[under.portal] = way_as_made(model, under);
   made.cut = cut_made(model, under);
@@ -296,7 +289,7 @@ procedure::MakingFacts World::State::making_facts(const Model& model) const noex
   facts.asked = model.asked;
   for (std::size_t c = 0; c < making.worked.cut_count; ++c) {
     const SkinCut& cut = making.worked.cuts[c];
-    if (cut.portal < facts.made || cut.is_elsewhere) continue;
+    if (cut.portal < facts.made) continue;
     facts.portal[cut.portal].is_cut = true;
     facts.portal[cut.portal].is_spread = facts.portal[cut.portal].is_spread || cut.is_spread;
   }

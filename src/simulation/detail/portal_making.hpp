@@ -21,13 +21,12 @@ inline constexpr std::uint8_t kNoCut = 255;
 
 /// A cut of the skin, between its ends.
 struct SkinCut {
-  Vec3 from;                  ///< as scanned
-  Vec3 to;                    ///< as scanned
-  double deepest_mm = 0.0;    ///< below the skin
-  double spread_mm = 0.0;     ///< so deep the way under it was spread
-  bool is_spread = false;     ///< ... down to the capsule
-  bool is_elsewhere = false;  ///< on another side of the limb than the portal
-  std::uint8_t portal = 0;    ///< for which of those that are asked for
+  Vec3 from;                ///< as scanned
+  Vec3 to;                  ///< as scanned
+  double deepest_mm = 0.0;  ///< below the skin
+  double spread_mm = 0.0;   ///< so deep the way under it was spread
+  bool is_spread = false;   ///< ... down to the capsule
+  std::uint8_t portal = 0;  ///< for which of those that are asked for
 };
 
 /// What of a hand is under the skin.
@@ -103,7 +102,6 @@ void visit(SomeState& state, Visitor&& v) noexcept {
     v(cut.deepest_mm);
     v(cut.spread_mm);
     v(cut.is_spread);
-    v(cut.is_elsewhere);
     v(cut.portal);
   }
   for (auto& under : worked.hands) {

@@ -24,6 +24,7 @@ constexpr double kStepMm = 0.2;     // no tunnelling
 constexpr double kInJointN = 0.1;   // in a joint nothing drags at it [E]
 constexpr double kAgainMm = 1.0;    // drawn back so far, bone can be struck anew
 constexpr double kSinksMm = 0.3;    // so deep a blunt tip has slipped into a cut
+constexpr double kSlipsMm = 0.02;   // a tick, aside into it: 20 mm/s [E]
 
 }  // namespace
 
@@ -36,18 +37,27 @@ std::optional<std::uint8_t> World::State::joint_at(const Model& model,
   return std::nullopt;
 }
 
+/// Its nearest place, as it lies.
+Vec3 World::State::on_cut(const Model& model, std::uint8_t cut, const Vec3& at) const noexcept {
+  const Vec3 from = as_it_lies(model, making.worked.cuts[cut].from);
+  const Vec3 way = as_it_lies(model, making.worked.cuts[cut].to) - from;
+  const double whole = squared_length(way);
+  return from + way * (whole > 0.0 ? std::clamp(dot(at - from, way) / whole, 0.0, 1.0) : 0.0);
+}
+
+double World::State::cut_length(const Model& model, std::uint8_t cut) const noexcept {
+  const detail::SkinCut& made = making.worked.cuts[cut];
+  return distance(as_it_lies(model, made.from), as_it_lies(model, made.to));
+}
+
 /// The cut that what is so thick slips into here.
 std::uint8_t World::State::cut_at(const Model& model,
                                   const Vec3& at,
                                   double radius_mm) const noexcept {
   const procedure::PortalMaking& figures = *model.procedure.making;
   for (std::uint8_t c = 0; c < making.worked.cut_count; ++c) {
-    const Vec3 from = as_it_lies(model, making.worked.cuts[c].from);
-    const Vec3 way = as_it_lies(model, making.worked.cuts[c].to) - from;
-    const double whole = squared_length(way);
-    if (length(way) + figures.cut_stretch_mm < 2.0 * radius_mm) continue;
-    const double share = whole > 0.0 ? std::clamp(dot(at - from, way) / whole, 0.0, 1.0) : 0.0;
-    if (distance(at, from + way * share) <= figures.cut_reach_mm) return c;
+    if (cut_length(model, c) + figures.cut_stretch_mm < 2.0 * radius_mm) continue;
+    if (distance(at, on_cut(model, c, at)) <= figures.cut_reach_mm) return c;
   }
   return kNoCut;
 }
@@ -64,6 +74,14 @@ void World::State::come_into_skin(const Model& model,
   under.portal = static_cast<std::uint8_t>(asked_now());
   under.entry = entry;
   under.towards = -item.shaft;
+}
+
+/// What is blunt goes in by the cut and not beside it, from wherever on its rim it slipped.
+void World::State::slip_into_cut(const Model& model, UnderSkin& under) const noexcept {
+  if (under.cut == kNoCut || under.is_through) return;
+  const Vec3 aside = on_cut(model, under.cut, under.entry) - under.entry;
+  const double far = length(aside);
+  under.entry += far > kSlipsMm ? aside * (kSlipsMm / far) : aside;
 }
 
 void World::State::leave_skin(std::uint8_t hand) noexcept {
@@ -179,6 +197,7 @@ void World::State::move_under_skin(const Model& model, std::uint8_t hand) noexce
     turn_towards(item, held.plan.shaft);
     under.towards = -item.shaft;
   }
+  if (tool.skin_n <= 0.0) slip_into_cut(model, under);
   if (tool.work == SkinWork::Spread) spread_way(model, hand);
   const double drag = held_back_n(model, hand) / kN;
   const double back = (under.is_through ? kInJointN : tool.way_n) / kN;

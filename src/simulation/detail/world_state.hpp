@@ -416,6 +416,9 @@ struct World::State : detail::ChangingData {
   void move_under_skin(const Model& model, std::uint8_t hand) noexcept;
   void advance_under_skin(const Model& model, std::uint8_t hand, double to_mm) noexcept;
   [[nodiscard]] double held_back_n(const Model& model, std::uint8_t hand) const noexcept;
+  [[nodiscard]] Vec3 on_cut(const Model& model, std::uint8_t cut, const Vec3& at) const noexcept;
+  [[nodiscard]] double cut_length(const Model& model, std::uint8_t cut) const noexcept;
+  void slip_into_cut(const Model& model, detail::UnderSkin& under) const noexcept;
   [[nodiscard]] std::uint8_t cut_at(const Model& model,
                                     const Vec3& at,
                                     double radius_mm) const noexcept;
