@@ -19,6 +19,7 @@
 #include "simulation/world.hpp"
 #include "trainee/arthroscopist.hpp"
 #include "trainee/attempt.hpp"
+#include "trainee/portal_maker.hpp"
 #include "trainee/scripted_trainee.hpp"
 
 namespace carpus::cli {
@@ -283,6 +284,34 @@ void look_round(const cases::CaseData& data,
   }
 }
 
+/// Portals made by the scripted hand: what it feels, marks and cuts on the skin, and what goes
+/// through it.
+void make_portals(const cases::CaseData& data,
+                  const procedure::Procedure& procedure,
+                  std::size_t ticks,
+                  TickBench& bench) {
+  SceneTimes on{"on_skin", {}};
+  SceneTimes under{"under_skin", {}};
+  const auto wants = [ticks](const SceneTimes& times) { return times.microseconds.size() < ticks; };
+  for (std::uint64_t seed = 1; seed <= kMostOperations && (wants(on) || wants(under)); ++seed) {
+    World world(data, procedure, seed);
+    trainee::ScriptedPortalMaker hand(data, procedure, trainee::Skill::Expert, seed);
+    while (!world.now().finished && !hand.is_done()) {
+      const float us = timed_step(world, hand.next(world.now()));
+      const simulation::SkinView& skin = world.now().skin;
+      const bool is_under = std::ranges::any_of(skin.under_mm, [](double mm) { return mm > 0.0; });
+      const bool is_on = std::ranges::any_of(
+          skin.feels, [](const auto& feels) { return feels.felt != simulation::Felt::Nothing; });
+      if (is_under && wants(under)) under.microseconds.push_back(us);
+      if (is_on && wants(on)) on.microseconds.push_back(us);
+    }
+    bench.unresolved_contacts += world.faults().unresolved_contacts;
+  }
+  for (SceneTimes* times : {&on, &under}) {
+    if (!times->microseconds.empty()) bench.scenes.push_back(std::move(*times));
+  }
+}
+
 void cost_of_exercise(const cases::CaseData& data,
                       const procedure::Procedure& procedure,
                       ExerciseCosts& costs) {
@@ -321,6 +350,11 @@ TickBench time_ticks(const cases::CaseData& data,
     for (SceneTimes& times : time_crowded_joints(data, procedure, ticks)) {
       bench.scenes.push_back(std::move(times));
     }
+    cost_of_exercise(data, procedure, bench.costs);
+    return bench;
+  }
+  if (procedure.making) {
+    make_portals(data, procedure, ticks, bench);
     cost_of_exercise(data, procedure, bench.costs);
     return bench;
   }

@@ -41,7 +41,7 @@ struct TickBench {
 /// `screw_going_in` (of whole operations by the scripted expert); of an arthroscopy `quiet`,
 /// `scope_in_joint` and, as far as the expert comes to it, `disc_yields`, `ligament_yields`,
 /// `disc_and_ligament` and, with a shaver, `shaving` (while it runs), then those of
-/// crowded_joint_scenes.hpp.
+/// crowded_joint_scenes.hpp; where portals are made `quiet`, `on_skin` and `under_skin`.
 /// @param ticks  measured a scene.
 [[nodiscard]] TickBench time_ticks(const cases::CaseData& data,
                                    const procedure::Procedure& procedure,
