@@ -19,6 +19,7 @@ async function situation(page) {
       notice: text(".notice"),
       frozen: text(".frozen:not([hidden])"),
       dialog: text("dialog[open] h2"),
+      said: text("[role=status]:not([hidden])"),
       focus:
         focus &&
         `${focus.tagName} ${focus.className} ${focus.textContent.slice(0, 40)}`,

@@ -126,8 +126,10 @@ async function bringAndMend(page, station, zip) {
     expect(cases.length === 2, `${cases.length} cases`);
   });
   await check(page, "what is painted or marked is shown as a surface at once", async () => {
-    const said = page.locator(".scan-said");
-    const anew = async (what) => {
+    const MAKING = "Making the surface anew";
+    const said = page.locator(".scan-surfaces");
+    const anew = async (what, first) => {
+      await said.filter({ hasText: first }).waitFor();
       await said.filter({ hasText: /Hamate.*: surface made anew in [\d.]+ s/ }).waitFor({ timeout: 60_000 });
       const seconds = Number(/in ([\d.]+) s/.exec(await said.textContent())[1]);
       console.log(`     ${what}: ${seconds} s`);
@@ -141,19 +143,17 @@ async function bringAndMend(page, station, zip) {
     await page.keyboard.press("a");
     await page.keyboard.press(".");
     await page.keyboard.press("Enter");
-    const painted = await anew("painted");
+    const painted = await anew("painted", MAKING);
     expect(!painted.equals(before), "the picture of the bones is the same");
     await shot(page, "scan_painted_surface");
     await page.keyboard.press("z");
-    await said.filter({ hasText: "Making the surface anew" }).waitFor();
-    await anew("taken back");
+    await anew("taken back", MAKING);
     await page.keyboard.press("w");
     await page.keyboard.press("Enter");
-    await anew("marked");
+    await anew("marked", "Looking for the bone's border");
     await shot(page, "scan_marked_surface");
     await page.keyboard.press("z");
-    await said.filter({ hasText: "Making the surface anew" }).waitFor();
-    await anew("taken back, with what the marker found");
+    await anew("taken back, with what the marker found", MAKING);
     await page.keyboard.press("Escape");
   });
   const mended = await check(page, "a bone is painted and run again as a new version", async () => {

@@ -15,6 +15,8 @@ const reads = (page, what) =>
   page.locator(".scan-reading", { hasText: what }).waitFor();
 const says = (page, what) =>
   page.locator(".scan-said", { hasText: what }).waitFor();
+const surfacesSay = (page, what) =>
+  page.locator(".scan-surfaces", { hasText: what }).waitFor();
 const told = (page, what) =>
   page.locator(".scan-told", { hasText: what }).waitFor();
 const becomes = (page) => page.getByLabel("It becomes");
@@ -126,6 +128,11 @@ async function fills(page) {
   await page.keyboard.press("f");
   await reads(page, "Capitate");
   await told(page, "of hollows in Capitate are filled");
+  // The surface comes when it comes: what is asked of a person stays.
+  await page.keyboard.press("k");
+  await surfacesSay(page, /Capitate.*surface made anew/);
+  await says(page, "Drag a line");
+  await page.keyboard.press("k");
   await page.keyboard.press("f");
   await told(page, "Capitate has no hollow");
 }
@@ -156,8 +163,8 @@ async function findsAgain(page, station) {
   // At once: what was taken away before is not what is marked.
   await page.keyboard.press("w");
   await page.keyboard.press("Enter");
-  await says(page, /border/);
-  await says(page, /Pisiform.*surface made anew/);
+  await surfacesSay(page, /border/);
+  await surfacesSay(page, /Pisiform.*surface made anew/);
   const saved = page.waitForEvent("download");
   await page.keyboard.press("s");
   const now = gunzipSync(readFileSync(await (await saved).path()));

@@ -14,6 +14,7 @@ import { boneTitle } from "./scan_case_model";
 const REST_MS = 200;
 
 export interface MendedLooksWishes {
+  /** Whenever the host is as far, whatever a person does by then. */
   say(text: string): void;
   /** @param glb  surfaces of those bones that have voxels */
   show(bones: readonly MendedBone[], glb: ArrayBuffer | undefined): void;
@@ -86,7 +87,9 @@ export class MendedLooks {
           await this.look(unmarked, false);
           this.wanted = undefined; // what came meanwhile is in what follows
         }
-        await this.look(this.values.slice(), unmarked !== undefined);
+        const isStill = await this.look(this.values.slice(), unmarked !== undefined);
+        // What is left of the marker is looked for anew.
+        if (!isStill) this.wanted = wanted;
       } catch (error) {
         if (this.abort.signal.aborted) return;
         const why = error instanceof Error ? error.message : String(error);
@@ -95,10 +98,11 @@ export class MendedLooks {
     }
   }
 
-  private async look(sent: Uint8Array, grows: boolean): Promise<void> {
+  /** @return whether what was sent was there still when its border came; if not, that is not taken */
+  private async look(sent: Uint8Array, grows: boolean): Promise<boolean> {
     const began = performance.now();
     const latest = this.paint.latest;
-    if (isSame(sent, this.looked)) return;
+    if (isSame(sent, this.looked)) return true;
     this.wishes.say(grows ? "Looking for the bone's border…" : "Making the surface anew…");
     const labels = await packedLabels({ ...this.labels, values: sent });
     const wish = { of: this.id, labels, before: this.lookedPacked, grows };
@@ -107,15 +111,17 @@ export class MendedLooks {
     this.lookedPacked = labels;
     if (look.labels !== undefined) {
       const grown = await unpackedLabels(look.labels);
-      const { indices, labels: taken } = changesToTake(sent, grown, this.values);
-      this.paint.take(indices, taken, latest !== undefined && latest === this.paint.latest);
       this.looked = grown;
       this.lookedPacked = look.labels;
+      if (latest === undefined || !this.paint.holds(latest)) return false;
+      const { indices, labels: taken } = changesToTake(sent, grown, this.values);
+      this.paint.take(indices, taken, latest === this.paint.latest);
       this.wishes.labelsChanged();
     }
     this.wishes.show(look.bones, look.glb);
     const seconds = ((performance.now() - began) / 1000).toFixed(1);
     const names = look.bones.map((bone) => boneTitle(bone.name)).join(", ");
     this.wishes.say(`${names}: surface made anew in ${seconds} s`);
+    return true;
   }
 }

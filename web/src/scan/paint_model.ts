@@ -107,6 +107,11 @@ export class LabelPaint {
     return this.done.at(-1)?.mark;
   }
 
+  /** Whether the change of this name was not taken back. */
+  holds(mark: object): boolean {
+    return this.done.some((change) => change.mark === mark);
+  }
+
   /** A copy of the labels as they were before the last change that was not taken back. */
   beforeLatest(): Uint8Array {
     const before = this.values.slice();

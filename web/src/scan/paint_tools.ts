@@ -32,7 +32,7 @@ export interface PaintWishes {
   /** A bone has voxels now that had none, or the other way. */
   bonesChanged(): void;
   /** Shows mended surfaces, made by the host of this case; undefined for who may not ask it for any. */
-  readonly look: { readonly of: string; readonly show: MendedLooksWishes["show"] } | undefined;
+  readonly look: ({ readonly of: string } & Pick<MendedLooksWishes, "say" | "show">) | undefined;
 }
 
 const SAID: Readonly<Partial<Record<PaintTool, string>>> = {
@@ -103,7 +103,7 @@ export class PaintTools {
     const { look } = wishes;
     if (look !== undefined) {
       this.looks = new MendedLooks(look.of, labels, this.paint, {
-        say: wishes.say,
+        say: look.say,
         show: look.show,
         labelsChanged: () => {
           wishes.bonesChanged();

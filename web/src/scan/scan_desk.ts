@@ -37,6 +37,12 @@ export interface DeskCase {
   added(id: string): void;
 }
 
+const into =
+  (line: HTMLElement) =>
+  (text: string): void => {
+    setText(line, text);
+  };
+
 export class ScanDesk {
   readonly element: HTMLElement;
   private readonly colors = labelColors();
@@ -53,6 +59,8 @@ export class ScanDesk {
     "aria-label": "At the pointer or the crosshair",
   });
   private readonly said = make("p.scan-said", { role: "status" });
+  /** What the host does with the surfaces: on their picture, as it may end while something else is said. */
+  private readonly surfaces = make("p.scan-surfaces", { role: "status" });
   private readonly bar: ScanBar;
   private readonly step: number;
   private readonly sizes: ResizeObserver;
@@ -98,9 +106,7 @@ export class ScanDesk {
         redraw: () => {
           this.ask();
         },
-        say: (text) => {
-          setText(this.said, text);
-        },
+        say: into(this.said),
         makeVersion: data.mayAdd
           ? (labels) => this.newCase.makeVersion(this.data.id, labels)
           : undefined,
@@ -111,7 +117,13 @@ export class ScanDesk {
           this.list.show(this.bonesNow());
           this.ask();
         },
-        look: data.mayAdd ? { of: data.id, show: this.showMended.bind(this) } : undefined,
+        look: data.mayAdd
+          ? {
+              of: data.id,
+              show: this.showMended.bind(this),
+              say: into(this.surfaces),
+            }
+          : undefined,
       });
     }
     this.list.show(this.bonesNow());
@@ -142,9 +154,10 @@ export class ScanDesk {
       this.bones = new BonesPanel((mm) => {
         this.setCross(mm, true);
       });
+      this.bones.element.append(this.surfaces);
       pictures.append(this.bones.element);
     } catch {
-      pictures.append(make("p.secondary", {}, "This browser draws no 3-D picture."));
+      pictures.append(make("p.secondary", {}, "This browser draws no 3-D picture."), this.surfaces);
     }
     const acts = this.acts();
     this.element.addEventListener("keydown", (event) => {
@@ -169,7 +182,7 @@ export class ScanDesk {
     this.bones
       ?.load(scanAddress(id, "bones.glb"), colors, opposite(proximal), opposite(volar))
       .catch(() => {
-        setText(this.said, "The bones' surfaces could not be loaded; the slices are whole.");
+        setText(this.surfaces, "The bones' surfaces could not be loaded; the slices are whole.");
       });
     const bones = this.bonesNow().filter(isThere);
     const first =
@@ -367,10 +380,8 @@ export class ScanDesk {
     this.alignment = this.alignment === "wrist" ? "scan" : "wrist";
     const planes = this.planes();
     for (const panel of this.panels) panel.setPlane(planes[panel.planeNow.id]);
-    setText(
-      this.said,
-      this.alignment === "wrist" ? "Planes lie along the wrist." : "Planes lie as scanned.",
-    );
+    const how = this.alignment === "wrist" ? "along the wrist" : "as scanned";
+    setText(this.said, `Planes lie ${how}.`);
     this.ask();
   }
 
@@ -433,7 +444,7 @@ export class ScanDesk {
       color: this.colors[label] ?? 0xffffff,
     }));
     this.bones?.mend(mended, glb).catch(() => {
-      setText(this.said, "The mended surface could not be shown; the slices are right.");
+      setText(this.surfaces, "The mended surface could not be shown; the slices are right.");
     });
     this.ask();
   }
