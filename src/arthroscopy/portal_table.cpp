@@ -50,6 +50,7 @@ TabledPortal portal_from(const Json& json) {
   p.proximal_deg = json.at("proximal_deg").get<std::array<double, 2>>();
   p.ulnar_deg = json.value("ulnar_deg", p.ulnar_deg);
   p.is_usual = json.value("usual", true);
+  p.is_narrow = json.value("narrow", false);
   p.between = json.value("interval", p.between);
   p.needs = json.value("needs", p.needs);
   p.search_mm = json.at("search_mm").get<std::array<double, 2>>();

@@ -33,6 +33,7 @@ struct TabledPortal {
   std::array<double, 2> proximal_deg{};  ///< of the way in, least to most
   std::array<double, 2> ulnar_deg{};     ///< likewise about the forearm: 0 volar, 180 dorsal
   bool is_usual = true;                  ///< of the tour; others are offered beside it
+  bool is_narrow = false;  ///< a way into it is looked for as finely as into a usual one
   /// Structures between which the way lies, or empty: in order from radial over dorsal to ulnar and
   /// on over volar.
   std::array<std::string, 2> between;

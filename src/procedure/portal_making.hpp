@@ -40,19 +40,12 @@ struct PortalLandmark {
   std::string beyond = {};  ///< what lies there: "the median nerve"
 };
 
-/// A portal that is not asked for, and why.
-struct PortalLeftOut {
-  std::string portal;
-  std::string why;
-};
-
 struct PortalMaking {
   std::string first;                ///< id of the portal that is made first: "3-4"
   std::vector<std::string> second;  ///< of these the seed draws one that the case has
   /// What is asked for, in a sentence with {second} for that one's name: it names no landmark.
   std::string task;
   std::vector<PortalLandmark> landmarks;  ///< one of each
-  std::vector<PortalLeftOut> left_out;
   /// A second portal is asked for only where the case has all that it endangers.
   bool needs_structures = false;
   double touch_n = 0.0;         ///< with less a finger feels nothing

@@ -20,7 +20,8 @@ using anatomy::StructureKind;
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 /// A way is followed from so far outside its mark, which lies as deep as the bone that is felt.
 constexpr double kOverMarkMm = 9.0;
-constexpr double kTiltStepDeg = 5;  // both steps twice as long for what the tour does without
+constexpr double kTiltStepDeg =
+    5;  // both steps twice as long for what the tour does without, where it is roomy
 constexpr double kSearchStepMm = 0.5;
 /// A nerve or an artery is to lie so far from a way: a tip slips into its hole 2.5 mm beside it
 /// [E].
@@ -36,10 +37,12 @@ constexpr double kPerDegLeant = 0.02;  // and for a degree [E]
 constexpr std::array kVital{StructureKind::Nerve, StructureKind::Artery};
 constexpr std::array kSpread{StructureKind::Tendon};
 
+bool is_searched_finely(const TabledPortal& portal) { return portal.is_usual || portal.is_narrow; }
+
 /// Every lean of a way in that is tried: towards the forearm, about it [rad].
 std::vector<std::array<double, 2>> ways_of(const TabledPortal& portal) {
   std::vector<std::array<double, 2>> ways;
-  const double step = portal.is_usual ? kTiltStepDeg : 2 * kTiltStepDeg;
+  const double step = is_searched_finely(portal) ? kTiltStepDeg : 2 * kTiltStepDeg;
   for (double deg = portal.proximal_deg[0]; deg <= portal.proximal_deg[1]; deg += step) {
     for (double turn = portal.ulnar_deg[0]; turn <= portal.ulnar_deg[1]; turn += step) {
       ways.push_back({deg * kRadPerDeg, turn * kRadPerDeg});
@@ -71,7 +74,7 @@ std::optional<TriedWay> PortalSearch::best_way(const TabledPortal& portal,
   const double middle_rad = (portal.ulnar_deg[0] + portal.ulnar_deg[1]) / 2 * kRadPerDeg;
   const Vec3 across{0, std::cos(middle_rad), -std::sin(middle_rad)};
   const Vec3 before = Vec3{0, std::sin(middle_rad), std::cos(middle_rad)} * -kOverMarkMm;
-  const double step_mm = portal.is_usual ? kSearchStepMm : 2 * kSearchStepMm;
+  const double step_mm = is_searched_finely(portal) ? kSearchStepMm : 2 * kSearchStepMm;
   for (const auto& [tilt, turn] : ways_of(portal)) {
     const Vec3 inwards = axes_.way(
         {std::sin(tilt), std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn)});

@@ -40,18 +40,6 @@ PortalLandmark read_landmark(JsonFields& fields) {
   return read;
 }
 
-void read_left_out(JsonFields& fields, PortalMaking& making) {
-  if (!fields.has("left_out")) return;
-  for (JsonFields& each : fields.objects("left_out")) {
-    making.left_out.push_back({each.text("portal"), each.text("why")});
-    each.refuse_unknown_fields();
-    const std::string& portal = making.left_out.back().portal;
-    if (portal == making.first || std::count(making.second.begin(), making.second.end(), portal)) {
-      fields.refuse("left_out: " + portal + " is asked for");
-    }
-  }
-}
-
 void read_palpation(JsonFields fields, PortalMaking& making) {
   making.touch_n = fields.number("touch_n", 0.0, kMostN);
   making.bone_mm = fields.number("bone_mm", 0.0, kMostMm);
@@ -101,7 +89,6 @@ PortalMaking read_portal_making(JsonFields& fields) {
     if (!is_named(making, second)) fields.refuse("landmarks: none is said for " + second);
   }
   making.needs_structures = fields.boolean_or("needs_structures", false);
-  read_left_out(fields, making);
   read_palpation(fields.object("palpation"), making);
   read_tools(fields.object("tools"), making);
   (void)fields.text("mark");
