@@ -61,8 +61,7 @@ function keyDown({ hand, pedal, act, closeHelp }: KeyHandlers, event: KeyboardEv
   }
   if (document.querySelector("dialog[open]") !== null) return;
   const target = event.target instanceof HTMLElement ? event.target : undefined;
-  // One of a dialog that was closed keeps the focus until the page is drawn next.
-  if (target instanceof HTMLInputElement && target.closest("dialog:not([open])") === null) return;
+  if (target instanceof HTMLInputElement) return;
   if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
   if (isPedal(press)) {
     event.preventDefault();
