@@ -111,6 +111,24 @@ TEST_F(MakeMap, TheVolarUlnarPortalIsOfferedWhereWhatItMustSpareIsThere) {
   }
 }
 
+/// [K, B7]: just ulnar of the long thumb extensor; where that one lies, the way still has room.
+TEST_F(MakeMap, TheSttPortalLeadsBesideTheLongThumbExtensorIntoTheMidcarpalJoint) {
+  cases::CaseData data = *data_;
+  data.structures = cases::make_structures(data).structures;
+  const cases::ArthroscopicMap map = make_map(data, *tissue_);
+  const cases::Portal* portal = find_portal(map, "STT");
+  ASSERT_NE(portal, nullptr) << ::testing::PrintToString(map.problems);
+  EXPECT_FALSE(portal->is_usual);
+  EXPECT_EQ(map.joints[portal->joint].id, "midcarpal");
+  EXPECT_GE(portal->room_mm, kLeastRoomMm);
+  const Vec3 inside = portal->skin + portal->inwards * portal->capsule_mm;
+  EXPECT_GT(in_wrist(inside).y, in_wrist(find_portal(map, "MCR")->skin).y) << "radial is y";
+  const auto& artery = portal->beside[static_cast<std::size_t>(anatomy::StructureKind::Artery)];
+  ASSERT_TRUE(artery.has_value());
+  EXPECT_EQ(data.structures[artery->structure].id, "radial_artery");
+  EXPECT_GT(artery->mm, 1.0);
+}
+
 /// [S80]: about 1 cm ulnar of the 3-4 portal; and 3-4 is distal of Lister's tubercle.
 TEST_F(MakeMap, TheSecondPortalIsACentimetreUlnarOfTheFirst) {
   const Vec3 first = in_wrist(find_portal(*map_, "3-4")->skin);
