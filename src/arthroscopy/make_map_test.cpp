@@ -111,7 +111,7 @@ TEST_F(MakeMap, TheVolarUlnarPortalIsOfferedWhereWhatItMustSpareIsThere) {
   }
 }
 
-/// [K, B7]: just ulnar of the long thumb extensor; where that one lies, the way still has room.
+/// Radial of MCR, with room; that it is ulnar of the long thumb extensor the search itself holds.
 TEST_F(MakeMap, TheSttPortalLeadsBesideTheLongThumbExtensorIntoTheMidcarpalJoint) {
   cases::CaseData data = *data_;
   data.structures = cases::make_structures(data).structures;
