@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
 import { Operator } from "./operator.mjs";
-import { bringInScope, CALLS_OF_FOCUS } from "./scope.mjs";
+import { bringInScope, CALLS_OF_FOCUS, expectAnswersKept } from "./scope.mjs";
 
 const TRAINEE = "Browser test, screw";
 
@@ -46,11 +46,7 @@ export async function screwControl(browser, station) {
     for (let i = 0; i < count; ++i)
       await rows.nth(i).locator("label").first().click();
     await picture("answers");
-    await page.keyboard.press("Escape");
-    await page.waitForTimeout(300);
-    await page.keyboard.press("9");
-    const kept = await page.locator(".finding input:checked").count();
-    expect(kept === count, `${kept} of ${count} answers were kept`);
+    await expectAnswersKept(page, count);
     await page.keyboard.press("Escape");
     await page.waitForTimeout(9_000); // the least look that is judged
     await page.keyboard.press("f");

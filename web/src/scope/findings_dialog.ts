@@ -16,6 +16,8 @@ export class FindingsDialog {
   /** Of the operation before. */
   private readonly report = make("p.findings-report");
   private findings: Plan["findings"] = [];
+  /** Answers given since it was opened that the host did not tell back yet: a grade by its finding. */
+  private readonly given = new Map<string, string>();
 
   constructor(private readonly onAnswer: (finding: string, grade: string) => void) {
     const form = make(
@@ -41,8 +43,9 @@ export class FindingsDialog {
     // Not a change alone: who looks again and finds the same says so by the same answer.
     form.addEventListener("click", (event) => {
       const input = event.target;
-      if (input instanceof HTMLInputElement && input.type === "radio")
-        this.onAnswer(input.name, input.value);
+      if (!(input instanceof HTMLInputElement && input.type === "radio")) return;
+      this.given.set(input.name, input.value);
+      this.onAnswer(input.name, input.value);
     });
     this.element = make("dialog.findings", { "aria-labelledby": "findings-title" }, form);
   }
@@ -84,13 +87,25 @@ export class FindingsDialog {
   /** @param answers  by finding, what the host has; -1: nothing yet */
   open(answers: readonly number[]): void {
     if (this.element.open || this.findings.length === 0) return;
+    this.given.clear();
+    this.showAnswers(answers);
+    this.element.showModal();
+  }
+
+  /** As the host tells them: one given just before it was opened comes while one reads. */
+  see(answers: readonly number[]): void {
+    if (this.element.open) this.showAnswers(answers);
+  }
+
+  private showAnswers(answers: readonly number[]): void {
     this.findings.forEach((finding, f) => {
-      const chosen = finding.grades[answers[f] ?? -1]?.id;
+      const kept = finding.grades[answers[f] ?? -1]?.id;
+      if (this.given.get(finding.id) === kept) this.given.delete(finding.id);
+      if (this.given.has(finding.id)) return;
       for (const input of this.rows.querySelectorAll<HTMLInputElement>(
         `input[name="${finding.id}"]`,
       ))
-        input.checked = input.value === chosen;
+        input.checked = input.value === kept;
     });
-    this.element.showModal();
   }
 }

@@ -290,6 +290,7 @@ export class ScopeDesk {
     if (this.hasCutDisc(message)) this.cutDisc(message.pieces_left);
     this.scope = message;
     this.leading.seeScope(message);
+    this.findings.see(message.answers);
     if (before !== message.points_seen.length) this.showPoints();
   }
 

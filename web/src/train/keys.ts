@@ -61,7 +61,12 @@ function keyDown({ hand, pedal, act, closeHelp }: KeyHandlers, event: KeyboardEv
   }
   if (document.querySelector("dialog[open]") !== null) return;
   const target = event.target instanceof HTMLElement ? event.target : undefined;
-  if (target instanceof HTMLInputElement) return;
+  // A closed dialog's input keeps the focus until the page is drawn next; the key that closed it was its own.
+  if (
+    target instanceof HTMLInputElement &&
+    (event.defaultPrevented || target.closest("dialog:not([open])") === null)
+  )
+    return;
   if (target instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter")) return;
   if (isPedal(press)) {
     event.preventDefault();
