@@ -59,6 +59,16 @@ const char* verdict_of(const StatementCheck& check) {
   return check.statement->is_fitted ? "fitted" : "reached";
 }
 
+void print_capsule(std::string& out, const SectioningResult& result, const SectioningTable& table) {
+  print(out, "capsule, mm longer than in the scan before it pulls:\n");
+  for (std::size_t i = 0; i < table.capsule.size(); ++i) {
+    const auto& line = table.capsule[i];
+    print(out, "%6.1f  %s%s\n", result.capsule_slack_mm[i], line.name.c_str(),
+          line.slack_mm ? "" : ": as the whole wrist's motion asks for");
+  }
+  out += "\n";
+}
+
 void print_curves(std::string& out, const SectioningResult& result, const SectioningTable& table) {
   print(out, "%-12s %-17s %6s %7s %7s %13s %13s %6s %7s %8s\n", "cut", "moment", "angle", "change",
         "Nm/deg", "scaphoid f/r", "lunate f/r", "gap mm", "SL deg", "left N");
@@ -134,6 +144,7 @@ std::string section_table(const SectioningResult& result, const SectioningTable&
         "\nligaments cut: %.1f Nm on the hand, free otherwise, pressed by %.0f N; turns from the "
         "scan, deg,\nflexion and radial deviation positive; simulated\n",
         table.moment_nm, table.press_n);
+  print_capsule(out, result, table);
   print_curves(out, result, table);
   print_held(out, result, table);
   print_published(out, result, table);
@@ -151,6 +162,11 @@ std::string section_json(const SectioningResult& result,
   json["case_simulated"] = is_simulated;
   json["moment_nm"] = table.moment_nm;
   json["press_n"] = table.press_n;
+  json["capsule"] = Json::array();
+  for (std::size_t i = 0; i < table.capsule.size(); ++i) {
+    json["capsule"].push_back(
+        {{"name", table.capsule[i].name}, {"slack_mm", result.capsule_slack_mm[i]}});
+  }
   json["cuts"] = Json::array();
   for (const SectionedWrist& wrist : result.wrists) {
     Json cut{{"id", wrist.cut}, {"name", name_of_cut(table, wrist.cut)}};

@@ -21,6 +21,8 @@ Made made() {
   m.table.moment_nm = 2;
   m.table.press_n = 20;
   m.table.cuts = {{"intact", "intact", {}}, {"sl", "SL", {"SL_"}}};
+  m.table.capsule = {{"dorsal", {}, 30, 2.0, ""}, {"volar", {}, 60, std::nullopt, "LRL"}};
+  m.result.capsule_slack_mm = {2, 9.25};
   m.table.directions = {{"radial_deviation", 0, 1}};
   m.table.positions = {{"neutral", 0, 0}};
   for (const BenchCut& cut : m.table.cuts) {
@@ -56,6 +58,9 @@ Made made() {
 TEST(SectionReport, TellsReachedFromNotReachedAndNotMeasured) {
   Made m = made();
   const std::string text = section_table(m.result, m.table);
+  EXPECT_NE(text.find("   2.0  dorsal\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("9.2  volar: as the whole wrist's motion asks for"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("20.0 deg     reached       about 25 deg [K]"), std::string::npos) << text;
   EXPECT_NE(text.find("not reached   about 25 deg"), std::string::npos);
   EXPECT_NE(text.find("because"), std::string::npos);
@@ -72,6 +77,7 @@ TEST(SectionReport, WritesEveryFigureAsJson) {
   EXPECT_TRUE(json.at("case_simulated"));
   EXPECT_EQ(json.at("cuts").at(1).at("curves").at(0).at("range_deg"), 21.5);
   EXPECT_EQ(json.at("cuts").at(0).at("held").at(0).at("scaphoid").at("flexion_deg"), 12.5);
+  EXPECT_EQ(json.at("capsule").at(1).at("slack_mm"), 9.25);
   EXPECT_EQ(json.at("published").at(0).at("verdict"), "reached");
   EXPECT_TRUE(json.at("published").at(1).at("ours").is_null());
   EXPECT_EQ(json.at("published").at(1).at("verdict"), "not measured");

@@ -48,8 +48,17 @@ class Bench {
     side_ = data.side == Side::Left ? 1 : -1;  // frame Wrist of a right wrist is mirrored by y
     flexion_axis_ = patient_from_wrist * Vec3{0, 1, 0};
     deviation_axis_ = patient_from_wrist * Vec3{0, 0, side_};
-    for (const CapsuleLine& line : table.capsule) capsule_.push_back(capsule_line(line));
     press_ = press();
+    lay_capsule();
+  }
+
+  /// How much longer than in the scan each of the table's lines gets before it pulls [mm].
+  std::vector<double> capsule_slack() const {
+    std::vector<double> slack;
+    for (const CapsuleStrand& s : capsule_) {
+      slack.push_back(s.force.rest_mm - detail::length_as_scanned(s.force));
+    }
+    return slack;
   }
 
   SectionedWrist section(const BenchCut& cut) const {
@@ -74,6 +83,17 @@ class Bench {
   struct Found {
     RestingWrist wrist;
     double energy = 0;
+  };
+  struct CapsuleStrand {
+    const CapsuleLine* line = nullptr;
+    ForceLine force;
+    bool is_laid = false;  ///< its length is known
+
+    bool is_cut_by(const BenchCut& cut) const {
+      return !line->goes_with.empty() &&
+             std::any_of(cut.without.begin(), cut.without.end(),
+                         [&](const std::string& id) { return line->goes_with.starts_with(id); });
+    }
   };
 
   const cases::Bone& bone(BoneId id) const {
@@ -108,13 +128,50 @@ class Bench {
     return sum / count;
   }
 
-  ForceLine capsule_line(const CapsuleLine& line) const {
+  CapsuleStrand strand_of(const CapsuleLine& line) const {
     const Vec3 from = place_of(line.ends[0]);
     const Vec3 to = place_of(line.ends[1]);
-    return {ForceLine::kNoLigament,
-            {{detail::body_of(line.ends[0].bone), from}, {detail::body_of(line.ends[1].bone), to}},
-            distance(from, to) + table_.capsule_slack_mm * tissue_.size,
-            table_.capsule_n_per_mm};
+    const ForceLine force{
+        ForceLine::kNoLigament,
+        {{detail::body_of(line.ends[0].bone), from}, {detail::body_of(line.ends[1].bone), to}},
+        distance(from, to) + line.slack_mm.value_or(0) * tissue_.size,
+        line.stiffness_n_per_mm};
+    return {&line, force, line.slack_mm.has_value()};
+  }
+
+  /// Lines without slack get the greatest length that they reach while the whole wrist is turned
+  /// without them.
+  void lay_capsule() {
+    for (const CapsuleLine& line : table_.capsule) capsule_.push_back(strand_of(line));
+    if (std::all_of(capsule_.begin(), capsule_.end(), [](const auto& s) { return s.is_laid; })) {
+      return;
+    }
+    TurnedWrist wrist = wrist_without({});
+    const std::vector<Start> starts = starts_of(wrist);
+    const double share = table_.capsule_length_at_nm / table_.moment_nm;
+    const auto steps = std::max<std::size_t>(
+        1, static_cast<std::size_t>(share * static_cast<double>(table_.steps) + 0.5));
+    std::vector<std::vector<double>> longest(table_.directions.size());
+    parallel_for(longest.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        TurnedWrist turned = wrist;
+        longest[i].resize(capsule_.size());
+        follow(turned, starts, table_.directions[i], steps, [&](const RestingWrist& rest) {
+          if (!rest.is_settled) return;
+          for (std::size_t l = 0; l < capsule_.size(); ++l) {
+            longest[i][l] =
+                std::max(longest[i][l], detail::length_now(capsule_[l].force, turned.bodies()));
+          }
+        });
+      }
+    });
+    for (std::size_t l = 0; l < capsule_.size(); ++l) {
+      if (capsule_[l].is_laid) continue;
+      capsule_[l].is_laid = true;
+      for (const std::vector<double>& lengths : longest) {
+        capsule_[l].force.rest_mm = std::max(capsule_[l].force.rest_mm, lengths[l]);
+      }
+    }
   }
 
   /// At the place about which the hand turns, so that it does not turn it.
@@ -134,7 +191,9 @@ class Bench {
     options.without = without;
     options.is_held_on_its_way = true;
     std::vector<ForceLine> lines = detail::make_force_lines(data_, tissue_, options);
-    lines.insert(lines.end(), capsule_.begin(), capsule_.end());
+    for (const CapsuleStrand& s : capsule_) {
+      if (s.is_laid && !s.is_cut_by(cut)) lines.push_back(s.force);
+    }
     return {data_, std::move(lines), kContacts, press_, table_.holding_n_per_mm};
   }
 
@@ -213,16 +272,19 @@ class Bench {
     return starts;
   }
 
-  MomentCurve curve(TurnedWrist& wrist,
-                    const std::vector<Start>& starts,
-                    const BenchDirection& d) const {
-    MomentCurve result;
-    result.direction = d.id;
+  /// Turns the wrist by the first `steps` steps of the moment, and hands over each rest as the
+  /// wrist lies in it.
+  template <typename Take>
+  void follow(TurnedWrist& wrist,
+              const std::vector<Start>& starts,
+              const BenchDirection& d,
+              std::size_t steps,
+              const Take& take) const {
     HandLoad load;
     load.axis = flexion_axis_ * d.flexes + deviation_axis_ * d.deviates_radially;
-    const auto steps = static_cast<double>(table_.steps);
+    const auto all_steps = static_cast<double>(table_.steps);
     // The first step is the lowest rest that is found from any start; the others follow it.
-    load.moment_nmm = 1000 * table_.moment_nm / steps;
+    load.moment_nmm = 1000 * table_.moment_nm / all_steps;
     Found lowest;
     Bodies first;
     for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -232,12 +294,21 @@ class Bench {
       lowest = found;
       first = wrist.bodies();
     }
-    result.steps.push_back(lowest.wrist);
     wrist.lay(first);
-    for (std::size_t i = 2; i <= table_.steps; ++i) {
-      load.moment_nmm = 1000 * table_.moment_nm * static_cast<double>(i) / steps;
-      result.steps.push_back(rest(wrist, load).wrist);
+    take(lowest.wrist);
+    for (std::size_t i = 2; i <= steps; ++i) {
+      load.moment_nmm = 1000 * table_.moment_nm * static_cast<double>(i) / all_steps;
+      take(rest(wrist, load).wrist);
     }
+  }
+
+  MomentCurve curve(TurnedWrist& wrist,
+                    const std::vector<Start>& starts,
+                    const BenchDirection& d) const {
+    MomentCurve result;
+    result.direction = d.id;
+    follow(wrist, starts, d, table_.steps,
+           [&](const RestingWrist& rest) { result.steps.push_back(rest); });
     const RestingWrist& last = result.steps.back();
     const RestingWrist& before = result.steps[table_.steps - 1 - table_.steps / 4];
     result.range_deg = last.hand.along(d);
@@ -269,7 +340,7 @@ class Bench {
   double side_ = 1;
   Vec3 flexion_axis_;
   Vec3 deviation_axis_;
-  std::vector<ForceLine> capsule_;
+  std::vector<CapsuleStrand> capsule_;
   detail::Press press_;
 };
 
@@ -296,6 +367,7 @@ SectioningResult section(const cases::CaseData& data,
   }
   const Bench bench(data, tissue, table);
   SectioningResult result;
+  result.capsule_slack_mm = bench.capsule_slack();
   result.wrists.resize(table.cuts.size());
   parallel_for(table.cuts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) result.wrists[i] = bench.section(table.cuts[i]);

@@ -66,6 +66,8 @@ struct SectionedWrist {
 
 struct SectioningResult {
   std::vector<SectionedWrist> wrists;  ///< in the order of the table's cuts
+  /// How much longer than in the scan each line of the table's capsule gets before it pulls.
+  std::vector<double> capsule_slack_mm;
   std::size_t rests = 0;
   std::size_t unsettled = 0;  ///< of the rests
   double worst_left_n = 0;    ///< of the settled ones

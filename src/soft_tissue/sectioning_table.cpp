@@ -53,20 +53,37 @@ BoneId bone_named(const std::string& name) {
   return named->bone;
 }
 
-void read_capsule(const Json& json, SectioningTable& table) {
-  refuse_unknown(json, {"stiffness_n_per_mm", "slack_mm", "mark", "lines"});
+std::vector<CapsuleLine> capsule_lines(const Json& json, std::optional<double> slack_mm) {
   static_cast<void>(text_of(json, "mark"));
-  table.capsule_n_per_mm = marked(json, "stiffness_n_per_mm", 0, 1000);
-  table.capsule_slack_mm = marked(json, "slack_mm", 0, 20);
+  const double stiffness = marked(json, "stiffness_n_per_mm", 0, 1000);
+  std::vector<CapsuleLine> lines;
   for (const Json& line : json.at("lines")) {
-    refuse_unknown(line, {"from", "to"});
+    refuse_unknown(line, {"name", "from", "to", "goes_with"});
     const auto end = [&](const char* key) {
       refuse_unknown(line.at(key), {"ligament", "bone"});
       return CapsuleLine::End{text_of(line.at(key), "ligament"),
                               bone_named(text_of(line.at(key), "bone"))};
     };
-    table.capsule.push_back({{end("from"), end("to")}});
+    lines.push_back({text_of(line, "name"),
+                     {end("from"), end("to")},
+                     stiffness,
+                     slack_mm,
+                     line.value("goes_with", std::string())});
   }
+  return lines;
+}
+
+void read_capsule(const Json& json, SectioningTable& table, std::string& where) {
+  where = "midcarpal_capsule";
+  const Json& midcarpal = json.at("midcarpal_capsule");
+  refuse_unknown(midcarpal, {"stiffness_n_per_mm", "slack_mm", "mark", "lines"});
+  table.capsule = capsule_lines(midcarpal, marked(midcarpal, "slack_mm", 0, 20));
+  where = "radiocarpal_capsule";
+  const Json& radiocarpal = json.at("radiocarpal_capsule");
+  refuse_unknown(radiocarpal, {"stiffness_n_per_mm", "length_at_nm", "mark", "lines"});
+  table.capsule_length_at_nm = marked(radiocarpal, "length_at_nm", 0.01, table.moment_nm);
+  const std::vector<CapsuleLine> lines = capsule_lines(radiocarpal, std::nullopt);
+  table.capsule.insert(table.capsule.end(), lines.begin(), lines.end());
 }
 
 Kind kind_of(const std::string& name) {
@@ -172,17 +189,17 @@ SectioningTable SectioningTable::parse(std::string_view json_text) {
   std::string where = "the table";
   try {
     const Json json = Json::parse(json_text);
-    refuse_unknown(json, {"doc", "schema_version", "moment_nm", "steps", "press_n",
-                          "holding_n_per_mm", "dorsal_capsule", "directions", "directions_mark",
-                          "positions", "positions_mark", "cuts", "cuts_mark", "published"});
+    refuse_unknown(json,
+                   {"doc", "schema_version", "moment_nm", "steps", "press_n", "holding_n_per_mm",
+                    "midcarpal_capsule", "radiocarpal_capsule", "directions", "directions_mark",
+                    "positions", "positions_mark", "cuts", "cuts_mark", "published"});
     if (json.at("schema_version") != 1) throw InvalidInput("another schema_version than 1");
     SectioningTable table;
     table.moment_nm = marked(json, "moment_nm", 0.01, 20);
     table.steps = static_cast<std::size_t>(marked(json, "steps", 4, 200));
     table.press_n = marked(json, "press_n", 0, 500);
     table.holding_n_per_mm = marked(json, "holding_n_per_mm", 0.001, 10);
-    where = "dorsal_capsule";
-    read_capsule(json.at("dorsal_capsule"), table);
+    read_capsule(json, table, where);
     for (const char* key : {"directions_mark", "positions_mark", "cuts_mark"}) {
       where = key;
       static_cast<void>(text_of(json, key));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,14 @@ struct CapsuleLine {
     std::string ligament;
     BoneId bone = BoneId::Lunate;
   };
+  std::string name;
   std::array<End, 2> ends;
+  double stiffness_n_per_mm = 0;
+  /// How much longer than in the scan it gets before it pulls, times the wrist's size. Without one
+  /// it is as long as the whole wrist's own motion asks for
+  /// (SectioningTable::capsule_length_at_nm).
+  std::optional<double> slack_mm;
+  std::string goes_with;  ///< the ligament with which it is cut; empty: none
 };
 
 /// Of a moment, in the plane of flexion and radial deviation; of length 1.
@@ -75,9 +83,8 @@ struct SectioningTable {
   std::size_t steps = 0;
   double press_n = 0;
   double holding_n_per_mm = 0;
-  double capsule_n_per_mm = 0;  ///< of each line
-  double capsule_slack_mm = 0;  ///< times the wrist's size
   std::vector<CapsuleLine> capsule;
+  double capsule_length_at_nm = 0;  ///< of lines without slack: up to which moment, every direction
   std::vector<BenchDirection> directions;
   std::vector<BenchPosition> positions;
   std::vector<BenchCut> cuts;  ///< the first cuts nothing

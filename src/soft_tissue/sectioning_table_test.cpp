@@ -26,7 +26,7 @@ TEST(SectioningTable, IsWhatThePublishedStatementsAskFor) {
   EXPECT_EQ(table.moment_nm, 2);
   EXPECT_TRUE(table.cuts.front().without.empty());
   EXPECT_GE(table.cuts.size(), 6u);
-  EXPECT_EQ(table.capsule.size(), 5u);
+  EXPECT_EQ(table.capsule.size(), 8u);
   EXPECT_GE(table.published.size(), 20u);
   for (const PublishedStatement& s : table.published) {
     // A source, or said to be general knowledge.
@@ -49,6 +49,8 @@ TEST(SectioningTable, RefusesWhatItCannotMean) {
       with(R"("low": 60, "high": 80)", R"("low": 80, "high": 60)"),
       with(R"("low": 60, "high": 80, )", ""),
       with(R"("cut": "sl")", R"("cut": "everything")"),
+      with(R"("goes_with")", R"("goes_by")"),
+      with(R"("length_at_nm": {"value": 1)", R"("length_at_nm": {"value": 3)"),
       with(R"("press_n": {"value": 20)", R"("press_n": {"value": -20)"),
   };
   for (std::size_t i = 0; i < broken.size(); ++i) {

@@ -83,8 +83,8 @@ TEST(Sectioning, TurnsTheWristAsPublishedWhereItSaysSo) {
         // capsule's slack, which was fitted to the range and not to them.
         "flexion_scaphoid_share", "flexion_lunate_share", "extension_scaphoid_share",
         "extension_lunate_share",
-        // [S65]: SL alone leaves the range, within 5 deg. Flexion and extension: not reached.
-        "sl_range_radial_deviation",
+        // [S65]: SL alone leaves the range, within 5 deg.
+        "sl_range_flexion", "sl_range_extension", "sl_range_radial_deviation",
         // [S107]: SL cut, the bones lie otherwise in flexion and not in deviation.
         "sl_scaphoid_flexion", "sl_lunate_flexion", "sl_scaphoid_radial_deviation",
         "sl_lunate_radial_deviation"}) {
@@ -133,6 +133,38 @@ TEST(Sectioning, GivesTheSameBitsAgainAndARightWristIsTheMirror) {
     EXPECT_NEAR(a.steps.back().lunate.radial_deviation_deg,
                 right.wrists[0].curves[d].steps.back().lunate.radial_deviation_deg, 2);
   }
+}
+
+TEST(Sectioning, CapsuleIsAsLongAsTheWholeWristAsksForAndGoesWithItsLigament) {
+  SectioningTable table = part_of_table({"intact", "sl", "dic"}, {"flexion"}, {});
+  table.cuts[2].without = {"SL_", "DIC"};
+  std::erase_if(table.capsule, [](const CapsuleLine& l) {
+    return !l.slack_mm &&
+           l.goes_with != "DIC";  // of what holds the scaphoid, the dorsal line alone
+  });
+  const auto range = [](const SectioningResult& r, std::size_t wrist) {
+    return r.wrists[wrist].curves[0].range_deg;
+  };
+  const SectioningResult with = section(left_wrist().data, left_wrist().tissue, table);
+  ASSERT_EQ(with.capsule_slack_mm.size(), table.capsule.size());
+  for (std::size_t i = 0; i < table.capsule.size(); ++i) {
+    if (table.capsule[i].slack_mm) {
+      EXPECT_NEAR(with.capsule_slack_mm[i], *table.capsule[i].slack_mm * left_wrist().tissue.size,
+                  1e-9);
+    }
+  }
+  SectioningTable without_lines = table;
+  std::erase_if(without_lines.capsule, [](const CapsuleLine& l) { return !l.slack_mm; });
+  ASSERT_EQ(without_lines.capsule.size() + 1, table.capsule.size());
+  const SectioningResult without = section(left_wrist().data, left_wrist().tissue, without_lines);
+  EXPECT_NEAR(range(with, 0), range(without, 0), 2);     // whole: little beyond what it asks for
+  EXPECT_LT(range(with, 1), range(without, 1) - 3);      // SL alone is cut: it holds
+  EXPECT_NEAR(range(with, 2), range(without, 2), 1e-9);  // DIC, too: its line is gone
+  // By a smaller moment less is asked for.
+  table.capsule_length_at_nm = 0.5;
+  const SectioningResult shorter = section(left_wrist().data, left_wrist().tissue, table);
+  EXPECT_LT(shorter.capsule_slack_mm[5], with.capsule_slack_mm[5]);
+  EXPECT_GT(shorter.capsule_slack_mm[5], 1);
 }
 
 TEST(Sectioning, SaysSoWhereNothingHoldsTheHand) {
