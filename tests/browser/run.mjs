@@ -30,6 +30,7 @@ import { makesPortals } from "./portals.mjs";
 import { preparesPathology } from "./pathology.mjs";
 import { screwControl } from "./screw.mjs";
 import { startStation } from "./station.mjs";
+import { opensSttFirst } from "./stt.mjs";
 import { playQuiz } from "./view_quiz.mjs";
 import { goesInFromVolar } from "./volar.mjs";
 
@@ -665,6 +666,7 @@ try {
   await biting(browser, station);
   await makesPortals(browser, station);
   await goesInFromVolar(browser, station);
+  await opensSttFirst(browser, station);
   // Its problems are its own: the browser reports each vain attempt to connect.
   await goesWrong(browser, station, []);
   await byItsLink(browser);
