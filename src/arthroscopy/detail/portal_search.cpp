@@ -11,6 +11,7 @@
 
 #include "anatomy/structure_table.hpp"
 #include "arthroscopy/make_map.hpp"
+#include "core/parallel.hpp"
 
 namespace carpus::arthroscopy::detail {
 namespace {
@@ -40,15 +41,15 @@ constexpr std::array kSpread{StructureKind::Tendon};
 bool is_searched_finely(const TabledPortal& portal) { return portal.is_usual || portal.is_narrow; }
 
 /// Every lean of a way in that is tried: towards the forearm, about it [rad].
-std::vector<std::array<double, 2>> ways_of(const TabledPortal& portal) {
-  std::vector<std::array<double, 2>> ways;
+std::vector<std::array<double, 2>> leans_of(const TabledPortal& portal) {
+  std::vector<std::array<double, 2>> leans;
   const double step = is_searched_finely(portal) ? kTiltStepDeg : 2 * kTiltStepDeg;
   for (double deg = portal.proximal_deg[0]; deg <= portal.proximal_deg[1]; deg += step) {
     for (double turn = portal.ulnar_deg[0]; turn <= portal.ulnar_deg[1]; turn += step) {
-      ways.push_back({deg * kRadPerDeg, turn * kRadPerDeg});
+      leans.push_back({deg * kRadPerDeg, turn * kRadPerDeg});
     }
   }
-  return ways;
+  return leans;
 }
 
 }  // namespace
@@ -70,31 +71,49 @@ std::optional<TriedWay> PortalSearch::best_way(const TabledPortal& portal,
                                                const cases::JointSpace& joint,
                                                const Vec3& nominal,
                                                const std::optional<Vec3>& ahead) const {
+  const std::vector<Lean> leans = leans_of(portal);
+  std::vector<std::optional<TriedWay>> bests(leans.size());
+  parallel_for(leans.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      bests[i] = best_by(portal, joint, nominal, ahead, leans[i]);
+    }
+  });
   std::optional<TriedWay> best;
+  for (const std::optional<TriedWay>& tried : bests) {  // of equal ones the first lean's
+    if (tried && (!best || *best < *tried)) best = tried;
+  }
+  return best;
+}
+
+std::optional<TriedWay> PortalSearch::best_by(const TabledPortal& portal,
+                                              const cases::JointSpace& joint,
+                                              const Vec3& nominal,
+                                              const std::optional<Vec3>& ahead,
+                                              const Lean& lean) const {
+  std::optional<TriedWay> best;
+  const auto& [tilt, turn] = lean;
   const double middle_rad = (portal.ulnar_deg[0] + portal.ulnar_deg[1]) / 2 * kRadPerDeg;
   const Vec3 across{0, std::cos(middle_rad), -std::sin(middle_rad)};
   const Vec3 before = Vec3{0, std::sin(middle_rad), std::cos(middle_rad)} * -kOverMarkMm;
   const double step_mm = is_searched_finely(portal) ? kSearchStepMm : 2 * kSearchStepMm;
-  for (const auto& [tilt, turn] : ways_of(portal)) {
-    const Vec3 inwards = axes_.way(
-        {std::sin(tilt), std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn)});
-    for (double x = -portal.search_mm[0]; x <= portal.search_mm[0]; x += step_mm) {
-      for (double y = -portal.search_mm[1]; y <= portal.search_mm[1]; y += step_mm) {
-        const Vec3 mark = nominal + Vec3{x, 0, 0} + across * y;
-        const auto way = way_in(joint, bones_, axes_.point(mark + before), inwards,
-                                best && best->has_room() ? kLeastRoomMm : 0.0);
-        if (!way) continue;
-        const bool is_apart = !shares_hole(*way);
-        if (!is_apart && !portal.is_usual) continue;
-        TriedWay tried{*way,
-                       mark,
-                       std::hypot(x, y),
-                       std::abs(turn - middle_rad) / kRadPerDeg,
-                       ahead ? past_mm(*way, *ahead) : 0.0,
-                       is_apart};
-        look_beside(portal, axes_.way(across), tried);
-        if (!best || *best < tried) best = tried;
-      }
+  const Vec3 inwards =
+      axes_.way({std::sin(tilt), std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn)});
+  for (double x = -portal.search_mm[0]; x <= portal.search_mm[0]; x += step_mm) {
+    for (double y = -portal.search_mm[1]; y <= portal.search_mm[1]; y += step_mm) {
+      const Vec3 mark = nominal + Vec3{x, 0, 0} + across * y;
+      const auto way = way_in(joint, bones_, axes_.point(mark + before), inwards,
+                              best && best->has_room() ? kLeastRoomMm : 0.0);
+      if (!way) continue;
+      const bool is_apart = !shares_hole(*way);
+      if (!is_apart && !portal.is_usual) continue;
+      TriedWay tried{*way,
+                     mark,
+                     std::hypot(x, y),
+                     std::abs(turn - middle_rad) / kRadPerDeg,
+                     ahead ? past_mm(*way, *ahead) : 0.0,
+                     is_apart};
+      look_beside(portal, axes_.way(across), tried);
+      if (!best || *best < tried) best = tried;
     }
   }
   return best;

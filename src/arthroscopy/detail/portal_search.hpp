@@ -53,6 +53,15 @@ class PortalSearch {
   void take(const WayIn& way) { taken_.push_back(way); }
 
  private:
+  /// Towards the forearm, about it [rad].
+  using Lean = std::array<double, 2>;
+
+  /// The same of those that lean so.
+  [[nodiscard]] std::optional<TriedWay> best_by(const TabledPortal& portal,
+                                                const cases::JointSpace& joint,
+                                                const Vec3& nominal,
+                                                const std::optional<Vec3>& ahead,
+                                                const Lean& lean) const;
   /// Between which structures it lies and what it cuts; not asked of one without room.
   /// @param along  across the forearm, towards the ulnar side of a dorsal way
   void look_beside(const TabledPortal& portal, const Vec3& along, TriedWay& tried) const;
