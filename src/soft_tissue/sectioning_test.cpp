@@ -70,19 +70,20 @@ TEST(Sectioning, TurnsTheWristAsPublishedWhereItSaysSo) {
   EXPECT_EQ(result.unsettled, 0u);
   EXPECT_LT(result.worst_left_n, 1);
   EXPECT_LT(result.worst_left_nmm, 10);  // of 2000
-  // +8 deg and 0.095 Nm/deg on this wrist, which is the demo's before a CT was made of it.
-  const std::set<std::string> only_on_the_demo{"sl_range_ulnar_flexion", "stiffness_ulnar_flexion"};
   std::set<std::string> reached;
+  std::set<std::string> unexplained;
   for (const StatementCheck& c : compare_with_published(result, table)) {
     std::printf("%-36s %7.2f in %.2f to %.2f\n", c.statement->id.c_str(), c.ours,
                 c.statement->limits.low, c.statement->limits.high);
     if (c.is_reached) {
       reached.insert(c.statement->id);
     } else {
-      EXPECT_TRUE(!c.statement->why_not.empty() || only_on_the_demo.contains(c.statement->id))
-          << c.statement->id;
+      if (c.statement->why_not.empty()) unexplained.insert(c.statement->id);
     }
   }
+  // Reached on the demo, of which this is the wrist before a CT was made of it; here +8 deg, 0.095.
+  EXPECT_EQ(unexplained,
+            (std::set<std::string>{"sl_range_ulnar_flexion", "stiffness_ulnar_flexion"}));
   for (const char* id :
        {// [S60]: shares of the capitate's turn, within 10 points. Those in flexion rest on the
         // capsule's slack, which was fitted to the range and not to them.

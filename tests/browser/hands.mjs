@@ -25,6 +25,16 @@ export async function atRest(operator) {
   }, "the hand at rest");
 }
 
+/** Begins a practice whose wrist is pulled at by 45 N. */
+export async function underTraction(operator, url, trainee, procedure) {
+  await operator.start(url, trainee, procedure, "practice");
+  await atRest(operator);
+  const pull = operator.page.locator("#wrist-traction_n");
+  await pull.fill("45");
+  await pull.blur(); // as a mouse leaves it: the keys are the hand's again
+  await operator.until((s) => s.wrist.traction_n >= 44, "traction");
+}
+
 async function inBone(operator, mm) {
   return operator.until((s) => {
     const item = Operator.held(s);

@@ -7,7 +7,7 @@
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
-import { atRest } from "./hands.mjs";
+import { underTraction } from "./hands.mjs";
 import { Operator } from "./operator.mjs";
 import { minus, plus, size, SkinHands } from "./skin_hands.mjs";
 
@@ -26,14 +26,7 @@ export async function opensSttFirst(browser, station) {
   const picture = async (name) => {
     if (pictures !== undefined) await page.screenshot({ path: join(pictures, `stt_${name}.png`) });
   };
-  const begin = async (procedure) => {
-    await operator.start(station.url, TRAINEE, procedure, "practice");
-    await atRest(operator);
-    const pull = page.locator("#wrist-traction_n");
-    await pull.fill("45");
-    await pull.blur();
-    await operator.until((s) => s.wrist.traction_n >= 44, "traction");
-  };
+  const begin = (procedure) => underTraction(operator, station.url, TRAINEE, procedure);
   let spot;
   await check(page, "STT is asked for, and its step says to cut and spread before the needle", async () => {
     await begin("diagnostic_arthroscopy");

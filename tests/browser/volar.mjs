@@ -8,7 +8,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { newPage } from "./browser.mjs";
 import { check, expect } from "./checks.mjs";
-import { atRest } from "./hands.mjs";
+import { underTraction } from "./hands.mjs";
 import { dot, Operator, readWrist } from "./operator.mjs";
 import { pixelsOf } from "./pixels.mjs";
 import { minus, plus, SkinHands } from "./skin_hands.mjs";
@@ -70,14 +70,7 @@ export async function goesInFromVolar(browser, station) {
   const picture = async (name) => {
     if (pictures !== undefined) await page.screenshot({ path: join(pictures, `volar_${name}.png`) });
   };
-  const begin = async (procedure) => {
-    await operator.start(station.url, TRAINEE, procedure, "practice");
-    await atRest(operator);
-    const pull = page.locator("#wrist-traction_n");
-    await pull.fill("45");
-    await pull.blur();
-    await operator.until((s) => s.wrist.traction_n >= 44, "traction");
-  };
+  const begin = (procedure) => underTraction(operator, station.url, TRAINEE, procedure);
   /** Of grey levels in the middle of the scope's picture. */
   const deviation = () =>
     large.evaluate((canvas) => {
